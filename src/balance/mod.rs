@@ -1,0 +1,13 @@
+//! How atoms are shared among nodes, as a protocol that touches no thread, clock, channel or colour.
+//!
+//! A party is handed an [`Event`] and the time, and answers with [`Action`]s; a driver carries them out. The
+//! parties are one [`Parent`] and its nodes; what a node does is its [`Strategy`].
+
+mod message;
+mod parent;
+pub mod ring;
+mod strategy;
+
+pub use message::{Action, Event, Message, NodeId, Party};
+pub use parent::Parent;
+pub use strategy::{Node, Strategy};

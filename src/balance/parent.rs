@@ -1,0 +1,5 @@
+//! The parent.
+
+/// STUB.
+#[derive(Debug)]
+pub struct Parent;

@@ -1,0 +1,30 @@
+//! `anel`: a ring of machines ray-traces one picture together, and everyone sees why the work balances itself.
+//!
+//! The map, in floor order: a module names only modules on lower floors, and modules on one floor do not
+//! know each other (`tests/tidy.rs` holds this). ARCHITECTURE.md tells the way of the data through them.
+
+// Floor 0: words that everything else is made of.
+pub mod geometry; // rays, boxes, rotations in degrees
+pub mod palette; // the nodes' colours
+pub mod picture; // size, division into atoms and bands, frame, PNG
+pub mod time; // nanoseconds since the run began
+
+// Floor 1: the two hard problems, each without knowledge of the other.
+pub mod balance; // how atoms are shared: messages, parent, ring, serial; no thread, clock, channel or colour
+pub mod csg; // primitives, boolean spans along a ray, bounds
+
+// Floor 2: what goes in, and what comes out.
+pub mod record; // what can happen in a run
+pub mod scene; // scene, camera, light, material, the scene file, the built-in scenes
+
+// Floor 3: made of floors 0 to 2.
+pub mod runlog; // a run's header, its file, its metrics
+pub mod tracer; // a scene compiled to what it needs, and the article's equation
+
+// Floor 4: two ends that never name each other.
+pub mod driver; // executes the protocol on threads, as emulated machines on links
+pub mod view; // pure functions from records to what is drawn; no egui
+
+// Floor 5: what the user touches.
+pub mod cli; // arguments, the headless commands
+pub mod gui; // the window: paints what `view` returns

@@ -1,0 +1,3 @@
+//! The program: a window, or a headless command.
+
+fn main() {}

@@ -1,0 +1,76 @@
+//! The article's division (§7): a picture is a row of atoms in scan order, a band is consecutive atoms.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+/// An atom's number in scan order: the unit of work that is never divided.
+pub type Atom = u32;
+
+/// How a picture is cut into atoms: runs of `atom_pixels` pixels in scan order, of which only the last
+/// may be shorter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Division {
+    pixels: u32,
+    atom_pixels: u32,
+}
+
+impl Division {
+    /// `pixels` is the picture's count of pixels; an atom of 0 pixels counts as one of 1.
+    pub fn new(pixels: u32, atom_pixels: u32) -> Self {
+        Self { pixels, atom_pixels: atom_pixels.max(1) }
+    }
+
+    /// How many atoms there are.
+    pub fn atoms(self) -> u32 {
+        self.pixels.div_ceil(self.atom_pixels)
+    }
+
+    /// Pixels of an atom that is not the last.
+    pub fn atom_pixels(self) -> u32 {
+        self.atom_pixels
+    }
+
+    /// The pixels of `atom`, as positions in scan order.
+    pub fn pixels(self, atom: Atom) -> Range<u32> {
+        // In u64, since the end of the last atom may lie past u32::MAX.
+        let start = u64::from(atom) * u64::from(self.atom_pixels);
+        let end = start + u64::from(self.atom_pixels);
+        let clip = |pixel: u64| pixel.min(u64::from(self.pixels)) as u32;
+        clip(start)..clip(end)
+    }
+
+    /// How many pixels the atoms of `range` hold together.
+    pub fn pixels_in(self, range: &Range<Atom>) -> u32 {
+        if range.is_empty() { 0 } else { self.pixels(range.end - 1).end - self.pixels(range.start).start }
+    }
+
+    /// The first share of each of `nodes` nodes: consecutive bands whose sizes differ by at most one atom,
+    /// the longer ones first. With more nodes than atoms the last bands are empty.
+    pub fn bands(self, nodes: usize) -> impl Iterator<Item = Range<Atom>> {
+        let (atoms, nodes) = (u64::from(self.atoms()), nodes as u64);
+        let (share, longer) = (atoms / nodes.max(1), atoms % nodes.max(1));
+        let start = move |node: u64| (node * share + node.min(longer)) as Atom;
+        (0..nodes).map(move |node| start(node)..start(node + 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_last_atom_may_be_shorter() {
+        let division = Division::new(130, 50);
+        assert_eq!(division.atoms(), 3);
+        assert_eq!([0, 1, 2].map(|atom| division.pixels(atom)), [0..50, 50..100, 100..130]);
+        assert_eq!(division.pixels_in(&(1..3)), 80);
+        assert_eq!(division.pixels_in(&(3..3)), 0);
+    }
+
+    #[test]
+    fn an_atom_may_be_larger_than_the_picture() {
+        let division = Division::new(7, u32::MAX);
+        assert_eq!((division.atoms(), division.pixels(0)), (1, 0..7));
+    }
+}

@@ -1,0 +1,78 @@
+//! What can happen in a run. Everything that a view or a study shows comes from records.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::time::Time;
+
+/// One entry of the run log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// When it happened.
+    pub at: Time,
+    /// What happened.
+    pub what: What,
+}
+
+/// What happened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum What {
+    /// A message left; it can be drawn in flight from [`Record::at`] to `arrives`.
+    ///
+    /// An offer is *sent* where `from` is the node that offers, else *passed on* (a hop). A transfer says that
+    /// an offer was *taken*: its receiver is the node that offered.
+    Sent {
+        /// Names this message in the run; [`What::Received`] has the same.
+        id: u64,
+        /// The sender.
+        from: Party,
+        /// The receiver.
+        to: Party,
+        /// What it says.
+        message: Message,
+        /// Its weight on the wire ([`Message::bytes`]).
+        bytes: u64,
+        /// When the link delivers it; the receiver may handle it a little later.
+        arrives: Time,
+    },
+    /// A message was handled by its receiver.
+    Received {
+        /// Which one.
+        id: u64,
+        /// The receiver.
+        by: Party,
+    },
+    /// A worker began an atom.
+    AtomStarted {
+        /// Whose worker.
+        node: NodeId,
+        /// Which atom.
+        atom: Atom,
+    },
+    /// A worker has traced an atom.
+    AtomDone {
+        /// Whose worker.
+        node: NodeId,
+        /// Which atom.
+        atom: Atom,
+        /// The CPU time that it took on this computer, not the emulated machine's.
+        cost: Duration,
+    },
+    /// A node's speed was changed while the run went on.
+    SpeedSet {
+        /// Which node.
+        node: NodeId,
+        /// The new speed as a fraction of the reference machine; 0 stops its worker, not its messages.
+        speed: f64,
+    },
+    /// A node's own offer came back: it makes no more.
+    Retired {
+        /// Which node.
+        node: NodeId,
+    },
+    /// The parent has placed the last atom: the picture is complete.
+    Finished,
+}
