@@ -104,9 +104,7 @@ impl Tree {
     pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
         match &self.nodes[root as usize] {
             Node::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
-            Node::Composition { children, .. } => {
-                children.iter().flat_map(|&child| self.leaves_of(child)).collect()
-            }
+            Node::Composition { children, .. } => children.iter().flat_map(|&child| self.leaves_of(child)).collect(),
         }
     }
 
@@ -151,10 +149,11 @@ impl Tree {
                     }
                 }
             }
-            Node::Composition { .. } => {
+            Node::Composition { operation, children, .. } => {
                 stack.clear();
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
-                self.events(root, ray, start, window, stack);
+                // Whoever asks has looked at the bounds.
+                self.composition_events(*operation, children, ray, start, window, stack);
                 for (index, event) in stack.iter().enumerate() {
                     let enters = index % 2 == 0;
                     let hit = Hit { t: event.t.max(0.0), surface: event.surface, enters };
@@ -172,11 +171,21 @@ impl Tree {
             Node::Leaf(leaf) => return self.leaf_events(*leaf, ray, start, window, stack),
             Node::Composition { operation, bounds, children } => (*operation, bounds, children),
         };
-        if bounds.entry(ray, window[0], window[1]).is_none() {
-            return;
+        if bounds.entry(ray, window[0], window[1]).is_some() {
+            self.composition_events(operation, children, ray, start, window, stack);
         }
+    }
+
+    fn composition_events(
+        &self,
+        operation: Operation,
+        children: &[u32],
+        ray: &Ray,
+        start: Option<Surface>,
+        mut window: [f64; 2],
+        stack: &mut Stack,
+    ) {
         let first = stack.len();
-        let mut window = window;
         for (index, &child) in children.iter().enumerate() {
             let second = stack.len();
             self.events(child, ray, start, window, stack);

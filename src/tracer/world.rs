@@ -89,9 +89,8 @@ impl World {
 
     pub fn compiled(&self) -> Compiled {
         let roots = || self.bounded.roots().chain(self.unbounded.iter().copied());
-        let finishes = || {
-            roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize])
-        };
+        let finishes =
+            || roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize]);
         Compiled {
             solids: roots().count(),
             compositions: roots().filter(|&root| self.tree.leaves_of(root).len() > 1).count(),
