@@ -159,9 +159,7 @@ fn holds(solid: &Solid, point: DVec3) -> bool {
         }
         Solid::Union(solids) => solids.iter().any(|solid| holds(solid, point)),
         Solid::Intersection(solids) => solids.iter().all(|solid| holds(solid, point)),
-        Solid::Difference(solids) => {
-            holds(&solids[0], point) && !solids[1..].iter().any(|solid| holds(solid, point))
-        }
+        Solid::Difference(solids) => holds(&solids[0], point) && !solids[1..].iter().any(|solid| holds(solid, point)),
     }
 }
 

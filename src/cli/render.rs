@@ -12,7 +12,8 @@ use super::report::Report;
 use super::{Failure, open};
 use crate::driver::{Run, Update, probe};
 use crate::picture::{Division, Frame, check_writable, write_png};
-use crate::runlog::{Header, Link, RunLog};
+use crate::record::What;
+use crate::runlog::{Header, Link, RunLog, metrics};
 use crate::tracer::{Quality, RayCounts, Tracer};
 
 /// Where a run's results go.
@@ -112,11 +113,15 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
 /// How much dearer atoms were in the run than one after another on one thread, from a sample of them: contention for
 /// caches and cores hides in an atom's cost, and so in the efficiency.
 fn overhead(tracer: &Tracer, log: &RunLog) -> Option<f64> {
-    let costs = log.costs();
-    let work: Duration = costs.iter().flatten().sum();
-    let budget = (work / 10).min(Duration::from_secs(1));
+    let mut costs = vec![Duration::ZERO; log.header.division.atoms() as usize];
+    for record in log.records() {
+        if let What::AtomDone { atom, cost, .. } = record.what {
+            costs[atom as usize] = cost;
+        }
+    }
+    let budget = (metrics::work(log.records()) / 10).min(Duration::from_secs(1));
     let serial = probe(tracer, log.header.division, budget).atoms;
-    let in_run: Duration = serial.iter().filter_map(|(atom, _)| costs[*atom as usize]).sum();
+    let in_run: Duration = serial.iter().map(|(atom, _)| costs[*atom as usize]).sum();
     let alone: Duration = serial.iter().map(|(_, cost)| *cost).sum();
     (!alone.is_zero()).then(|| in_run.as_secs_f64() / alone.as_secs_f64())
 }

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::runlog::{Messages, RunLog, metrics};
+use crate::runlog::RunLog;
+use crate::runlog::metrics::{self, Messages};
 use crate::tracer::{Compiled, RayCounts, Tracer};
 
 /// The run in figures; times are in seconds.
