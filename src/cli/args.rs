@@ -39,6 +39,7 @@ pub(super) enum Command {
 }
 
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub(super) struct RenderArgs {
     /// A scene file, or the name of a built-in scene
     pub scene: String,
@@ -58,7 +59,7 @@ pub(super) struct RenderArgs {
     #[arg(long, default_value = "ring")]
     pub strategy: Strategy,
     /// A speed for each node, 1 being the reference machine [default: all 1]
-    #[arg(long, value_name = "1,1,0.1", value_delimiter = ',', value_parser = speed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "1,1,0.1", value_delimiter = ',', value_parser = speed)]
     pub speeds: Vec<f64>,
     /// What part of a core the reference machine gets: auto, full, or a number up to 1
     #[arg(long, default_value = "auto", value_parser = pace)]

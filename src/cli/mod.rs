@@ -29,12 +29,11 @@ enum Failure {
 /// Runs the program with the arguments of the process. Exit codes: 0 done, 1 the run failed, 2 the arguments, the
 /// scene or an output path are wrong.
 pub fn main() -> ExitCode {
-    let args = Args::parse();
-    let done = match args.command {
+    let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
         None => window(args.scene.as_deref().unwrap_or("ten-objects"), args.log),
-    };
+    });
     let (code, sentence) = match done {
         Ok(()) => return ExitCode::SUCCESS,
         Err(Failure::Refused(sentence)) => (2, sentence),
@@ -42,6 +41,17 @@ pub fn main() -> ExitCode {
     };
     eprintln!("anel: {sentence}");
     ExitCode::from(code)
+}
+
+/// What is wrong with the arguments, in one sentence; help and version are printed as they are.
+fn usage(error: clap::Error) -> Failure {
+    if !error.use_stderr() {
+        error.exit();
+    }
+    let text = error.to_string();
+    let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let sentence = paragraph.join(" ");
+    Failure::Refused(format!("{} (`anel --help` tells more)", sentence.trim_start_matches("error: ")))
 }
 
 /// Opens the viewer; where that is not possible, does the same run without it.
