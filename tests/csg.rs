@@ -139,34 +139,11 @@ fn any_solid() -> impl Strategy<Value = Solid> {
     })
 }
 
-/// Point membership, without a ray.
-fn holds(solid: &Solid, point: DVec3) -> bool {
-    match solid {
-        Solid::Placed { primitive, scene_from_own, .. } => {
-            let p = scene_from_own.inverse().transform_point3(point);
-            let across = p.x * p.x + p.z * p.z;
-            match primitive {
-                Primitive::Sphere => p.length_squared() <= 1.0,
-                Primitive::Cube => p.abs().max_element() <= 1.0,
-                Primitive::Cylinder => across <= 1.0 && p.y.abs() <= 1.0,
-                Primitive::Cone { bottom, top } => {
-                    let radius = bottom + (top - bottom) * (p.y + 1.0) / 2.0;
-                    across <= radius * radius && p.y.abs() <= 1.0
-                }
-                Primitive::HalfSpace { normal, offset } => normal.dot(p) <= *offset,
-                Primitive::Quadric(_) => unreachable!("not generated"),
-            }
-        }
-        Solid::Union(solids) => solids.iter().any(|solid| holds(solid, point)),
-        Solid::Intersection(solids) => solids.iter().all(|solid| holds(solid, point)),
-        Solid::Difference(solids) => holds(&solids[0], point) && !solids[1..].iter().any(|solid| holds(solid, point)),
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Between two crossings a ray is inside or outside as the points there are, and it alternates.
+    /// Between two crossings a ray is inside or outside as the points there are (which need no ray to be told), and
+    /// it alternates.
     #[test]
     fn crossings_agree_with_point_membership(
         solid in any_solid(), from in any_vector(-4.0..4.0), to in any_vector(-1.0..1.0)
@@ -186,15 +163,15 @@ proptest! {
             let middle = (before + hit.t) / 2.0;
             // A point this near to a face may be on either side of it.
             if hit.t - before > 1e-6 {
-                prop_assert_eq!(holds(&solid, ray.at(middle)), !hit.enters, "at {}", middle);
+                prop_assert_eq!(solid.holds(ray.at(middle)), !hit.enters, "at {}", middle);
             }
             before = hit.t;
         }
         let alternate = crossings.windows(2).all(|pair| pair[0].enters != pair[1].enters && pair[0].t <= pair[1].t);
         prop_assert!(alternate, "{:?}", crossings);
         // From the last crossing on nothing changes.
-        let inside = crossings.last().map_or_else(|| holds(&solid, ray.origin), |hit| hit.enters);
-        prop_assert_eq!(holds(&solid, ray.at((before + 50.0) / 2.0)), inside);
+        let inside = crossings.last().map_or_else(|| solid.holds(ray.origin), |hit| hit.enters);
+        prop_assert_eq!(solid.holds(ray.at((before + 50.0) / 2.0)), inside);
     }
 
     /// A ray that goes on from where another hit does not meet that place again, whichever way it goes.
@@ -213,7 +190,7 @@ proptest! {
         if let Some(next) = tree.nearest(root, &onward, Some(start), f64::INFINITY, stack) {
             // What it meets is further than rounding, unless another face is really there.
             let same = next.surface == hit.surface;
-            prop_assert!(!same || next.t > 1e-9 || holds(&solid, onward.at(next.t / 2.0)) != next.enters);
+            prop_assert!(!same || next.t > 1e-9 || solid.holds(onward.at(next.t / 2.0)) != next.enters);
         }
     }
 

@@ -233,6 +233,11 @@ impl Leaf {
         }
     }
 
+    /// Whether a ray has one stay inside at most.
+    pub(super) fn is_convex(&self) -> bool {
+        !matches!(self.shape, Shape::Quadric { .. })
+    }
+
     /// The normal of length 1 that points out of the leaf, at a point of one of its faces.
     pub fn normal(&self, face: u8, point: DVec3) -> DVec3 {
         match &self.shape {

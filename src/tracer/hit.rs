@@ -18,10 +18,18 @@ impl World {
     pub fn nearest(&self, ray: &Ray, start: Option<Start>, memory: &mut Memory) -> Option<(u32, Hit)> {
         let Memory { spans, boxes } = memory;
         let mut nearest: Option<(u32, Hit)> = None;
+        // Of solids that touch, the one that stands first in the scene is seen, whatever rounding says: so no two
+        // of them mingle where their faces coincide.
         let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
-                nearest = Some((root, hit));
-                hit.t
+                let slack = ray.tolerance(hit.t);
+                match nearest {
+                    Some((other, best)) if hit.t >= best.t - slack && other < root => t_max,
+                    _ => {
+                        nearest = Some((root, hit));
+                        hit.t + slack
+                    }
+                }
             }
             None => t_max,
         };
