@@ -309,27 +309,14 @@ impl Ord for Parcel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::balance::Strategy;
-    use crate::picture::Size;
-    use crate::runlog;
+    use crate::runlog::Link as Network;
+    use crate::runlog::examples;
 
     const MS: Duration = Duration::from_millis(1);
 
+    /// Of two emulated nodes.
     fn header(handling: Duration, latency: Duration) -> Header {
-        Header {
-            scene: "test".into(),
-            scene_bytes: 0,
-            size: Size::new(10, 10).unwrap(),
-            samples: 1,
-            division: Division::new(100, 5),
-            strategy: Strategy::Ring,
-            speeds: vec![0.5; 2],
-            pace: 1.0,
-            link: runlog::Link { latency, bandwidth: None },
-            handling,
-            part: 1,
-            cores: 2,
-        }
+        Header { handling, link: Network { latency, bandwidth: None }, ..examples::header(&[0.5, 0.5]) }
     }
 
     /// Sends results (empty ones) from each node to the parent, the second node's 1 ms before the first's; then what
