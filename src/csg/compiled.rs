@@ -1,0 +1,313 @@
+//! A scene's solids, compiled: what can never be seen is gone, and every composition knows its bounds.
+
+use super::merge::{Operation, merge};
+use super::shape::Span;
+use super::{Event, Leaf, Solid, Surface};
+use crate::geometry::{Aabb, Ray};
+
+/// Solids compiled for tracing. A *root* is the number of one of them.
+#[derive(Debug, Default)]
+pub struct Tree {
+    leaves: Vec<Leaf>,
+    nodes: Vec<Node>,
+}
+
+/// Where a ray first crosses the boundary of a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, at least 0.
+    pub t: f64,
+    /// The face that it crosses.
+    pub surface: Surface,
+    /// The solid (not the leaf) is entered; else left.
+    pub enters: bool,
+}
+
+/// Where a ray that does not come from the camera starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// The root that was hit.
+    pub root: u32,
+    /// Its face.
+    pub surface: Surface,
+}
+
+/// Scratch memory for the spans of one ray.
+pub type Stack = Vec<Event>;
+
+#[derive(Debug)]
+struct Node {
+    bounds: Aabb,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Leaf(u32),
+    /// The intersection of convex leaves: one span at most, found without merging.
+    Convex(Vec<u32>),
+    Composition {
+        operation: Operation,
+        children: Vec<u32>,
+    },
+}
+
+impl Tree {
+    /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
+    pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
+        let (operation, solids) = match solid {
+            Solid::Placed { primitive, scene_from_own, tag } => {
+                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag);
+                self.leaves.push(leaf);
+                return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
+            }
+            Solid::Union(solids) => (Operation::Union, solids),
+            Solid::Intersection(solids) => (Operation::Intersection, solids),
+            Solid::Difference(solids) => (Operation::Difference, solids),
+        };
+        let mut children: Vec<u32> = Vec::new();
+        let mut bounds = if operation == Operation::Intersection { Aabb::ALL } else { Aabb::EMPTY };
+        for (index, solid) in solids.iter().enumerate() {
+            let child = self.add(solid);
+            match operation {
+                Operation::Union => {
+                    let Some((child, child_bounds)) = child else { continue };
+                    bounds = bounds.union(child_bounds);
+                    children.extend(self.parts(Operation::Union, child));
+                }
+                Operation::Intersection => {
+                    let (child, child_bounds) = child?;
+                    bounds = bounds.intersection(child_bounds);
+                    if bounds.is_empty() {
+                        return None;
+                    }
+                    children.extend(self.parts(Operation::Intersection, child));
+                }
+                Operation::Difference if index == 0 => {
+                    let (child, child_bounds) = child?;
+                    bounds = child_bounds;
+                    // (a − b) − c = a − b − c
+                    children.extend(self.parts(Operation::Difference, child));
+                }
+                Operation::Difference => {
+                    let Some((child, _)) = child else { continue };
+                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
+                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
+                    children.extend(self.parts(Operation::Union, child).into_iter().filter(reach));
+                }
+            }
+        }
+        if operation == Operation::Intersection {
+            self.join_convex(&mut children);
+        }
+        match children[..] {
+            [] => None,
+            [only] => {
+                self.nodes[only as usize].bounds = bounds;
+                Some((only, bounds))
+            }
+            _ => Some((self.node(Kind::Composition { operation, children }, bounds), bounds)),
+        }
+    }
+
+    /// The leaf that a surface belongs to.
+    pub fn leaf(&self, surface: Surface) -> &Leaf {
+        &self.leaves[surface.leaf as usize]
+    }
+
+    /// Every leaf of the solid `root`.
+    pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
+        match &self.nodes[root as usize].kind {
+            Kind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
+            Kind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
+            Kind::Composition { children, .. } => children.iter().flat_map(|&child| self.leaves_of(child)).collect(),
+        }
+    }
+
+    /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
+    #[inline]
+    pub fn nearest(&self, root: u32, ray: &Ray, start: Option<Start>, t_max: f64, stack: &mut Stack) -> Option<Hit> {
+        let mut found = None;
+        self.crossings(root, ray, start, t_max, stack, |hit| {
+            found = Some(hit);
+            false
+        });
+        found
+    }
+
+    /// Hands over every crossing of the boundary of the solid `root` between the ray's start and `t_max`, in order,
+    /// until `visit` answers false.
+    #[inline]
+    pub fn crossings(
+        &self,
+        root: u32,
+        ray: &Ray,
+        start: Option<Start>,
+        t_max: f64,
+        stack: &mut Stack,
+        mut visit: impl FnMut(Hit) -> bool,
+    ) {
+        let slack = ray.tolerance(0.0);
+        // A ray that starts on this solid does not meet it there again. On any other solid it may: what touches the
+        // solid it starts on is entered at 0, on whichever side of 0 rounding puts that.
+        let on_this = start.is_some_and(|start| start.root == root);
+        let counts = |t: f64, enters: bool| t < t_max && t > if enters && !on_this { -slack } else { slack };
+        let start = start.filter(|_| on_this).map(|start| start.surface);
+        let mut meet = |event: Event, enters: bool| {
+            !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
+        };
+        match &self.nodes[root as usize].kind {
+            Kind::Leaf(leaf) => {
+                for [enter, leave] in self.leaf_spans(*leaf, ray, start) {
+                    if !meet(enter, true) || !meet(leave, false) {
+                        return;
+                    }
+                }
+            }
+            Kind::Convex(leaves) => {
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                    && meet(enter, true)
+                {
+                    meet(leave, false);
+                }
+            }
+            Kind::Composition { operation, children } => {
+                stack.clear();
+                let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
+                // Whoever asks has looked at the bounds.
+                self.composition_events(*operation, children, ray, start, window, stack);
+                for (index, event) in stack.iter().enumerate() {
+                    if !meet(*event, index % 2 == 0) {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Pushes the events of a node. Spans that lie outside `window` may be left out.
+    fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
+        let Node { bounds, kind } = &self.nodes[node as usize];
+        if bounds.entry(ray, window[0], window[1]).is_none() {
+            return;
+        }
+        let mut push = |[enter, leave]: [Event; 2]| {
+            if leave.t >= window[0] && enter.t <= window[1] {
+                stack.extend([enter, leave]);
+            }
+        };
+        match kind {
+            Kind::Leaf(leaf) => self.leaf_spans(*leaf, ray, start).for_each(push),
+            Kind::Convex(leaves) => {
+                if let Some(span) = self.convex_span(leaves, ray, start) {
+                    push(span);
+                }
+            }
+            Kind::Composition { operation, children } => {
+                self.composition_events(*operation, children, ray, start, window, stack);
+            }
+        }
+    }
+
+    fn composition_events(
+        &self,
+        operation: Operation,
+        children: &[u32],
+        ray: &Ray,
+        start: Option<Surface>,
+        mut window: [f64; 2],
+        stack: &mut Stack,
+    ) {
+        let first = stack.len();
+        for (index, &child) in children.iter().enumerate() {
+            let second = stack.len();
+            self.events(child, ray, start, window, stack);
+            if index > 0 {
+                merge(operation, stack, first, second, ray);
+            }
+            if operation != Operation::Union {
+                // Nothing outside the first operand's spans can matter any more.
+                let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
+                if enter.t.is_finite() {
+                    window[0] = window[0].max(enter.t - 2.0 * ray.tolerance(enter.t));
+                }
+                if leave.t.is_finite() {
+                    window[1] = window[1].min(leave.t + 2.0 * ray.tolerance(leave.t));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> impl Iterator<Item = [Event; 2]> {
+        let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
+        [spans.first, spans.second].into_iter().flatten().map(move |span| span_events(leaf, span))
+    }
+
+    /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
+    /// first leaf's is seen, and a stay shorter than the tolerance is none.
+    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Event; 2]> {
+        let mut stay: Option<[Event; 2]> = None;
+        for &leaf in leaves {
+            let span = self.leaves[leaf as usize].spans(ray, face_of(start, leaf)).first?;
+            let [enter, leave] = span_events(leaf, span);
+            let [first, last] = stay.get_or_insert([enter, leave]);
+            if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
+                *first = enter;
+            }
+            if leave.t < last.t - ray.tolerance(leave.t) || last.t == f64::INFINITY {
+                *last = leave;
+            }
+            if last.t <= first.t + ray.tolerance(first.t) {
+                return None;
+            }
+        }
+        stay
+    }
+
+    /// Makes the convex leaves with which the operands of an intersection begin one operand.
+    fn join_convex(&mut self, children: &mut Vec<u32>) {
+        let mut leaves = Vec::new();
+        let mut bounds = Aabb::ALL;
+        let mut joined = 0;
+        for &child in &*children {
+            let Node { kind, bounds: own } = &self.nodes[child as usize];
+            match kind {
+                Kind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
+                Kind::Convex(inner) => leaves.extend(inner),
+                _ => break,
+            }
+            bounds = bounds.intersection(*own);
+            joined += 1;
+        }
+        if joined > 1 {
+            let convex = self.node(Kind::Convex(leaves), bounds);
+            children.splice(..joined, [convex]);
+        }
+    }
+
+    fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
+        self.nodes.push(Node { bounds, kind });
+        self.nodes.len() as u32 - 1
+    }
+
+    /// The operands of `node` if it is a composition by `operation`, else itself.
+    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
+        match &self.nodes[node as usize].kind {
+            Kind::Composition { operation: same, children } if *same == operation => children.clone(),
+            _ => vec![node],
+        }
+    }
+}
+
+#[inline(always)]
+fn span_events(leaf: u32, span: Span) -> [Event; 2] {
+    let event = |t: f64, face: u8| Event { t, surface: Surface { leaf, face } };
+    [event(span.from, span.from_face), event(span.to, span.to_face)]
+}
+
+/// The face of `leaf` that a ray starts on.
+#[inline(always)]
+fn face_of(start: Option<Surface>, leaf: u32) -> Option<u8> {
+    start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
+}
