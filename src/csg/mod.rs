@@ -1,1 +1,15 @@
-//! Boolean spans.
+//! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and the spans of
+//! a ray inside it. A hit carries the number of a surface; this module knows no material and no light.
+
+mod compiled;
+mod merge;
+mod primitive;
+mod quadratic;
+mod shape;
+mod solid;
+
+pub use compiled::{Hit, Start, Stack, Tree};
+pub use merge::Event;
+pub use primitive::{Primitive, QuadricCoefficients};
+pub use shape::{Leaf, Surface};
+pub use solid::Solid;

@@ -1,20 +1,30 @@
 //! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
 
+mod bvh;
+mod camera;
+mod hit;
+mod shade;
+mod world;
+
+pub use shade::Scratch;
+
 use std::ops::{AddAssign, Range};
 
 use serde::{Deserialize, Serialize};
 
 use crate::picture::{Colour, Size};
 use crate::scene::Scene;
+use camera::Camera;
+use world::World;
 
 /// How good the picture is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
-    /// n × n samples a pixel.
+    /// n × n samples a pixel, on a regular grid.
     pub samples: u32,
-    /// The article's limit of the tree of rays; a primary ray is level 1.
+    /// The limit of the tree of rays (§3: "for example 10 levels"); a primary ray is level 1.
     pub max_depth: u32,
-    /// A ray that can contribute no more than this to its pixel is not followed.
+    /// A ray that can contribute no more than this to its pixel is not followed (§3: "irrelevant").
     pub cutoff: f64,
 }
 
@@ -37,6 +47,13 @@ pub struct RayCounts {
     pub refracted: u64,
 }
 
+impl RayCounts {
+    /// Rays of all kinds.
+    pub fn total(self) -> u64 {
+        self.primary + self.shadow + self.reflected + self.refracted
+    }
+}
+
 impl AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
         self.primary += other.primary;
@@ -49,20 +66,17 @@ impl AddAssign for RayCounts {
 /// A compiled scene, seen by its camera at one size and quality; shared by all threads.
 #[derive(Debug)]
 pub struct Tracer {
+    world: World,
+    camera: Camera,
     size: Size,
-}
-
-/// What a thread needs to trace, kept from pixel to pixel so that nothing is allocated; it counts the rays.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    /// Rays traced with this scratch so far.
-    pub rays: RayCounts,
+    quality: Quality,
 }
 
 impl Tracer {
     /// Compiles `scene`.
-    pub fn new(_scene: &Scene, size: Size, _quality: Quality) -> Self {
-        Self { size }
+    pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
+        let camera = Camera::new(&scene.camera, size, quality.samples.max(1));
+        Self { world: World::new(scene), camera, size, quality }
     }
 
     /// The picture's size.
@@ -70,18 +84,39 @@ impl Tracer {
         self.size
     }
 
+    /// What the compiled scene kept, in words.
+    pub fn compiled(&self) -> Compiled {
+        self.world.compiled()
+    }
+
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.
     ///
     /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        // STUB: replaced by the real tracer; costs about 0.2 µs a pixel.
         for pixel in pixels {
-            let mut x = f64::from(pixel) * 1e-3;
-            for _ in 0..20 {
-                x = (x + 1.3).sin() * 1.7;
-            }
-            scratch.rays.primary += 1;
-            out.push([x as f32, (pixel % 256) as f32 / 256.0, 0.5]);
+            let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
+            let sum = self.camera.rays(x, y).map(|ray| self.sample(&ray, scratch)).reduce(|sum, colour| sum + colour);
+            let mean = sum.unwrap_or_default() / self.camera.rays_a_pixel();
+            out.push(mean.as_vec3().to_array());
         }
     }
+}
+
+/// What a compiled scene kept of its solids: tells why it costs what it costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Compiled {
+    /// Solids that a ray is tested against one by one.
+    pub solids: usize,
+    /// Solids of these that are made of several primitives.
+    pub compositions: usize,
+    /// Solids without bounds, which every ray has to be tested against.
+    pub unbounded: usize,
+    /// Solids that were proved empty and dropped.
+    pub dropped: usize,
+    /// Lights.
+    pub lights: usize,
+    /// Whether any surface reflects other solids: if not, no reflection code runs.
+    pub reflects: bool,
+    /// Whether any surface transmits: if not, no refraction code runs and a shadow ray ends at the first solid.
+    pub transmits: bool,
 }

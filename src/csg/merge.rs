@@ -1,0 +1,75 @@
+//! The boolean operations on a ray's spans (Roth, *Ray Casting for Modeling Solids*, 1982).
+//!
+//! Spans are kept as sorted events: even ones enter, odd ones leave. Events of the two operands that differ by less
+//! than the ray's tolerance are one event, and only a change of the net state is kept: so faces that coincide, which
+//! rounding puts in any order, neither leave slivers of nothing nor of solid.
+
+use super::Surface;
+use crate::geometry::Ray;
+
+/// A place where a ray enters or leaves a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Distance along the ray; infinite where a solid has no end.
+    pub t: f64,
+    /// The face that it crosses.
+    pub surface: Surface,
+}
+
+/// A boolean operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operation {
+    Union,
+    Intersection,
+    Difference,
+}
+
+impl Operation {
+    fn of(self, a: bool, b: bool) -> bool {
+        match self {
+            Self::Union => a | b,
+            Self::Intersection => a & b,
+            Self::Difference => a & !b,
+        }
+    }
+}
+
+/// Combines the operands `stack[first..second]` and `stack[second..]`; the result takes their place.
+pub(super) fn merge(operation: Operation, stack: &mut Vec<Event>, first: usize, second: usize, ray: &Ray) {
+    let end = stack.len();
+    match (first == second, second == end) {
+        (true, _) if operation == Operation::Union => return,
+        (_, true) if operation != Operation::Intersection => return,
+        (true, _) | (_, true) => return stack.truncate(first),
+        _ => {}
+    }
+    let (mut a, mut b) = (first, second);
+    let (mut in_a, mut in_b, mut state) = (false, false, false);
+    while a < second || b < end {
+        let next = |at: usize, end: usize| if at < end { stack[at].t } else { f64::INFINITY };
+        let nearest = next(a, second).min(next(b, end));
+        let group = if nearest.is_finite() { nearest + ray.tolerance(nearest) } else { nearest };
+        let (group_a, group_b) = (a, b);
+        while a < second && stack[a].t <= group {
+            in_a = !in_a;
+            a += 1;
+        }
+        while b < end && stack[b].t <= group {
+            in_b = !in_b;
+            b += 1;
+        }
+        let now = operation.of(in_a, in_b);
+        if now != state {
+            state = now;
+            // Of faces that coincide, the first operand's is seen, if it changed anything at all.
+            let changed_a = (a - group_a) % 2 == 1;
+            let event = stack[if changed_a { group_a } else { group_b }];
+            stack.push(event);
+        }
+        if a == second && !in_a && operation != Operation::Union {
+            break;
+        }
+    }
+    stack.copy_within(end.., first);
+    stack.truncate(first + stack.len() - end);
+}

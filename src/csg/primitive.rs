@@ -1,0 +1,43 @@
+//! The solids that are not made of others.
+
+use glam::DVec3;
+
+/// A solid that is not made of others, in its own coordinates. Sizes are positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Primitive {
+    /// The ball of radius 1 about the origin.
+    Sphere,
+    /// All points with `normal · p ≤ offset` (the article's plane); `normal` has length 1.
+    HalfSpace {
+        /// Points out of the solid.
+        normal: DVec3,
+        /// The boundary's distance from the origin along `normal`.
+        offset: f64,
+    },
+    /// The cube from −1 to 1.
+    Cube,
+    /// The cylinder about the y axis of radius 1, from y = −1 to y = 1.
+    Cylinder,
+    /// The cone about the y axis, from y = −1 to y = 1, whose radius goes from `bottom` to `top`; not both are 0.
+    Cone {
+        /// Radius at y = −1.
+        bottom: f64,
+        /// Radius at y = 1.
+        top: f64,
+    },
+    /// All points with `xx x² + yy y² + zz z² + xy xy + yz yz + zx zx + x x + y y + z z + c ≤ 0`.
+    Quadric(QuadricCoefficients),
+}
+
+/// The ten coefficients of [`Primitive::Quadric`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuadricCoefficients {
+    /// Of x², y², z².
+    pub squares: DVec3,
+    /// Of xy, yz, zx.
+    pub products: DVec3,
+    /// Of x, y, z.
+    pub linear: DVec3,
+    /// Without a variable.
+    pub constant: f64,
+}

@@ -1,0 +1,99 @@
+//! Where a quadratic is not positive.
+
+/// The part of a line on which a quadratic is ≤ 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Inside {
+    /// No part.
+    Never,
+    /// All of it.
+    Always,
+    /// Between two distances.
+    Between(f64, f64),
+    /// Up to the first distance and from the second on.
+    Beyond(f64, f64),
+}
+
+impl Inside {
+    /// Where `a t² + 2 b t + c ≤ 0`.
+    ///
+    /// The roots come from the form that never subtracts nearly equal numbers (Kahan; Press et al., *Numerical
+    /// Recipes*, §5.6): with q = −(b ± √(b² − ac)) they are q / a and c / q, which stay right as a goes to 0.
+    pub fn of(a: f64, b: f64, c: f64) -> Self {
+        Self::with_discriminant(a, b, c, b * b - a * c)
+    }
+
+    /// As [`Inside::of`], for callers that know b² − ac more exactly.
+    #[inline(always)]
+    pub fn with_discriminant(a: f64, b: f64, c: f64, discriminant: f64) -> Self {
+        if discriminant <= 0.0 || discriminant.is_nan() {
+            // A line that only touches has no stay inside, or none outside.
+            return if a < 0.0 || (a == 0.0 && c <= 0.0) { Self::Always } else { Self::Never };
+        }
+        let root = discriminant.sqrt();
+        let q = if b < 0.0 { root - b } else { -root - b };
+        if a == 0.0 {
+            // Linear: 2 b t + c ≤ 0.
+            let t = c / q;
+            return if b > 0.0 { Self::Between(f64::NEG_INFINITY, t) } else { Self::Between(t, f64::INFINITY) };
+        }
+        let (t, u) = (q / a, c / q);
+        let (first, last) = if t < u { (t, u) } else { (u, t) };
+        if a > 0.0 { Self::Between(first, last) } else { Self::Beyond(first, last) }
+    }
+
+    /// Where `a t² + 2 b t ≤ 0`: the line starts on the surface, so that one root is exactly 0.
+    pub fn from_surface(a: f64, b: f64) -> Self {
+        let other = -2.0 * b / a;
+        match a {
+            0.0 if b == 0.0 => Self::Never,
+            0.0 if b > 0.0 => Self::Between(f64::NEG_INFINITY, 0.0),
+            0.0 => Self::Between(0.0, f64::INFINITY),
+            _ if a > 0.0 => Self::Between(other.min(0.0), other.max(0.0)),
+            _ => Self::Beyond(other.min(0.0), other.max(0.0)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_vanishing_square_leaves_one_root_and_loses_nothing() {
+        assert_eq!(Inside::of(0.0, 1.0, -4.0), Inside::Between(f64::NEG_INFINITY, 2.0));
+        assert_eq!(Inside::of(0.0, -1.0, -4.0), Inside::Between(-2.0, f64::INFINITY));
+        let Inside::Between(_, root) = Inside::of(1e-30, 1.0, -4.0) else { panic!() };
+        assert_eq!(root, 2.0);
+    }
+
+    #[test]
+    fn a_constant_is_everywhere_or_nowhere() {
+        assert_eq!(Inside::of(0.0, 0.0, -1.0), Inside::Always);
+        assert_eq!(Inside::of(0.0, 0.0, 1.0), Inside::Never);
+        assert_eq!(Inside::of(-1.0, 0.0, -1.0), Inside::Always);
+    }
+
+    proptest! {
+        #[test]
+        fn the_sign_at_any_place_is_that_of_the_quadratic(
+            a in -3.0..3.0f64, b in -3.0..3.0f64, c in -3.0..3.0f64, t in -5.0..5.0f64
+        ) {
+            let value = (a * t + 2.0 * b) * t + c;
+            prop_assume!(value.abs() > 1e-9);
+            let inside = match Inside::of(a, b, c) {
+                Inside::Never => false,
+                Inside::Always => true,
+                Inside::Between(first, last) => first <= t && t <= last,
+                Inside::Beyond(first, last) => t <= first || last <= t,
+            };
+            prop_assert_eq!(inside, value < 0.0);
+        }
+
+        #[test]
+        fn starting_on_the_surface_is_the_case_of_no_constant(a in -3.0..3.0f64, b in -3.0..3.0f64) {
+            prop_assume!(a.abs() > 1e-6 && b.abs() > 1e-6);
+            prop_assert_eq!(Inside::from_surface(a, b), Inside::of(a, b, 0.0));
+        }
+    }
+}

@@ -1,0 +1,403 @@
+//! Primitives with their transforms folded in: each is stored in the coordinates in which a ray meets it cheapest.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Primitive;
+use super::quadratic::Inside;
+use crate::geometry::{Aabb, Ray};
+
+/// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Surface {
+    /// The leaf's number.
+    pub leaf: u32,
+    /// The leaf's face; [`CURVED`] is its curved one, the others are flat.
+    pub face: u8,
+}
+
+/// The curved face of a ball, cylinder, cone or quadric.
+pub(super) const CURVED: u8 = 0;
+/// The lower cap of a cylinder or cone; the upper one follows.
+const BOTTOM: u8 = 1;
+
+/// A ray's stay inside a leaf: it enters through one face and leaves through another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    pub from: f64,
+    pub from_face: u8,
+    pub to: f64,
+    pub to_face: u8,
+}
+
+/// A leaf's spans in order: at most two, since a leaf's equation is at most quadratic.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Spans {
+    pub first: Option<Span>,
+    pub second: Option<Span>,
+}
+
+/// A placed primitive.
+#[derive(Clone, Debug)]
+pub struct Leaf {
+    shape: Shape,
+    /// The caller's number for its surface.
+    pub tag: u32,
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    Ball {
+        centre: DVec3,
+        radius: f64,
+    },
+    HalfSpace {
+        normal: DVec3,
+        offset: f64,
+    },
+    /// A box along the scene's axes. Its faces are numbered −x, +x, −y, +y, −z, +z.
+    Block(Aabb),
+    /// The sphere, cube, cylinder and cone in their own coordinates: the ray is carried there, where distances
+    /// along it stay the same since its direction is carried with it and not made 1 again.
+    Ellipsoid(Own),
+    Cube(Own),
+    Cylinder(Own),
+    /// The radius at height y is `middle + slope y`.
+    Cone {
+        own: Own,
+        middle: f64,
+        slope: f64,
+    },
+    /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
+    Quadric {
+        centre: DVec3,
+        square: DMat3,
+        half_linear: DVec3,
+        constant: f64,
+    },
+}
+
+#[derive(Clone, Debug)]
+struct Own {
+    own_from_scene: DAffine3,
+    /// Outward normals of the faces at x = 1, y = 1, z = 1, in the scene and of length 1.
+    axis_normals: [DVec3; 3],
+}
+
+impl Leaf {
+    /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it.
+    pub(super) fn new(primitive: &Primitive, scene_from_own: &DAffine3, tag: u32) -> (Self, Aabb) {
+        let own_from_scene = scene_from_own.inverse();
+        let to_own = own_from_scene.matrix3;
+        let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];
+        let centre = scene_from_own.translation;
+        let own = || Own {
+            own_from_scene,
+            // Normals go by the inverse transpose, whose columns are the rows of the inverse.
+            axis_normals: [0, 1, 2].map(|axis| to_own.row(axis).normalize()),
+        };
+        let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
+        let about = |half: DVec3| Aabb { min: centre - half, max: centre + half };
+        let (shape, bounds) = match *primitive {
+            Primitive::Sphere => match uniform_scale(columns) {
+                Some(radius) => (Shape::Ball { centre, radius }, about(DVec3::splat(radius))),
+                None => {
+                    let half = columns.iter().map(|&column| column * column).sum::<DVec3>().map(f64::sqrt);
+                    (Shape::Ellipsoid(own()), about(half))
+                }
+            },
+            Primitive::HalfSpace { normal, offset } => {
+                let carried = to_own.transpose() * normal;
+                let length = carried.length();
+                let (normal, offset) =
+                    (carried / length, (offset - normal.dot(own_from_scene.translation)) / length);
+                (Shape::HalfSpace { normal, offset }, half_space_bounds(normal, offset))
+            }
+            Primitive::Cube => {
+                let bounds = Aabb::of_cube(scene_from_own);
+                let along_axes = (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
+                (if along_axes { Shape::Block(bounds) } else { Shape::Cube(own()) }, bounds)
+            }
+            Primitive::Cylinder => {
+                (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2])))
+            }
+            Primitive::Cone { bottom, top } => {
+                let disc = |radius: f64, y: f64| {
+                    let (middle, half) = (centre + columns[1] * y, round(columns[0], columns[2]) * radius);
+                    Aabb { min: middle - half, max: middle + half }
+                };
+                let (middle, slope) = ((top + bottom) / 2.0, (top - bottom) / 2.0);
+                (Shape::Cone { own: own(), middle, slope }, disc(bottom, -1.0).union(disc(top, 1.0)))
+            }
+            Primitive::Quadric(q) => {
+                let [xy, yz, zx] = (q.products / 2.0).to_array();
+                let square = DMat3::from_cols(
+                    DVec3::new(q.squares.x, xy, zx),
+                    DVec3::new(xy, q.squares.y, yz),
+                    DVec3::new(zx, yz, q.squares.z),
+                );
+                let shape = Shape::Quadric {
+                    centre,
+                    square: to_own.transpose() * square * to_own,
+                    half_linear: to_own.transpose() * q.linear / 2.0,
+                    constant: q.constant,
+                };
+                (shape, Aabb::ALL)
+            }
+        };
+        (Self { shape, tag }, bounds.padded())
+    }
+
+    /// The ray's stays inside, over the whole line. `start` is the face of this leaf that the ray starts on, if it
+    /// does: the root there is then 0 by definition, whatever rounding made of the origin.
+    #[inline]
+    pub(super) fn spans(&self, ray: &Ray, start: Option<u8>) -> Spans {
+        match &self.shape {
+            Shape::Ball { centre, radius } => {
+                let f = ray.origin - *centre;
+                let b = f.dot(ray.direction);
+                let inside = if start.is_some() {
+                    Inside::from_surface(1.0, b)
+                } else {
+                    // The discriminant by the line's closest approach: exact for far and small balls
+                    // (Haines, Günther and Akenine-Möller, Ray Tracing Gems, ch. 7).
+                    let closest = f - ray.direction * b;
+                    let squared = radius * radius;
+                    Inside::with_discriminant(1.0, b, f.length_squared() - squared, squared - closest.length_squared())
+                };
+                Spans::curved(inside)
+            }
+            Shape::HalfSpace { normal, offset } => {
+                let speed = normal.dot(ray.direction);
+                let height = if start.is_some() { 0.0 } else { normal.dot(ray.origin) - offset };
+                Spans::curved(match speed {
+                    _ if speed > 0.0 => Inside::Between(f64::NEG_INFINITY, -height / speed),
+                    _ if speed < 0.0 => Inside::Between(-height / speed, f64::INFINITY),
+                    _ if height < 0.0 => Inside::Always,
+                    _ => Inside::Never,
+                })
+            }
+            Shape::Block(block) => {
+                Spans::slabs(ray.origin, ray.direction, block.min.to_array(), block.max.to_array(), start)
+            }
+            Shape::Cube(own) => {
+                let (o, d) = own.carry(ray);
+                Spans::slabs(o, d, [-1.0; 3], [1.0; 3], start)
+            }
+            Shape::Ellipsoid(own) => {
+                let (o, d) = own.carry(ray);
+                let (a, b) = (d.length_squared(), o.dot(d));
+                Spans::curved(if start.is_some() {
+                    Inside::from_surface(a, b)
+                } else {
+                    let closest = o - d * (b / a);
+                    Inside::with_discriminant(
+                        a,
+                        b,
+                        o.length_squared() - 1.0,
+                        a * (1.0 - closest.length_squared()),
+                    )
+                })
+            }
+            Shape::Cylinder(own) => {
+                let (o, d) = own.carry(ray);
+                let (a, b) = (d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z);
+                let inside = if start == Some(CURVED) {
+                    Inside::from_surface(a, b)
+                } else {
+                    let across = o.x * d.z - o.z * d.x;
+                    Inside::with_discriminant(a, b, o.x * o.x + o.z * o.z - 1.0, a - across * across)
+                };
+                Spans::capped(inside, o.y, d.y, start)
+            }
+            Shape::Cone { own, middle, slope } => {
+                let (o, d) = own.carry(ray);
+                let rise = slope * d.y;
+                let a = d.x * d.x + d.z * d.z - rise * rise;
+                let half = |o: DVec3| o.x * d.x + o.z * d.z - rise * (middle + slope * o.y);
+                let inside = if start == Some(CURVED) {
+                    Inside::from_surface(a, half(o))
+                } else {
+                    from_closest_approach(o, d, |o| {
+                        let radius = middle + slope * o.y;
+                        Inside::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
+                    })
+                };
+                Spans::capped(inside, o.y, d.y, start)
+            }
+            Shape::Quadric { centre, square, half_linear, constant } => {
+                let (o, d) = (ray.origin - *centre, ray.direction);
+                let along = *square * d;
+                let a = along.dot(d);
+                let half = |o: DVec3| along.dot(o) + half_linear.dot(d);
+                Spans::curved(if start.is_some() {
+                    Inside::from_surface(a, half(o))
+                } else {
+                    from_closest_approach(o, d, |o| {
+                        let c = (*square * o + 2.0 * *half_linear).dot(o) + constant;
+                        Inside::of(a, half(o), c)
+                    })
+                })
+            }
+        }
+    }
+
+    /// The normal of length 1 that points out of the leaf, at a point of one of its faces.
+    pub fn normal(&self, face: u8, point: DVec3) -> DVec3 {
+        match &self.shape {
+            Shape::Ball { centre, radius } => (point - *centre) / *radius,
+            Shape::HalfSpace { normal, .. } => *normal,
+            Shape::Block(_) => DVec3::AXES[usize::from(face / 2)] * side(face),
+            Shape::Cube(own) => own.axis_normals[usize::from(face / 2)] * side(face),
+            Shape::Cylinder(own) | Shape::Cone { own, .. } if face != CURVED => {
+                own.axis_normals[1] * side(face - BOTTOM)
+            }
+            Shape::Ellipsoid(own) => own.carry_back(own.point(point)),
+            Shape::Cylinder(own) => {
+                let q = own.point(point);
+                own.carry_back(DVec3::new(q.x, 0.0, q.z))
+            }
+            Shape::Cone { own, middle, slope } => {
+                let q = own.point(point);
+                own.carry_back(DVec3::new(q.x, -slope * (middle + slope * q.y), q.z))
+            }
+            Shape::Quadric { centre, square, half_linear, .. } => {
+                (*square * (point - *centre) + *half_linear).normalize_or(DVec3::Y)
+            }
+        }
+    }
+}
+
+impl Own {
+    fn carry(&self, ray: &Ray) -> (DVec3, DVec3) {
+        (self.own_from_scene.transform_point3(ray.origin), self.own_from_scene.transform_vector3(ray.direction))
+    }
+
+    fn point(&self, point: DVec3) -> DVec3 {
+        self.own_from_scene.transform_point3(point)
+    }
+
+    /// A normal from own coordinates into the scene, by the inverse transpose of the way there.
+    fn carry_back(&self, normal: DVec3) -> DVec3 {
+        // The zero vector is the apex of a cone, where no normal is right.
+        (self.own_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
+    }
+}
+
+impl Spans {
+    /// One face bounds the whole leaf.
+    #[inline(always)]
+    fn curved(inside: Inside) -> Self {
+        let span = |from: f64, to: f64| (from < to).then_some(Span { from, from_face: CURVED, to, to_face: CURVED });
+        match inside {
+            Inside::Never => Self::default(),
+            Inside::Always => Self { first: span(f64::NEG_INFINITY, f64::INFINITY), second: None },
+            Inside::Between(from, to) => Self { first: span(from, to), second: None },
+            Inside::Beyond(first, last) => {
+                Self { first: span(f64::NEG_INFINITY, first), second: span(last, f64::INFINITY) }
+            }
+        }
+    }
+
+    /// What of `inside` lies between the caps at y = −1 and y = 1. The leaf is convex, so this is one span: where
+    /// rounding at an apex leaves two, the longer.
+    fn capped(inside: Inside, y: f64, speed: f64, start: Option<u8>) -> Self {
+        let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
+        if !span.cut([-1.0, 1.0], y, speed, BOTTOM, start) {
+            return Self::default();
+        }
+        let clip = |from: f64, to: f64| {
+            let mut clipped = span;
+            if from > clipped.from {
+                (clipped.from, clipped.from_face) = (from, CURVED);
+            }
+            if to < clipped.to {
+                (clipped.to, clipped.to_face) = (to, CURVED);
+            }
+            (clipped.from < clipped.to).then_some(clipped)
+        };
+        let first = match inside {
+            Inside::Never => None,
+            Inside::Always => clip(f64::NEG_INFINITY, f64::INFINITY),
+            Inside::Between(from, to) => clip(from, to),
+            Inside::Beyond(first, last) => match (clip(f64::NEG_INFINITY, first), clip(last, f64::INFINITY)) {
+                (Some(a), Some(b)) => Some(if a.to - a.from < b.to - b.from { b } else { a }),
+                (a, b) => a.or(b),
+            },
+        };
+        Self { first, second: None }
+    }
+
+    /// A box in the coordinates of `o` and `d`.
+    #[inline]
+    fn slabs(o: DVec3, d: DVec3, min: [f64; 3], max: [f64; 3], start: Option<u8>) -> Self {
+        let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
+        for axis in 0..3 {
+            if !span.cut([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
+                return Self::default();
+            }
+        }
+        Self { first: Some(span), second: None }
+    }
+}
+
+impl Span {
+    /// Keeps what lies between two parallel faces at `places`, numbered `face` and `face + 1`; false if that is
+    /// nothing.
+    #[inline(always)]
+    fn cut(&mut self, places: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
+        if speed == 0.0 {
+            return places[0] < position && position < places[1];
+        }
+        let distance = |side: u8| {
+            if start == Some(face + side) { 0.0 } else { (places[usize::from(side)] - position) / speed }
+        };
+        let (near, far) = if speed > 0.0 { (0, 1) } else { (1, 0) };
+        let (from, to) = (distance(near), distance(far));
+        if from > self.from {
+            (self.from, self.from_face) = (from, face + near);
+        }
+        if to < self.to {
+            (self.to, self.to_face) = (to, face + far);
+        }
+        self.from < self.to
+    }
+}
+
+/// Solves from the line's closest approach to the origin of `o` instead of from `o`, which may be far: there the
+/// coefficients are small and their differences exact. `d` need not have length 1.
+fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Inside) -> Inside {
+    let shift = -o.dot(d) / d.length_squared();
+    match solve(o + d * shift) {
+        Inside::Between(a, b) => Inside::Between(a + shift, b + shift),
+        Inside::Beyond(a, b) => Inside::Beyond(a + shift, b + shift),
+        whole => whole,
+    }
+}
+
+/// −1 for an even face, 1 for an odd one.
+fn side(face: u8) -> f64 {
+    if face.is_multiple_of(2) { -1.0 } else { 1.0 }
+}
+
+/// The factor by which a map with these columns scales in every direction, if it is the same in all.
+fn uniform_scale(columns: [DVec3; 3]) -> Option<f64> {
+    const ROUNDING: f64 = 1e-14;
+    let squared = columns[0].length_squared();
+    let [x, y, z] = columns;
+    let skew = x.dot(y).abs().max(y.dot(z).abs()).max(z.dot(x).abs());
+    let stretch = (y.length_squared() - squared).abs().max((z.length_squared() - squared).abs());
+    (skew <= ROUNDING * squared && stretch <= ROUNDING * squared).then(|| squared.sqrt())
+}
+
+/// A half-space is bounded on one side if its normal lies along an axis.
+fn half_space_bounds(normal: DVec3, offset: f64) -> Aabb {
+    let mut bounds = Aabb::ALL;
+    for axis in 0..3 {
+        if normal[axis] == 1.0 {
+            bounds.max[axis] = offset;
+        } else if normal[axis] == -1.0 {
+            bounds.min[axis] = -offset;
+        }
+    }
+    bounds
+}

@@ -1,0 +1,25 @@
+//! The tree of boolean operations, as a scene gives it.
+
+use glam::DAffine3;
+
+use super::Primitive;
+
+/// A solid: a placed primitive, or a composition of solids.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// A primitive at its place.
+    Placed {
+        /// What it is, in its own coordinates.
+        primitive: Primitive,
+        /// Puts it into the scene; invertible.
+        scene_from_own: DAffine3,
+        /// The caller's number for its surface (which material it has).
+        tag: u32,
+    },
+    /// What is in at least one of them.
+    Union(Vec<Solid>),
+    /// What is in all of them; nothing, if there are none.
+    Intersection(Vec<Solid>),
+    /// What is in the first and in none of the others.
+    Difference(Vec<Solid>),
+}

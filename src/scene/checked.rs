@@ -1,0 +1,70 @@
+//! Numbers that are refused where they are read, so that the error can say where.
+
+use glam::DVec3;
+use serde::de::{Deserialize, Deserializer, Error};
+
+/// No coordinate exceeds this, so that squares and products of a few of them stay finite.
+const LARGEST: f64 = 1e12;
+
+pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| x.abs() <= LARGEST, "a number between -1e12 and 1e12")
+}
+
+pub(super) fn positive<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| (1e-12..=LARGEST).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
+}
+
+pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| (0.0..=1.0).contains(&x), "between 0 and 1")
+}
+
+pub(super) fn exponent<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| (0.0..=1e6).contains(&x), "between 0 and 1e6")
+}
+
+pub(super) fn index_of_refraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| (0.1..=10.0).contains(&x), "between 0.1 and 10")
+}
+
+pub(super) fn angle_of_view<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    check(f64::deserialize(from)?, |x| (0.001..180.0).contains(&x), "an angle between 0.001 and 180 degrees")
+}
+
+pub(super) fn vector<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    each(from, |x| x.abs() <= LARGEST, "three numbers between -1e12 and 1e12")
+}
+
+pub(super) fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    let vector = vector(from)?;
+    // The square of anything shorter may vanish.
+    if vector.length() < 1e-12 {
+        return Err(D::Error::custom("must not be of length 0"));
+    }
+    Ok(vector.normalize())
+}
+
+pub(super) fn colour<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    each(from, |x| (0.0..=1.0).contains(&x), "three numbers between 0 and 1")
+}
+
+pub(super) fn light<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    each(from, |x| (0.0..=1e6).contains(&x), "three numbers between 0 and 1e6")
+}
+
+/// Factors of a scaling: negative ones mirror.
+pub(super) fn factors<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    each(from, |x| (1e-6..=1e6).contains(&x.abs()), "three factors other than 0 (from 1e-6 to 1e6, or negative)")
+}
+
+fn each<'de, D: Deserializer<'de>>(from: D, valid: impl Fn(f64) -> bool, what: &str) -> Result<DVec3, D::Error> {
+    let vector = DVec3::from(<(f64, f64, f64)>::deserialize(from)?);
+    if vector.to_array().into_iter().all(valid) {
+        Ok(vector)
+    } else {
+        Err(D::Error::custom(format_args!("must be {what}, not {vector}")))
+    }
+}
+
+fn check<E: Error>(number: f64, valid: impl Fn(f64) -> bool, what: &str) -> Result<f64, E> {
+    if valid(number) { Ok(number) } else { Err(E::custom(format_args!("must be {what}, not {number}"))) }
+}

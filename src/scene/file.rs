@@ -1,0 +1,374 @@
+//! The scene file: RON, and errors that say where.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use glam::DVec3;
+use ron::extensions::Extensions;
+use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+
+use super::resolve::resolve;
+use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
+
+/// A scene with what a run has to know of its file.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The file's name without its ending.
+    pub name: String,
+    /// Bytes of its text.
+    pub bytes: u64,
+    /// What it says.
+    pub scene: Scene,
+}
+
+/// Why a scene cannot be had: one sentence, with line, column and field where there are such.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// The file, once it is known.
+    pub file: Option<String>,
+    /// Line and column, from 1.
+    pub place: Option<(usize, usize)>,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl Opened {
+    /// Files larger than this are no scenes.
+    const MAX_BYTES: u64 = 16 << 20;
+
+    /// Reads the scene file `argument`, or the built-in scene of that name if there is no such file.
+    ///
+    /// # Errors
+    /// A [`SceneError`] that names the file.
+    pub fn new(argument: &str) -> Result<Self, SceneError> {
+        let path = Path::new(argument);
+        let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
+        if !path.exists()
+            && let Some(text) = built_in(argument)
+        {
+            return Self::from_text(&name, text);
+        }
+        let text = read(path).map_err(|message| SceneError { file: None, place: None, message });
+        text.and_then(|text| Self::from_text(&name, &text))
+            .map_err(|error| SceneError { file: Some(argument.into()), ..error })
+    }
+
+    /// # Errors
+    /// Those of [`Scene::parse`].
+    pub fn from_text(name: &str, text: &str) -> Result<Self, SceneError> {
+        Ok(Self { name: name.into(), bytes: text.len() as u64, scene: Scene::parse(text)? })
+    }
+}
+
+impl Scene {
+    /// Reads the text of a scene file.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its line, its column and its field.
+    pub fn parse(text: &str) -> Result<Self, SceneError> {
+        let error = |place, message| SceneError { file: None, place, message };
+        if text.trim().is_empty() {
+            return Err(error(None, "the file is empty; a scene needs at least a camera and objects".into()));
+        }
+        let at = |position: ron::error::Position| Some((position.line, position.col));
+        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        let mut reader = ron::Deserializer::from_str_with_options(text, &options)
+            .map_err(|wrong| error(at(wrong.span.end), wrong.code.to_string()))?;
+        let file: SceneFile = serde_path_to_error::deserialize(&mut reader).map_err(|wrong| {
+            let path = wrong.path().to_string();
+            let spanned = reader.span_error(wrong.into_inner());
+            let field = if path == "." { String::new() } else { format!("{path}: ") };
+            error(at(spanned.span.end), format!("{field}{}", spanned.code))
+        })?;
+        reader.end().map_err(|wrong| {
+            let spanned = reader.span_error(wrong);
+            error(at(spanned.span.end), "something follows the end of the scene".into())
+        })?;
+        resolve(file).map_err(|wrong| error(wrong.name.and_then(|name| find_name(text, &name)), wrong.message))
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{file}: ")?;
+        }
+        if let Some((line, column)) = self.place {
+            write!(f, "line {line}, column {column}: ")?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// The file as it is written.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, rename = "Scene")]
+pub(super) struct SceneFile {
+    pub camera: Camera,
+    #[serde(default, deserialize_with = "checked::light")]
+    pub background: DVec3,
+    #[serde(default, deserialize_with = "checked::light")]
+    pub ambient: DVec3,
+    #[serde(default)]
+    pub lights: Vec<Light>,
+    #[serde(default)]
+    pub materials: Named<Material>,
+    #[serde(default)]
+    pub solids: Named<SolidFields>,
+    pub objects: Vec<SolidFields>,
+}
+
+/// A map from names that refuses to be given the same name twice.
+pub(super) struct Named<T>(pub BTreeMap<String, T>);
+
+impl<T> Default for Named<T> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}
+
+/// A solid as it is written. Each may have a material, which its parts have too unless they have their own, and
+/// transforms, which act in the order written.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, remote = "Self", rename = "Solid")]
+pub(super) enum SolidFields {
+    Sphere {
+        #[serde(default, deserialize_with = "checked::vector")]
+        centre: DVec3,
+        #[serde(deserialize_with = "checked::positive")]
+        radius: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    HalfSpace {
+        #[serde(deserialize_with = "checked::direction")]
+        normal: DVec3,
+        #[serde(default, deserialize_with = "checked::number")]
+        offset: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Box {
+        #[serde(deserialize_with = "checked::vector")]
+        min: DVec3,
+        #[serde(deserialize_with = "checked::vector")]
+        max: DVec3,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Cylinder {
+        #[serde(deserialize_with = "checked::vector")]
+        from: DVec3,
+        #[serde(deserialize_with = "checked::vector")]
+        to: DVec3,
+        #[serde(deserialize_with = "checked::positive")]
+        radius: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Cone {
+        #[serde(deserialize_with = "checked::vector")]
+        from: DVec3,
+        #[serde(deserialize_with = "checked::vector")]
+        to: DVec3,
+        #[serde(deserialize_with = "checked::positive")]
+        radius: f64,
+        /// The radius at `to`: 0 is a whole cone, more a truncated one.
+        #[serde(default, deserialize_with = "checked::number")]
+        to_radius: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Quadric {
+        #[serde(default, deserialize_with = "checked::vector")]
+        squares: DVec3,
+        #[serde(default, deserialize_with = "checked::vector")]
+        products: DVec3,
+        #[serde(default, deserialize_with = "checked::vector")]
+        linear: DVec3,
+        #[serde(default, deserialize_with = "checked::number")]
+        constant: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Union {
+        of: Vec<SolidFields>,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Intersection {
+        of: Vec<SolidFields>,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Difference {
+        of: Vec<SolidFields>,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+    Use {
+        solid: String,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
+}
+
+/// One step of placing a solid.
+#[derive(serde::Deserialize)]
+pub(super) enum Transform {
+    Translate(#[serde(deserialize_with = "checked::vector")] DVec3),
+    /// Degrees about x, then y, then z.
+    Rotate(#[serde(deserialize_with = "checked::vector")] DVec3),
+    Scale(#[serde(deserialize_with = "checked::factors")] DVec3),
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, rename = "Camera")]
+pub(super) struct CameraFields {
+    #[serde(deserialize_with = "checked::vector")]
+    eye: DVec3,
+    #[serde(deserialize_with = "checked::vector")]
+    look_at: DVec3,
+    #[serde(default = "upwards", deserialize_with = "checked::direction")]
+    up: DVec3,
+    #[serde(default = "usual_angle", deserialize_with = "checked::angle_of_view")]
+    field_of_view: f64,
+}
+
+impl TryFrom<CameraFields> for Camera {
+    type Error = &'static str;
+
+    fn try_from(fields: CameraFields) -> Result<Self, Self::Error> {
+        let CameraFields { eye, look_at, up, field_of_view } = fields;
+        let sight = (look_at - eye).normalize_or_zero();
+        if sight == DVec3::ZERO {
+            return Err("eye and look_at must be different points");
+        }
+        if sight.cross(up).length() < 1e-9 {
+            return Err("up must not lie along the line from eye to look_at");
+        }
+        Ok(Self { eye, look_at, up, field_of_view })
+    }
+}
+
+impl<'de> Deserialize<'de> for SolidFields {
+    /// Checks what fields say together, while the reader still knows where it is.
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let solid = Self::deserialize(from)?;
+        let wrong = match &solid {
+            Self::Box { min, max, .. } if !min.cmplt(*max).all() => "min must be below max in x, y and z",
+            Self::Cylinder { from, to, .. } | Self::Cone { from, to, .. } if (*to - *from).length() < 1e-12 => {
+                "from and to must be different points"
+            }
+            Self::Cone { to_radius, .. } if *to_radius < 0.0 => "to_radius must not be negative",
+            Self::Quadric { squares, products, linear, .. }
+                if [squares, products, linear].iter().all(|&&v| v == DVec3::ZERO) =>
+            {
+                "squares, products and linear must not all be 0"
+            }
+            Self::Union { of, .. } | Self::Intersection { of, .. } | Self::Difference { of, .. } if of.is_empty() => {
+                "of must name at least one solid"
+            }
+            _ => return Ok(solid),
+        };
+        Err(de::Error::custom(wrong))
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Entries<T>(std::marker::PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+            type Value = Named<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a map from names")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Named<T>, A::Error> {
+                let mut named = BTreeMap::new();
+                while let Some(name) = entries.next_key::<String>()? {
+                    if named.contains_key(&name) {
+                        return Err(de::Error::custom(format_args!("`{name}` is defined twice")));
+                    }
+                    named.insert(name, entries.next_value()?);
+                }
+                Ok(Named(named))
+            }
+        }
+        from.deserialize_map(Entries(std::marker::PhantomData))
+    }
+}
+
+/// The text of a scene file; errors are sentences.
+fn read(path: &Path) -> Result<String, String> {
+    let found = File::open(path).and_then(|file| file.metadata().map(|data| (file, data)));
+    let (file, data) = found.map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
+            format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
+        }
+        _ => format!("the file cannot be opened: {error}"),
+    })?;
+    if data.is_dir() {
+        return Err("this is a directory, not a scene file".into());
+    }
+    let mut bytes = Vec::new();
+    // The length is not always known beforehand, for instance of a pipe.
+    file.take(Opened::MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| format!("the file cannot be read: {error}"))?;
+    if bytes.len() as u64 > Opened::MAX_BYTES {
+        return Err(format!("the file is larger than {} MiB; that is no scene", Opened::MAX_BYTES >> 20));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
+        format!("line {line}: the file is not text (UTF-8)")
+    })
+}
+
+/// Line and column, from 1, of the first string `name` outside comments.
+fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
+    let quoted = format!("\"{name}\"");
+    let mut rest = text;
+    while !rest.is_empty() {
+        let skipped = if rest.starts_with("//") {
+            rest.find('\n').unwrap_or(rest.len())
+        } else if rest.starts_with("/*") {
+            rest.find("*/").map_or(rest.len(), |end| end + 2)
+        } else if rest.starts_with(&quoted) {
+            let before = &text[..text.len() - rest.len()];
+            let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+            return Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1));
+        } else if let Some(string) = rest.strip_prefix('"') {
+            string.find('"').map_or(rest.len(), |end| end + 2)
+        } else {
+            rest.chars().next().map_or(1, char::len_utf8)
+        };
+        rest = &rest[skipped..];
+    }
+    None
+}
+
+fn upwards() -> DVec3 {
+    DVec3::Y
+}
+
+fn usual_angle() -> f64 {
+    40.0
+}

@@ -1,0 +1,187 @@
+//! From a scene file to a scene: names become what they name, and transforms become maps.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::file::{SceneFile, SolidFields, Transform};
+use super::{Material, Scene};
+use crate::csg::{Primitive, QuadricCoefficients, Solid};
+use crate::geometry::{rotation, turn_y_to};
+
+/// A name that leads nowhere, or too far.
+pub(super) struct NameError {
+    /// Which name, if it is one that is to be found in the text.
+    pub name: Option<String>,
+    pub message: String,
+}
+
+/// A scene that needs more leaves than this after all named solids are put in is a mistake.
+const MAX_LEAVES: usize = 200_000;
+/// So deep may solids stand in solids, through names too.
+const MAX_DEPTH: usize = 100;
+
+pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
+    let mut materials: Vec<Material> = vec![Material::default()];
+    let mut tags = BTreeMap::new();
+    for (name, material) in file.materials.0 {
+        tags.insert(name, materials.len() as u32);
+        materials.push(material);
+    }
+    let mut names =
+        Names { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
+    let mut solids = Vec::new();
+    for object in &file.objects {
+        solids.push(names.place(object, DAffine3::IDENTITY, 0)?);
+    }
+    // What no object uses must make sense all the same.
+    for (name, solid) in &file.solids.0 {
+        if names.used.contains(name.as_str()) {
+            continue;
+        }
+        names.path = vec![name];
+        names.place(solid, DAffine3::IDENTITY, 0)?;
+    }
+    let SceneFile { camera, background, ambient, lights, .. } = file;
+    Ok(Scene { camera, background, ambient, lights, materials, solids })
+}
+
+struct Names<'a> {
+    tags: BTreeMap<String, u32>,
+    solids: &'a BTreeMap<String, SolidFields>,
+    used: BTreeSet<&'a str>,
+    /// The named solids that the one at hand stands in.
+    path: Vec<&'a str>,
+    leaves: usize,
+    depth: usize,
+}
+
+impl<'a> Names<'a> {
+    /// `outer` and `tag` are the transform and material of what the solid stands in.
+    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+        use SolidFields as S;
+        let (S::Sphere { material, transform, .. }
+        | S::HalfSpace { material, transform, .. }
+        | S::Box { material, transform, .. }
+        | S::Cylinder { material, transform, .. }
+        | S::Cone { material, transform, .. }
+        | S::Quadric { material, transform, .. }
+        | S::Union { material, transform, .. }
+        | S::Intersection { material, transform, .. }
+        | S::Difference { material, transform, .. }
+        | S::Use { material, transform, .. }) = solid;
+        let tag = match material {
+            None => tag,
+            Some(name) => *self.tags.get(name).ok_or_else(|| unknown("material", name, self.tags.keys()))?,
+        };
+        let map = transform.iter().fold(DAffine3::IDENTITY, |before, step| step.map() * before);
+        let outer = outer * map;
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            let name = self.path.last().map(|&name| name.to_owned());
+            return Err(NameError { name, message: format!("solids stand in solids more than {MAX_DEPTH} deep") });
+        }
+        let placed = match solid {
+            S::Union { of, .. } => Solid::Union(self.all(of, outer, tag)?),
+            S::Intersection { of, .. } => Solid::Intersection(self.all(of, outer, tag)?),
+            S::Difference { of, .. } => Solid::Difference(self.all(of, outer, tag)?),
+            S::Use { solid: name, .. } => self.used(name, outer, tag)?,
+            leaf => self.leaf(leaf, outer, tag)?,
+        };
+        self.depth -= 1;
+        Ok(placed)
+    }
+
+    fn all(&mut self, solids: &'a [SolidFields], outer: DAffine3, tag: u32) -> Result<Vec<Solid>, NameError> {
+        solids.iter().map(|solid| self.place(solid, outer, tag)).collect()
+    }
+
+    fn used(&mut self, name: &'a str, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+        let solid = self.solids.get(name).ok_or_else(|| unknown("solid", name, self.solids.keys()))?;
+        if let Some(from) = self.path.iter().position(|&user| user == name) {
+            let circle = [&self.path[from..], &[name]].concat().join(" → ");
+            return Err(NameError { name: Some(name.into()), message: format!("a solid uses itself: {circle}") });
+        }
+        self.used.insert(name);
+        self.path.push(name);
+        let placed = self.place(solid, outer, tag)?;
+        self.path.pop();
+        Ok(placed)
+    }
+
+    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+        self.leaves += 1;
+        if self.leaves > MAX_LEAVES {
+            return Err(NameError {
+                name: self.path.last().map(|&name| name.to_owned()),
+                message: format!("the scene has more than {MAX_LEAVES} primitives once its named solids are put in"),
+            });
+        }
+        let (primitive, own) = primitive(leaf);
+        let scene_from_own = outer * own;
+        if !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
+            return Err(NameError {
+                name: self.path.last().map(|&name| name.to_owned()),
+                message: "its transforms make a solid too large or too small to be computed with".into(),
+            });
+        }
+        Ok(Solid::Placed { primitive, scene_from_own, tag })
+    }
+}
+
+impl Transform {
+    fn map(&self) -> DAffine3 {
+        match *self {
+            Self::Translate(by) => DAffine3::from_translation(by),
+            Self::Rotate(degrees) => DAffine3::from_mat3(rotation(degrees)),
+            Self::Scale(factors) => DAffine3::from_scale(factors),
+        }
+    }
+}
+
+/// The primitive that a leaf is, and where its fields put it.
+fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
+    match *leaf {
+        SolidFields::Sphere { centre, radius, .. } => {
+            let own = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(radius)), translation: centre };
+            (Primitive::Sphere, own)
+        }
+        SolidFields::HalfSpace { normal, offset, .. } => {
+            (Primitive::HalfSpace { normal, offset }, DAffine3::IDENTITY)
+        }
+        SolidFields::Box { min, max, .. } => {
+            let own = DAffine3 {
+                matrix3: DMat3::from_diagonal((max - min) / 2.0),
+                translation: (min + max) / 2.0,
+            };
+            (Primitive::Cube, own)
+        }
+        SolidFields::Cylinder { from, to, radius, .. } => (Primitive::Cylinder, along(from, to, radius)),
+        SolidFields::Cone { from, to, radius, to_radius, .. } => {
+            // The wider end has radius 1 in the cone's own coordinates.
+            let wider = radius.max(to_radius);
+            (Primitive::Cone { bottom: radius / wider, top: to_radius / wider }, along(from, to, wider))
+        }
+        SolidFields::Quadric { squares, products, linear, constant, .. } => {
+            (Primitive::Quadric(QuadricCoefficients { squares, products, linear, constant }), DAffine3::IDENTITY)
+        }
+        SolidFields::Union { .. }
+        | SolidFields::Intersection { .. }
+        | SolidFields::Difference { .. }
+        | SolidFields::Use { .. } => unreachable!("these are no leaves: `place` never asks"),
+    }
+}
+
+/// Carries the y axis from −1 to 1 to the line between two points, and radius 1 to `radius`.
+fn along(from: DVec3, to: DVec3, radius: f64) -> DAffine3 {
+    let half = (to - from) / 2.0;
+    let turn = turn_y_to(half.normalize());
+    let matrix3 = turn * DMat3::from_diagonal(DVec3::new(radius, half.length(), radius));
+    DAffine3 { matrix3, translation: from + half }
+}
+
+fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k String>) -> NameError {
+    let known: Vec<_> = known.map(String::as_str).collect();
+    let known = if known.is_empty() { "none is defined".into() } else { format!("known are {}", known.join(", ")) };
+    NameError { name: Some(name.into()), message: format!("there is no {what} `{name}`; {known}") }
+}

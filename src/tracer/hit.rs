@@ -1,0 +1,65 @@
+//! What a ray meets among all solids.
+
+use super::world::World;
+use crate::csg::{Hit, Stack, Start};
+use crate::geometry::Ray;
+
+impl World {
+    /// The nearest boundary on `ray`, and the root that it bounds.
+    #[inline]
+    pub fn nearest(&self, ray: &Ray, start: Option<Start>, stack: &mut Stack) -> Option<(u32, Hit)> {
+        let mut nearest: Option<(u32, Hit)> = None;
+        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, stack) {
+            Some(hit) => {
+                nearest = Some((root, hit));
+                hit.t
+            }
+            None => t_max,
+        };
+        let mut t_max = f64::INFINITY;
+        for &root in &self.unbounded {
+            t_max = test(root, t_max);
+        }
+        self.bounded.visit(ray, t_max, test);
+        nearest
+    }
+
+    /// What part of a light's intensity arrives over the distance `t_max`: a product of the Kt of every surface on
+    /// the way, 0 behind anything that does not transmit. `suspect` is the solid that blocked this light last: it
+    /// often blocks it again; what it is changes the time, never the answer.
+    #[inline]
+    pub fn light_arriving(
+        &self,
+        ray: &Ray,
+        start: Start,
+        t_max: f64,
+        suspect: &mut Option<u32>,
+        stack: &mut Stack,
+    ) -> f64 {
+        if let Some(root) = *suspect
+            && self.tree.nearest(root, ray, Some(start), t_max, stack).is_some()
+        {
+            return 0.0;
+        }
+        let mut arriving = 1.0;
+        let mut test = |root: u32, t_max: f64| {
+            if self.transmits[root as usize] {
+                self.tree.crossings(root, ray, Some(start), t_max, stack, |hit| {
+                    arriving *= self.finish(hit.surface).kt;
+                    arriving > 0.0
+                });
+            } else if self.tree.nearest(root, ray, Some(start), t_max, stack).is_some() {
+                *suspect = Some(root);
+                arriving = 0.0;
+            }
+            if arriving > 0.0 { t_max } else { -1.0 }
+        };
+        for &root in &self.unbounded {
+            if test(root, t_max) < 0.0 {
+                return 0.0;
+            }
+        }
+        self.bounded.visit(ray, t_max, test);
+        arriving
+    }
+}

@@ -1,0 +1,146 @@
+//! The article's equation (§3; Whitted 1980): the colour that a ray brings.
+//!
+//! Cp = Ka Ia + Kd Σ Ilj (N·Lj) + Ks Σ Ilj (S·Rj)ⁿ + Ks Is + Kt It
+
+use glam::DVec3;
+
+use super::world::Finish;
+use super::{RayCounts, Tracer};
+use crate::csg::{Hit, Stack, Start};
+use crate::geometry::Ray;
+use crate::scene::Light;
+
+/// What a thread needs to trace, kept from pixel to pixel so that nothing is allocated; it counts the rays.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    /// Rays traced with this scratch so far.
+    pub rays: RayCounts,
+    stack: Stack,
+    /// The solid that blocked each light last.
+    suspects: Vec<Option<u32>>,
+}
+
+/// A hit with what the equation needs of it.
+struct Place<'a> {
+    start: Start,
+    enters: bool,
+    t: f64,
+    /// Of length 1, on the side that the ray comes from.
+    normal: DVec3,
+    finish: &'a Finish,
+}
+
+/// How a ray stands in the tree of rays.
+#[derive(Clone, Copy)]
+struct Branch {
+    /// What the pixel keeps of the ray's colour, at most.
+    weight: f64,
+    /// 1 for a primary ray.
+    level: u32,
+}
+
+impl Tracer {
+    /// The colour that a primary ray brings, in linear light.
+    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch) -> DVec3 {
+        scratch.suspects.resize(self.world.lights.len(), None);
+        scratch.rays.primary += 1;
+        self.colour(ray, None, Branch { weight: 1.0, level: 1 }, scratch)
+    }
+
+    fn colour(&self, ray: &Ray, start: Option<Start>, branch: Branch, scratch: &mut Scratch) -> DVec3 {
+        let Some((root, hit)) = self.world.nearest(ray, start, &mut scratch.stack) else {
+            return self.world.background;
+        };
+        let place = self.place(ray, root, &hit);
+        let finish = place.finish;
+        let mut colour = finish.ambient;
+        if finish.lit {
+            for index in 0..self.world.lights.len() {
+                colour += self.light(index, ray, &place, scratch);
+            }
+        }
+        if finish.ks == 0.0 && finish.kt == 0.0 {
+            return colour;
+        }
+        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, &place)).flatten();
+        // Light that is not let through is reflected: under total internal reflection It comes from there.
+        let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
+        if let Some(next) = self.follow(branch, reflection) {
+            scratch.rays.reflected += 1;
+            let direction = reflect(ray.direction, place.normal);
+            let onward = ray.onward(place.t, direction);
+            colour += self.colour(&onward, Some(place.start), next, scratch) * reflection;
+        }
+        if let Some(direction) = refracted
+            && let Some(next) = self.follow(branch, finish.kt)
+        {
+            scratch.rays.refracted += 1;
+            let onward = ray.onward(place.t, direction);
+            colour += self.colour(&onward, Some(place.start), next, scratch) * finish.kt;
+        }
+        colour
+    }
+
+    fn place(&self, ray: &Ray, root: u32, hit: &Hit) -> Place<'_> {
+        let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
+        let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
+        Place {
+            start: Start { root, surface: hit.surface },
+            enters: hit.enters,
+            t: hit.t,
+            normal,
+            finish: self.world.finish(hit.surface),
+        }
+    }
+
+    /// The diffuse and the specular term of one light.
+    fn light(&self, index: usize, ray: &Ray, place: &Place<'_>, scratch: &mut Scratch) -> DVec3 {
+        let point = ray.at(place.t);
+        let (direction, distance, intensity) = match self.world.lights[index] {
+            Light::Point { position, colour } => {
+                let way = position - point;
+                let distance = way.length();
+                (way / distance, distance, colour)
+            }
+            Light::Directional { direction, colour } => (-direction, f64::INFINITY, colour),
+        };
+        let cosine = place.normal.dot(direction);
+        // Also false for NaN: the light is in the surface itself.
+        if !(cosine > 0.0) {
+            return DVec3::ZERO;
+        }
+        scratch.rays.shadow += 1;
+        let Scratch { stack, suspects, .. } = scratch;
+        let onward = ray.onward(place.t, direction);
+        let arriving = self.world.light_arriving(&onward, place.start, distance, &mut suspects[index], stack);
+        if arriving == 0.0 {
+            return DVec3::ZERO;
+        }
+        let mut reflected = place.finish.diffuse * cosine;
+        if place.finish.ks > 0.0 {
+            let towards_eye = -ray.direction.dot(reflect(-direction, place.normal));
+            if towards_eye > 0.0 {
+                reflected += place.finish.ks * place.finish.exponent.raise(towards_eye);
+            }
+        }
+        intensity * arriving * reflected
+    }
+
+    /// The next branch, unless the tree ends here: its rays would be too deep or contribute too little.
+    fn follow(&self, branch: Branch, coefficient: f64) -> Option<Branch> {
+        let next = Branch { weight: branch.weight * coefficient, level: branch.level + 1 };
+        (next.weight > self.quality.cutoff && next.level <= self.quality.max_depth).then_some(next)
+    }
+}
+
+fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
+    (direction - normal * (2.0 * direction.dot(normal))).normalize()
+}
+
+/// Snell's law; nothing under total internal reflection.
+fn refract(direction: DVec3, place: &Place<'_>) -> Option<DVec3> {
+    let ratio = if place.enters { 1.0 / place.finish.ior } else { place.finish.ior };
+    let cosine = -direction.dot(place.normal);
+    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    (squared >= 0.0).then(|| (direction * ratio + place.normal * (ratio * cosine - squared.sqrt())).normalize())
+}

@@ -1,0 +1,120 @@
+//! A scene compiled to only what it needs.
+
+use glam::DVec3;
+
+use super::Compiled;
+use super::bvh::Bvh;
+use crate::csg::{Surface, Tree};
+use crate::scene::{Light, Material, Scene};
+
+#[derive(Debug)]
+pub(super) struct World {
+    pub tree: Tree,
+    /// Whether anything of the solid transmits, by its root.
+    pub transmits: Vec<bool>,
+    /// The roots with bounds.
+    pub bounded: Bvh,
+    /// The roots without.
+    pub unbounded: Vec<u32>,
+    pub background: DVec3,
+    pub lights: Vec<Light>,
+    finishes: Vec<Finish>,
+    dropped: usize,
+}
+
+/// A material with its constants multiplied out.
+#[derive(Debug)]
+pub(super) struct Finish {
+    /// Ka Ia times the colour.
+    pub ambient: DVec3,
+    /// Kd times the colour.
+    pub diffuse: DVec3,
+    pub ks: f64,
+    pub kt: f64,
+    pub exponent: Exponent,
+    pub ior: f64,
+    /// Whether lights matter to it.
+    pub lit: bool,
+}
+
+/// Phong's exponent: whole ones, the usual case, need no logarithm.
+#[derive(Debug)]
+pub(super) enum Exponent {
+    Whole(i32),
+    Real(f64),
+}
+
+impl Exponent {
+    pub fn raise(&self, base: f64) -> f64 {
+        match *self {
+            Self::Whole(n) => base.powi(n),
+            Self::Real(n) => base.powf(n),
+        }
+    }
+}
+
+impl World {
+    pub fn new(scene: &Scene) -> Self {
+        let mut tree = Tree::default();
+        let (mut bounded, mut unbounded, mut transmits, mut dropped) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        for solid in &scene.solids {
+            let Some((root, bounds)) = tree.add(solid) else {
+                dropped += 1;
+                continue;
+            };
+            if bounds.is_finite() {
+                bounded.push((root, bounds));
+            } else {
+                unbounded.push(root);
+            }
+            transmits.resize(root as usize + 1, false);
+            transmits[root as usize] =
+                tree.leaves_of(root).iter().any(|leaf| scene.materials[leaf.tag as usize].kt > 0.0);
+        }
+        Self {
+            tree,
+            transmits,
+            bounded: Bvh::new(bounded),
+            unbounded,
+            background: scene.background,
+            lights: scene.lights.clone(),
+            finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient)).collect(),
+            dropped,
+        }
+    }
+
+    pub fn finish(&self, surface: Surface) -> &Finish {
+        &self.finishes[self.tree.leaf(surface).tag as usize]
+    }
+
+    pub fn compiled(&self) -> Compiled {
+        let roots = || self.bounded.roots().chain(self.unbounded.iter().copied());
+        let finishes = || {
+            roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize])
+        };
+        Compiled {
+            solids: roots().count(),
+            compositions: roots().filter(|&root| self.tree.leaves_of(root).len() > 1).count(),
+            unbounded: self.unbounded.len(),
+            dropped: self.dropped,
+            lights: self.lights.len(),
+            reflects: finishes().any(|finish| finish.ks > 0.0),
+            transmits: finishes().any(|finish| finish.kt > 0.0),
+        }
+    }
+}
+
+impl Finish {
+    fn new(material: &Material, ambient: DVec3) -> Self {
+        let Material { colour, ka, kd, ks, kt, n, ior } = *material;
+        Self {
+            ambient: colour * ambient * ka,
+            diffuse: colour * kd,
+            ks,
+            kt,
+            exponent: if n.fract() == 0.0 { Exponent::Whole(n as i32) } else { Exponent::Real(n) },
+            ior,
+            lit: ks > 0.0 || colour * kd != DVec3::ZERO,
+        }
+    }
+}
