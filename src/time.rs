@@ -13,9 +13,9 @@ impl Time {
     /// When the run began.
     pub const ZERO: Self = Self(0);
 
-    /// The instant `secs` seconds after the run began; negative and NaN count as 0.
+    /// The instant `secs` seconds after the run began, to the nearest nanosecond; negative and NaN count as 0.
     pub fn from_secs(secs: f64) -> Self {
-        Self((secs * 1e9) as u64)
+        Self((secs * 1e9).round() as u64)
     }
 
     /// Seconds since the run began.

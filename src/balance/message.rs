@@ -76,7 +76,7 @@ pub enum Event {
     AtomDone {
         /// Which one.
         atom: Atom,
-        /// The CPU time that it took.
+        /// The CPU time that it took; at full speed only an estimate, since the record gets the final one.
         cost: Duration,
     },
     /// The time asked for with [`Action::SetTimer`] has come.

@@ -5,8 +5,11 @@
 
 mod message;
 mod parent;
+mod queue;
 pub mod ring;
+mod serial;
 mod strategy;
+mod work;
 
 pub use message::{Action, Event, Message, NodeId, Party};
 pub use parent::Parent;

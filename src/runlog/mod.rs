@@ -1,5 +1,13 @@
 //! A run as it is kept: what it was asked to do, what happened, and what that amounts to.
 
+mod check;
+#[cfg(test)]
+mod examples;
+mod file;
 mod header;
+mod log;
+pub mod metrics;
 
+pub use file::LogError;
 pub use header::{Header, Link};
+pub use log::RunLog;

@@ -1,0 +1,75 @@
+//! The atoms that wait in a node.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use crate::picture::Atom;
+
+/// Atoms in the order in which they will be traced, as ranges none of which is empty.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    ranges: VecDeque<Range<Atom>>,
+}
+
+impl Queue {
+    /// How many atoms wait.
+    pub fn len(&self) -> u32 {
+        self.ranges.iter().map(|range| range.end - range.start).sum()
+    }
+
+    /// Appends atoms at the back.
+    pub fn push(&mut self, ranges: impl IntoIterator<Item = Range<Atom>>) {
+        self.ranges.extend(ranges.into_iter().filter(|range| !range.is_empty()));
+    }
+
+    /// Takes the atom at the front.
+    pub fn pop(&mut self) -> Option<Atom> {
+        let front = self.ranges.front_mut()?;
+        let atom = front.next();
+        if front.start == front.end {
+            self.ranges.pop_front();
+        }
+        atom
+    }
+
+    /// Takes the last `count` atoms, or all if there are fewer; they keep their order.
+    pub fn split_off(&mut self, mut count: u32) -> Vec<Range<Atom>> {
+        let mut taken = VecDeque::new();
+        while count > 0
+            && let Some(last) = self.ranges.pop_back()
+        {
+            let cut = last.end - count.min(last.end - last.start);
+            count -= last.end - cut;
+            self.push([last.start..cut]);
+            taken.push_front(cut..last.end);
+        }
+        taken.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn atoms(ranges: impl IntoIterator<Item = Range<Atom>>) -> Vec<Atom> {
+        ranges.into_iter().flatten().collect()
+    }
+
+    proptest! {
+        #[test]
+        fn splitting_moves_the_last_atoms_and_loses_none(
+            ranges in prop::collection::vec((0u32..1000, 0u32..20).prop_map(|(start, len)| start..start + len), 0..6),
+            count in 0u32..80,
+        ) {
+            let all = atoms(ranges.clone());
+            let mut queue = Queue::default();
+            queue.push(ranges);
+            prop_assert_eq!(queue.len() as usize, all.len());
+            let taken = atoms(queue.split_off(count));
+            prop_assert_eq!(taken.len(), all.len().min(count as usize));
+            let kept: Vec<Atom> = std::iter::from_fn(|| queue.pop()).collect();
+            prop_assert_eq!([kept, taken].concat(), all);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The child of the article's §8, with its worker's pipe.
+
+use crate::balance::message::{Action, Event, Message, NodeId, Party};
+use crate::balance::work::Work;
+use crate::time::Time;
+
+use super::share;
+
+/// A node of the ring.
+#[derive(Debug)]
+pub struct Node {
+    id: NodeId,
+    left: NodeId,
+    part: u32,
+    work: Work,
+    state: State,
+}
+
+/// An offer of help: the token.
+#[derive(Clone, Copy, Debug)]
+struct Offer {
+    who: NodeId,
+    done: u32,
+}
+
+/// Where a node stands; the README tells how one state follows another.
+#[derive(Debug)]
+enum State {
+    /// Its band has not come yet; offers that have are kept until then.
+    Waiting { early: Vec<Offer> },
+    /// It has atoms.
+    Busy,
+    /// It has none, and its own offer is under way.
+    Offering,
+    /// Its own offer came back.
+    Retired,
+}
+
+impl Node {
+    /// Node `id` of `nodes`. An offer is worth taking if it moves at least `part` atoms (0 counts as 1).
+    pub fn new(id: NodeId, nodes: NodeId, part: u32) -> Self {
+        assert!(id < nodes, "node {id} is not in a ring of {nodes}");
+        let left = if id == 0 { nodes - 1 } else { id - 1 };
+        Self { id, left, part: part.max(1), work: Work::default(), state: State::Waiting { early: Vec::new() } }
+    }
+
+    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    ///
+    /// # Panics
+    /// If the event is impossible: something that no parent or node of the same ring can have sent.
+    pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
+        match event {
+            Event::Message { message, .. } => self.receive(message, actions),
+            Event::AtomDone { atom, .. } => {
+                self.work.atom_done(now, atom, actions);
+                if self.work.is_idle() {
+                    self.offer(actions);
+                    self.work.send_results(actions);
+                }
+            }
+            Event::Timer => self.work.send_results(actions),
+            Event::Started => unreachable!("only the parent is started"),
+        }
+    }
+
+    fn receive(&mut self, message: Message, actions: &mut Vec<Action>) {
+        match message {
+            Message::Band(band) => {
+                let State::Waiting { early } = std::mem::replace(&mut self.state, State::Busy) else {
+                    unreachable!("node {} was given a second band", self.id);
+                };
+                self.work.add([band], actions);
+                if self.work.is_idle() {
+                    self.offer(actions);
+                }
+                early.into_iter().for_each(|offer| self.weigh(offer, actions));
+            }
+            Message::Transfer(ranges) => {
+                assert!(matches!(self.state, State::Offering), "node {} was sent atoms it did not ask for", self.id);
+                self.state = State::Busy;
+                self.work.add(ranges, actions);
+            }
+            Message::Offer { who, done } if who == self.id => {
+                assert!(matches!(self.state, State::Offering), "node {}'s offer of {done} came back twice", self.id);
+                self.state = State::Retired;
+                actions.push(Action::Retire);
+            }
+            Message::Offer { who, done } => {
+                let offer = Offer { who, done };
+                match &mut self.state {
+                    State::Waiting { early } => early.push(offer),
+                    _ => self.weigh(offer, actions),
+                }
+            }
+            Message::Shutdown => actions.push(Action::Finish),
+            Message::Results(_) => unreachable!("results go to the parent"),
+        }
+    }
+
+    /// Takes another's offer if that is worth it, else passes it on.
+    fn weigh(&mut self, offer: Offer, actions: &mut Vec<Action>) {
+        let count = share(self.work.waiting(), self.work.traced(), offer.done, self.part);
+        if count > 0 {
+            let message = Message::Transfer(self.work.give(count));
+            actions.push(Action::Send { to: Party::Node(offer.who), message });
+        } else {
+            self.send_left(offer, actions);
+        }
+    }
+
+    fn offer(&mut self, actions: &mut Vec<Action>) {
+        self.state = State::Offering;
+        self.send_left(Offer { who: self.id, done: self.work.traced() }, actions);
+    }
+
+    fn send_left(&self, Offer { who, done }: Offer, actions: &mut Vec<Action>) {
+        actions.push(Action::Send { to: Party::Node(self.left), message: Message::Offer { who, done } });
+    }
+}

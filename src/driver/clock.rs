@@ -1,0 +1,112 @@
+//! The run's clock: the only place in the driver that reads the computer's.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::Instant;
+
+use crate::time::Time;
+
+/// What [`Clock::frozen`] holds while the clock runs.
+const RUNNING: u64 = u64::MAX;
+
+/// A clock that can be paused. Reading it takes no lock, since nodes at full speed read it twice an atom.
+#[derive(Debug)]
+pub(super) struct Clock {
+    start: Instant,
+    /// Nanoseconds spent in pauses that are over.
+    lost: AtomicU64,
+    /// The time at which the clock stands still, or [`RUNNING`].
+    frozen: AtomicU64,
+    paused: Mutex<bool>,
+    resumed: Condvar,
+}
+
+impl Clock {
+    /// A clock that starts now, at [`Time::ZERO`].
+    #[expect(clippy::disallowed_methods, reason = "the run's clock")]
+    pub fn start() -> Self {
+        Self {
+            start: Instant::now(),
+            lost: AtomicU64::new(0),
+            frozen: AtomicU64::new(RUNNING),
+            paused: Mutex::new(false),
+            resumed: Condvar::new(),
+        }
+    }
+
+    /// The time since the start, without the pauses.
+    pub fn now(&self) -> Time {
+        loop {
+            let frozen = self.frozen.load(Ordering::SeqCst);
+            if frozen != RUNNING {
+                return Time(frozen);
+            }
+            let lost = self.lost.load(Ordering::SeqCst);
+            let now = self.elapsed() - lost;
+            // A pause that began meanwhile would have this reading lie beyond it.
+            if self.frozen.load(Ordering::SeqCst) == RUNNING && self.lost.load(Ordering::SeqCst) == lost {
+                return Time(now);
+            }
+        }
+    }
+
+    /// Makes the clock stand still, unless it does.
+    pub fn pause(&self) {
+        let mut paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*paused {
+            self.frozen.store(self.now().0, Ordering::SeqCst);
+            *paused = true;
+        }
+    }
+
+    /// Lets the clock go on from where it stands, unless it does.
+    pub fn resume(&self) {
+        let mut paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
+        if *paused {
+            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
+            self.lost.store(self.elapsed() - self.frozen.load(Ordering::SeqCst), Ordering::SeqCst);
+            self.frozen.store(RUNNING, Ordering::SeqCst);
+            *paused = false;
+            self.resumed.notify_all();
+        }
+    }
+
+    /// Whether the clock stands still.
+    pub fn is_paused(&self) -> bool {
+        self.frozen.load(Ordering::SeqCst) != RUNNING
+    }
+
+    /// Blocks until the clock runs.
+    pub fn wait_until_resumed(&self) {
+        let paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
+        // The lock has nothing to protect but the waiting, so that a panic elsewhere does no harm to it.
+        let _running = self.resumed.wait_while(paused, |paused| *paused);
+    }
+
+    /// Nanoseconds since the start, pauses included: enough for 584 years.
+    fn elapsed(&self) -> u64 {
+        self.start.elapsed().as_nanos() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn stands_still_while_paused_and_goes_on_from_there() {
+        let clock = Clock::start();
+        clock.pause();
+        let paused = clock.now();
+        std::thread::sleep(Duration::from_millis(30));
+        clock.pause();
+        assert_eq!(clock.now(), paused);
+        clock.resume();
+        let resumed = clock.now();
+        assert!(paused <= resumed);
+        // The 30 ms of the pause have passed on the computer's clock only.
+        let both = Time(clock.elapsed());
+        assert!(both.since(resumed) >= Duration::from_millis(30));
+    }
+}

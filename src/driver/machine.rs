@@ -1,0 +1,155 @@
+//! The emulated machine: how long its worker takes for what the thread has already done.
+
+use std::time::Duration;
+
+use crate::time::Time;
+
+/// How far a machine may be behind the run's clock and still make up for it. Threads wake late and lose their core for
+/// a while; more than this means that the computer is too slow for the machines, and then the run takes longer.
+const MOST_LATE: Duration = Duration::from_millis(50);
+
+/// The pace that lets machines of these `speeds` be emulated on a computer of `cores` cores: 1, no waiting at all, if
+/// every speed is 1; else what leaves 0.6 of the computer idle, since at twice that load the threads get in each
+/// other's way and that alone costs 1–2 %.
+pub fn auto_pace(speeds: &[f64], cores: usize) -> f64 {
+    let sum: f64 = speeds.iter().sum();
+    if speeds.iter().all(|&speed| speed == 1.0) { 1.0 } else { (0.4 * cores as f64 / sum).min(1.0) }
+}
+
+/// One machine's worker. Work is measured in CPU seconds of this computer, of which the machine does
+/// speed × pace in a second.
+#[derive(Debug)]
+pub(super) struct Machine {
+    pace: f64,
+    rate: f64,
+    time: Time,
+    /// Work of the piece in hand that is left at `time`, in CPU seconds.
+    left: f64,
+}
+
+impl Machine {
+    /// A machine without work at [`Time::ZERO`]. `speed` is a fraction of the reference machine's, which gets the
+    /// fraction `pace` of a core.
+    pub fn new(speed: f64, pace: f64) -> Self {
+        Self { pace, rate: rate(speed, pace), time: Time::ZERO, left: 0.0 }
+    }
+
+    /// The machine's own time: up to here it has done what it had to.
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// Whether the machine is this computer itself: then it waits for nothing, and its times are real.
+    pub fn is_full(&self) -> bool {
+        self.rate >= 1.0
+    }
+
+    /// Whether its worker stands still.
+    pub fn is_stopped(&self) -> bool {
+        self.rate == 0.0
+    }
+
+    /// When the machine can begin something that it could have had since `available`: at once if it is idle. The
+    /// clock shows `now`.
+    pub fn ready(&self, available: Time, now: Time) -> Time {
+        if self.is_full() { now } else { self.time.max(available).max(now - MOST_LATE) }
+    }
+
+    /// Takes a piece of work in hand at `start`.
+    pub fn begin(&mut self, start: Time, work: Duration) {
+        self.time = start;
+        self.left = work.as_secs_f64();
+    }
+
+    /// When the piece in hand will be done; `None` if never, at the present speed.
+    pub fn due(&self) -> Option<Time> {
+        if self.left == 0.0 {
+            return Some(self.time);
+        }
+        (!self.is_stopped()).then(|| self.time + Duration::from_nanos(Time::from_secs(self.left / self.rate).0))
+    }
+
+    /// The piece in hand is done at `at`.
+    pub fn finish(&mut self, at: Time) {
+        self.time = at;
+        self.left = 0.0;
+    }
+
+    /// Changes the speed at `at`: what is left of the piece in hand goes on at the new one.
+    pub fn set_speed(&mut self, speed: f64, at: Time) {
+        let done = at.since(self.time).as_secs_f64() * self.rate;
+        self.left = (self.left - done).max(0.0);
+        self.time = self.time.max(at);
+        self.rate = rate(speed, self.pace);
+    }
+}
+
+fn rate(speed: f64, pace: f64) -> f64 {
+    // In this order NaN becomes 0: a machine that stands still.
+    (speed * pace).max(0.0).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn secs(secs: f64) -> Option<Time> {
+        Some(Time::from_secs(secs))
+    }
+
+    #[test]
+    fn work_takes_longer_on_a_slow_machine() {
+        let mut machine = Machine::new(0.5, 0.5);
+        machine.begin(Time::from_secs(1.0), Duration::from_secs(1));
+        assert_eq!(machine.due(), secs(5.0));
+    }
+
+    #[test]
+    fn a_new_speed_is_for_what_is_left() {
+        let mut machine = Machine::new(0.5, 1.0);
+        machine.begin(Time::ZERO, Duration::from_secs(1));
+        machine.set_speed(0.25, Time::from_secs(1.0));
+        assert_eq!(machine.due(), secs(3.0));
+        machine.set_speed(0.0, Time::from_secs(2.0));
+        assert_eq!(machine.due(), None);
+        machine.set_speed(0.125, Time::from_secs(7.0));
+        assert_eq!(machine.due(), secs(9.0));
+    }
+
+    #[test]
+    fn lateness_is_made_up_within_bounds() {
+        let mut machine = Machine::new(0.5, 1.0);
+        machine.finish(Time::from_secs(1.0));
+        let ready = |available, now| machine.ready(Time::from_secs(available), Time::from_secs(now)).secs();
+        assert_eq!([ready(0.5, 1.01), ready(1.25, 1.25), ready(0.5, 2.05)], [1.0, 1.25, 2.0]);
+        assert_eq!(Machine::new(1.0, 1.0).ready(Time::ZERO, Time::from_secs(3.0)).secs(), 3.0);
+    }
+
+    #[test]
+    fn auto_pace_waits_only_where_a_machine_is_throttled() {
+        assert_eq!(auto_pace(&[1.0; 8], 2), 1.0);
+        assert_eq!(auto_pace(&[1.0, 1.0, 1.0, 0.2], 2), 0.25);
+        assert_eq!(auto_pace(&[0.1], 64), 1.0);
+        assert_eq!(auto_pace(&[0.0, 0.0], 2), 1.0);
+    }
+
+    proptest! {
+        /// However often the speed swings, the work done is the integral of the rate.
+        #[test]
+        fn swinging_speeds_do_the_work_once(swings in prop::collection::vec((0.01f64..0.2, 0.0f64..1.0), 0..20)) {
+            let mut machine = Machine::new(0.3, 0.5);
+            machine.begin(Time::ZERO, Duration::from_secs(10));
+            let (mut at, mut left, mut rate) = (0.0, 10.0, 0.15);
+            for (later, speed) in swings {
+                at += later;
+                left -= later * rate;
+                rate = speed * 0.5;
+                machine.set_speed(speed, Time::from_secs(at));
+            }
+            machine.set_speed(0.5, Time::from_secs(at));
+            let due = machine.due().unwrap().secs();
+            prop_assert!((due - (at + left / 0.25)).abs() < 1e-6, "{due}");
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! A party's end of everything: the messages that it sends and gets, its time, and its records.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender};
+
+use super::Update;
+use super::clock::Clock;
+use super::link::Link;
+use crate::balance::{Event, Message, Party};
+use crate::picture::{Colour, Division};
+use crate::record::{Record, What};
+use crate::runlog::Header;
+use crate::time::Time;
+
+/// How long records (and placed pixels) wait at most before they leave their thread.
+const FLUSH: Duration = Duration::from_millis(15);
+
+/// The run was stopped from outside, or another party's thread has panicked.
+#[derive(Debug)]
+pub(super) struct Stopped;
+
+/// What all parties of a run share.
+pub(super) struct Shared {
+    pub clock: Clock,
+    /// By node, and the parent's last.
+    inboxes: Vec<Sender<Parcel>>,
+    stopped: AtomicBool,
+    next_id: AtomicU64,
+    /// Of every link, in nanoseconds.
+    latency: AtomicU64,
+    bandwidth: Option<f64>,
+    division: Division,
+    scene_bytes: u64,
+}
+
+impl Shared {
+    /// What the parties share, and their inboxes: by node, and the parent's last.
+    pub fn new(header: &Header) -> (Self, Vec<Receiver<Parcel>>) {
+        // Unbounded, so that no party ever waits for another; `balance::ring` argues how little is in flight.
+        let (inboxes, receivers) = (0..=header.speeds.len()).map(|_| crossbeam_channel::unbounded()).unzip();
+        let shared = Self {
+            clock: Clock::start(),
+            inboxes,
+            stopped: AtomicBool::new(false),
+            next_id: AtomicU64::new(0),
+            latency: AtomicU64::new(0),
+            bandwidth: header.link.bandwidth,
+            division: header.division,
+            scene_bytes: header.scene_bytes,
+        };
+        shared.set_latency(header.link.latency);
+        (shared, receivers)
+    }
+
+    /// Sets the latency of every link for the messages that leave from now on.
+    pub fn set_latency(&self, latency: Duration) {
+        self.latency.store(u64::try_from(latency.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
+    }
+
+    /// Sets a machine's speed; a node that has ended, or never was, does not mind.
+    pub fn set_speed(&self, node: usize, speed: f64) {
+        if node + 1 < self.inboxes.len() {
+            self.deliver(node, self.clock.now(), Content::Speed(speed));
+        }
+    }
+
+    /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
+    pub fn stop(&self) {
+        self.stopped.store(true, Ordering::SeqCst);
+        self.clock.resume();
+        (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
+    }
+
+    /// Whether [`Shared::stop`] was called.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::SeqCst)
+    }
+
+    fn index(&self, party: Party) -> usize {
+        match party {
+            Party::Node(node) => usize::from(node),
+            Party::Parent => self.inboxes.len() - 1,
+        }
+    }
+
+    fn deliver(&self, to: usize, due: Time, content: Content) -> u64 {
+        let id = self.next_id.fetch_add(1, Ordering::Relaxed);
+        // A party that has ended no longer listens: what still comes its way is void.
+        let _ = self.inboxes[to].send(Parcel { due, id, content });
+        id
+    }
+}
+
+/// Something on its way to a party.
+pub(super) struct Parcel {
+    due: Time,
+    id: u64,
+    content: Content,
+}
+
+enum Content {
+    Message {
+        from: Party,
+        message: Message,
+        /// Of the atoms of [`Message::Results`], in their order.
+        pixels: Vec<Colour>,
+    },
+    Speed(f64),
+    /// Nothing but a reason to look whether the run was stopped.
+    Wake,
+}
+
+/// What happens to a party next.
+pub(super) enum Incoming {
+    /// To be handed to the protocol, with the pixels of results.
+    Event(Event, Vec<Colour>),
+    /// The machine's speed was changed.
+    Speed(f64),
+}
+
+/// One party's port; it lives on the party's thread.
+pub(super) struct Port<'run> {
+    pub shared: &'run Shared,
+    me: Party,
+    inbox: Receiver<Parcel>,
+    /// What has come but is not due yet, the earliest on top.
+    held: BinaryHeap<Reverse<Parcel>>,
+    /// By party, as `Shared::inboxes`.
+    links: Vec<Link>,
+    timer: Option<Time>,
+    handling: Duration,
+    /// Whether what is handled late is dated back to when it was due.
+    backdates: bool,
+    time: Time,
+    updates: Sender<Update>,
+    records: Vec<Record>,
+    flushed: Time,
+}
+
+impl<'run> Port<'run> {
+    /// The port of `me`, whose messages come out of `inbox`.
+    pub fn new(
+        me: Party,
+        header: &Header,
+        shared: &'run Shared,
+        inbox: Receiver<Parcel>,
+        updates: Sender<Update>,
+    ) -> Self {
+        Self {
+            shared,
+            me,
+            inbox,
+            held: BinaryHeap::new(),
+            links: vec![Link::default(); shared.inboxes.len()],
+            timer: None,
+            handling: if me == Party::Parent { header.handling } else { Duration::ZERO },
+            // Emulated machines make up for threads that wake late. Where all are this computer itself, late is late.
+            backdates: header.pace < 1.0 || header.speeds.iter().any(|&speed| speed < 1.0),
+            time: Time::ZERO,
+            updates,
+            records: Vec::new(),
+            flushed: Time::ZERO,
+        }
+    }
+
+    /// The party's own time, at which it acts. It never goes back.
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// Moves the party's time on to `to`, if that is later.
+    pub fn advance(&mut self, to: Time) {
+        self.time = self.time.max(to);
+    }
+
+    /// Adds a record of what happens at the party's time; returns its index, good until the next flush.
+    pub fn record(&mut self, what: What) -> usize {
+        self.records.push(Record { at: self.time, what });
+        self.records.len() - 1
+    }
+
+    /// A record that has not been flushed yet.
+    pub fn recorded(&mut self, index: usize) -> &mut What {
+        &mut self.records[index].what
+    }
+
+    /// Sends a message at the party's time, with the pixels of the atoms in it.
+    pub fn send(&mut self, to: Party, message: Message, pixels: Vec<Colour>) {
+        let shared = self.shared;
+        let bytes = message.bytes(shared.division, shared.scene_bytes);
+        let latency = Duration::from_nanos(shared.latency.load(Ordering::Relaxed));
+        let receiver = shared.index(to);
+        let arrives = self.links[receiver].arrival(self.time, bytes, latency, shared.bandwidth);
+        let content = Content::Message { from: self.me, message: message.clone(), pixels };
+        let id = shared.deliver(receiver, arrives, content);
+        self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
+    }
+
+    /// Makes [`Port::next`] return [`Event::Timer`] at `at`; a later call replaces an earlier one.
+    pub fn set_timer(&mut self, at: Time) {
+        self.timer = Some(at);
+    }
+
+    /// What happens next, if it happens until `horizon`; the party's time is then when it does.
+    pub fn next(&mut self, horizon: Time) -> Option<Incoming> {
+        while let Ok(parcel) = self.inbox.try_recv() {
+            self.hold(parcel);
+        }
+        let (timer, handled) = (self.timer, self.handled());
+        if let Some(timer) = timer.filter(|&timer| timer <= horizon && handled.is_none_or(|other| timer <= other)) {
+            self.timer = None;
+            self.advance(timer);
+            return Some(Incoming::Event(Event::Timer, Vec::new()));
+        }
+        let at = handled.filter(|&at| at <= horizon)?;
+        self.advance(if self.backdates { at } else { horizon });
+        let Reverse(Parcel { id, content, .. }) = self.held.pop()?;
+        match content {
+            Content::Message { from, message, pixels } => {
+                self.record(What::Received { id, by: self.me });
+                Some(Incoming::Event(Event::Message { from, message }, pixels))
+            }
+            Content::Speed(speed) => Some(Incoming::Speed(speed)),
+            Content::Wake => None,
+        }
+    }
+
+    /// To be called before every step: blocks while the run is paused, flushes when it is time, and fails if the run
+    /// was stopped. Returns the clock's time.
+    pub fn step(&mut self, flush: impl FnOnce(&mut Self)) -> Result<Time, Stopped> {
+        let clock = &self.shared.clock;
+        let paused = clock.is_paused();
+        let mut now = clock.now();
+        if paused || now.since(self.flushed) >= FLUSH {
+            self.flushed = now;
+            flush(self);
+        }
+        if paused {
+            clock.wait_until_resumed();
+            now = clock.now();
+        }
+        if self.shared.is_stopped() { Err(Stopped) } else { Ok(now) }
+    }
+
+    /// Blocks until something comes in or is due, or until `until`, or until it is time to flush.
+    pub fn wait(&mut self, until: Option<Time>) {
+        let flush = (!self.records.is_empty()).then_some(self.flushed + FLUSH);
+        let wake = [until, self.timer, self.handled(), flush].into_iter().flatten().min();
+        let came = match wake {
+            Some(wake) => self.inbox.recv_timeout(wake.since(self.shared.clock.now())).ok(),
+            // Every thread of the run holds senders of all inboxes, so that none is ever disconnected.
+            None => self.inbox.recv().ok(),
+        };
+        came.into_iter().for_each(|parcel| self.hold(parcel));
+    }
+
+    /// Hands the records to whoever started the run.
+    pub fn flush(&mut self) {
+        if !self.records.is_empty() {
+            let records = std::mem::take(&mut self.records);
+            self.update(Update::Records(records));
+        }
+    }
+
+    /// Tells whoever started the run; that nobody listens any more does no harm.
+    pub fn update(&self, update: Update) {
+        let _ = self.updates.send(update);
+    }
+
+    fn hold(&mut self, parcel: Parcel) {
+        if !matches!(parcel.content, Content::Wake) {
+            self.held.push(Reverse(parcel));
+        }
+    }
+
+    /// When the party will have handled the next parcel held: it begins as soon as the parcel is due and the one
+    /// before is done with, and takes its handling time.
+    fn handled(&self) -> Option<Time> {
+        let Reverse(next) = self.held.peek()?;
+        Some(if self.handling.is_zero() { next.due } else { next.due.max(self.time) + self.handling })
+    }
+}
+
+impl PartialEq for Parcel {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Parcel {}
+
+impl PartialOrd for Parcel {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Parcel {
+    /// The earlier first; of those due at once, the one sent first.
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        (self.due, self.id).cmp(&(other.due, other.id))
+    }
+}

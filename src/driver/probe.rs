@@ -1,0 +1,95 @@
+//! A look at what the picture will cost, before it is traced.
+
+use std::time::Duration;
+
+use super::meter::Meter;
+use crate::picture::{Atom, Division};
+use crate::tracer::{Scratch, Tracer};
+
+/// The budget is checked after at most this many pixels.
+const PIECE: usize = 64;
+
+/// What a sample of the atoms costs, serially.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// The atoms that were traced whole, spread evenly over the picture, with their CPU times.
+    pub atoms: Vec<(Atom, Duration)>,
+    /// The estimated CPU time of the whole picture.
+    pub whole: Duration,
+}
+
+/// Traces atoms spread evenly over the picture, on this thread, until `budget` of CPU time is used up or every atom
+/// is traced. At least a few pixels are traced in any case.
+pub fn probe(tracer: &Tracer, division: Division, budget: Duration) -> Probe {
+    let (mut meter, mut scratch, mut pixels) = (Meter::new(), Scratch::default(), Vec::new());
+    let (mut atoms, mut used, mut traced) = (Vec::new(), Duration::ZERO, 0u64);
+    'atoms: for atom in spread(division.atoms()) {
+        let range = division.pixels(atom);
+        let mut cost = Duration::ZERO;
+        for start in range.clone().step_by(PIECE) {
+            if traced > 0 && used >= budget {
+                break 'atoms;
+            }
+            pixels.clear();
+            meter.lap();
+            tracer.trace(start..range.end.min(start + PIECE as u32), &mut scratch, &mut pixels);
+            let piece = meter.lap();
+            (cost, used, traced) = (cost + piece, used + piece, traced + pixels.len() as u64);
+        }
+        atoms.push((atom, cost));
+    }
+    let all = division.pixels_in(&(0..division.atoms()));
+    let whole = if traced == 0 { Duration::ZERO } else { used.mul_f64(f64::from(all) / traced as f64) };
+    Probe { atoms, whole }
+}
+
+/// Every atom once, in van der Corput's order: however many are taken, they are spread evenly.
+fn spread(atoms: u32) -> impl Iterator<Item = Atom> {
+    let bits = atoms.next_power_of_two().trailing_zeros();
+    // With 0 bits there is one atom at most, and the shift by 32 would overflow.
+    (0..1u64 << bits)
+        .map(move |k| (k as u32).reverse_bits().checked_shr(32 - bits).unwrap_or(0))
+        .filter(move |&atom| atom < atoms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Size;
+    use crate::scene::{Scene, built_in};
+    use crate::tracer::Quality;
+
+    fn tracer(size: Size) -> Tracer {
+        let scene = Scene::parse(built_in("ten-objects").unwrap()).unwrap();
+        Tracer::new(&scene, size, Quality::default())
+    }
+
+    #[test]
+    fn every_atom_comes_once_and_any_beginning_is_spread_evenly() {
+        for atoms in [0, 1, 2, 3, 100, 1000] {
+            let mut order: Vec<_> = spread(atoms).collect();
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..atoms));
+        }
+        for part in 1..64 {
+            let upper = spread(1024).take(part).filter(|&atom| atom >= 512).count();
+            assert!(upper.abs_diff(part - upper) <= 1);
+        }
+    }
+
+    #[test]
+    fn without_limit_the_estimate_is_the_sum() {
+        let size = Size::new(40, 30).unwrap();
+        let found = probe(&tracer(size), Division::new(size.pixels(), 50), Duration::MAX);
+        assert_eq!(found.atoms.len(), 24);
+        let sum: Duration = found.atoms.iter().map(|(_, cost)| *cost).sum();
+        assert!(sum > Duration::ZERO && found.whole.abs_diff(sum) < Duration::from_nanos(100));
+    }
+
+    #[test]
+    fn the_budget_cuts_a_large_atom_short() {
+        let size = Size::new(400, 300).unwrap();
+        let found = probe(&tracer(size), Division::new(size.pixels(), u32::MAX), Duration::ZERO);
+        assert!(found.atoms.is_empty() && found.whole > Duration::ZERO);
+    }
+}

@@ -1,0 +1,277 @@
+//! The run file: JSON lines, first the header and then a line a record.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use tempfile::NamedTempFile;
+use thiserror::Error;
+
+use super::{Header, RunLog, check};
+use crate::record::Record;
+
+/// The version of the format that this program writes, and the only one that it reads.
+const VERSION: u32 = 1;
+
+/// Why a run file could not be written or read.
+#[derive(Debug, Error)]
+pub enum LogError {
+    /// The file could not be written; nothing was kept.
+    #[error("writing {path} failed, nothing was kept: {source}")]
+    Write {
+        /// Where the log was to go.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file could not be read.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// Where the log was to come from.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is not a run file, or a damaged one.
+    #[error("{path}, line {line}: {why}")]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        why: String,
+    },
+}
+
+/// The first line.
+#[derive(Serialize, Deserialize)]
+struct FirstLine<H> {
+    /// The version: a file without this field is not a run file.
+    anel_run: u32,
+    header: H,
+}
+
+impl RunLog {
+    /// Writes the log. The file appears whole under its name or not at all; one that was there before stays until
+    /// then.
+    ///
+    /// # Errors
+    /// [`LogError::Write`] with what the system said.
+    pub fn save(&self, path: &Path) -> Result<(), LogError> {
+        let write = || {
+            let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            let mut file = temporary_in(directory)?;
+            let mut buffer = BufWriter::new(file.as_file_mut());
+            write_line(&mut buffer, &FirstLine { anel_run: VERSION, header: &self.header })?;
+            for record in self.records() {
+                write_line(&mut buffer, record)?;
+            }
+            buffer.flush()?;
+            drop(buffer);
+            // A disk that fills may say so only here.
+            file.as_file().sync_all()?;
+            file.persist(path)?;
+            Ok(())
+        };
+        write().map_err(|source| LogError::Write { path: path.to_owned(), source })
+    }
+
+    /// Reads a log that [`RunLog::save`] has written.
+    ///
+    /// # Errors
+    /// [`LogError::Read`] with what the system said; [`LogError::Line`] with the first line that is wrong.
+    pub fn load(path: &Path) -> Result<Self, LogError> {
+        let read = |source| LogError::Read { path: path.to_owned(), source };
+        let wrong = |line, why| LogError::Line { path: path.to_owned(), line, why };
+        let mut lines = BufReader::new(File::open(path).map_err(read)?).lines();
+        let first = match lines.next() {
+            // A file that is not text is not a run file either.
+            Some(Err(error)) if error.kind() != io::ErrorKind::InvalidData => return Err(read(error)),
+            Some(Ok(first)) => first,
+            _ => String::new(),
+        };
+        let header = parse_first(&first).map_err(|why| wrong(1, why))?;
+        let mut records: Vec<Record> = Vec::new();
+        for (line, text) in (2..).zip(lines) {
+            let record: Record = match text {
+                Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, what_is_wrong(&error)))?,
+                Err(error) if error.kind() == io::ErrorKind::InvalidData => return Err(wrong(line, error.to_string())),
+                Err(error) => return Err(read(error)),
+            };
+            if records.last().is_some_and(|last| last.at > record.at) {
+                return Err(wrong(line, "this record is earlier than the one before".into()));
+            }
+            check::record(&header, &record).map_err(|why| wrong(line, why))?;
+            records.push(record);
+        }
+        let mut log = Self::new(header);
+        log.add(records);
+        Ok(log)
+    }
+}
+
+fn parse_first(text: &str) -> Result<Header, String> {
+    // First the version, since another version's header may look otherwise.
+    let not_a_run = |_| "this is not a run file of anel".to_owned();
+    let first: FirstLine<serde_json::Value> = serde_json::from_str(text).map_err(not_a_run)?;
+    if first.anel_run != VERSION {
+        return Err(format!("the format's version is {}; this program reads version {VERSION}", first.anel_run));
+    }
+    let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| what_is_wrong(&error))?;
+    check::header(&first.header)?;
+    Ok(first.header)
+}
+
+/// The error without its line, which is always 1, since each line is read by itself.
+fn what_is_wrong(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let what = text.split(" at line ").next().unwrap_or(&text);
+    format!("{what}, at column {}", error.column())
+}
+
+fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *to, line)?;
+    to.write_all(b"\n")
+}
+
+/// A temporary file that removes itself when dropped, readable by others as far as the user's umask allows.
+fn temporary_in(directory: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".anel-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(directory)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Link;
+    use super::super::examples::{done, header};
+    use super::*;
+    use crate::balance::{Message, Party, Strategy as Sharing};
+    use crate::record::What;
+    use crate::time::Time;
+    use proptest::prelude::*;
+    use std::time::Duration;
+
+    /// Of the headers below.
+    const NODES: u16 = 4;
+    const ATOMS: u32 = 20;
+
+    fn parties() -> impl Strategy<Value = Party> {
+        prop_oneof![Just(Party::Parent), (0..NODES).prop_map(Party::Node)]
+    }
+
+    fn messages() -> impl Strategy<Value = Message> {
+        let range = || (0..=ATOMS, 0..=ATOMS).prop_map(|(a, b)| a.min(b)..a.max(b));
+        prop_oneof![
+            range().prop_map(Message::Band),
+            (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::Offer { who, done }),
+            prop::collection::vec(range(), 0..4).prop_map(Message::Transfer),
+            prop::collection::vec(range(), 0..4).prop_map(Message::Results),
+            Just(Message::Shutdown),
+        ]
+    }
+
+    fn happenings() -> impl Strategy<Value = What> {
+        let sent = (any::<(u64, u64)>(), parties(), parties(), messages());
+        prop_oneof![
+            sent.prop_map(|((id, bytes), from, to, message)| {
+                What::Sent { id, from, to, message, bytes, arrives: Time(u64::MAX) }
+            }),
+            (any::<u64>(), parties()).prop_map(|(id, by)| What::Received { id, by }),
+            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomStarted { node, atom }),
+            (0..NODES, 0..ATOMS, any::<Duration>()).prop_map(|(node, atom, cost)| What::AtomDone { node, atom, cost }),
+            (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| What::SpeedSet { node, speed }),
+            (0..NODES).prop_map(|node| What::Retired { node }),
+            Just(What::Finished),
+        ]
+    }
+
+    fn headers() -> impl Strategy<Value = Header> {
+        let numbers = (prop::array::uniform4(0.0..=1.0f64), 1e-6..=1.0f64, prop::option::of(1.0..1e12f64));
+        (".*", any::<(Duration, Duration, u32)>(), numbers).prop_map(
+            |(scene, (latency, handling, part), (speeds, pace, bandwidth))| Header {
+                scene,
+                strategy: Sharing::Serial,
+                pace,
+                link: Link { latency, bandwidth },
+                handling,
+                part,
+                ..header(&speeds)
+            },
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_saved_is_loaded(
+            header in headers(),
+            happenings in prop::collection::vec((any::<u64>(), happenings()), 0..20),
+        ) {
+            let mut log = RunLog::new(header);
+            for (at, what) in happenings {
+                log.add(vec![Record { at: Time(at), what }]);
+            }
+            let directory = tempfile::tempdir().unwrap();
+            let path = directory.path().join("run.jsonl");
+            log.save(&path).unwrap();
+            prop_assert_eq!(RunLog::load(&path).unwrap(), log);
+        }
+    }
+
+    /// What [`RunLog::load`] says of a file with these lines, without the path.
+    fn complaint(text: &[u8]) -> String {
+        let file = NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        let error = RunLog::load(file.path()).unwrap_err().to_string();
+        error.strip_prefix(&format!("{}, ", file.path().display())).unwrap().to_owned()
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        let mut log = RunLog::new(header(&[1.0]));
+        log.add(vec![done(1, 0, 0, 1), done(2, 0, 1, 1)]);
+        let file = NamedTempFile::new().unwrap();
+        log.save(file.path()).unwrap();
+        let text = std::fs::read_to_string(file.path()).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        let with = |line: usize, text: &str| {
+            let mut lines = lines.clone();
+            lines[line - 1] = text;
+            complaint(lines.join("\n").as_bytes())
+        };
+        assert_eq!(complaint(b""), "line 1: this is not a run file of anel");
+        assert_eq!(complaint(b"\x89PNG\xff"), "line 1: this is not a run file of anel");
+        assert_eq!(
+            with(1, r#"{"anel_run":7,"header":null}"#),
+            "line 1: the format's version is 7; this program reads version 1"
+        );
+        assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));
+        assert_eq!(
+            with(1, &lines[0].replace(r#""atom_pixels":5"#, r#""atom_pixels":0"#)),
+            "line 1: the division is not that of a picture of this size"
+        );
+        assert_eq!(with(2, &lines[1].replace(r#""node":0"#, r#""node":1"#)), "line 2: there is no such node");
+        assert_eq!(with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)), "line 2: there is no such atom");
+        assert!(with(3, &lines[2][..30]).starts_with("line 3: EOF while parsing"));
+    }
+
+    #[test]
+    fn records_out_of_order_are_refused_and_a_missing_directory_keeps_nothing() {
+        let mut log = RunLog::new(header(&[1.0]));
+        log.add(vec![done(2, 0, 0, 1)]);
+        let file = NamedTempFile::new().unwrap();
+        log.save(file.path()).unwrap();
+        let mut text = std::fs::read_to_string(file.path()).unwrap();
+        text += &(serde_json::to_string(&done(1, 0, 1, 1)).unwrap() + "\n");
+        assert_eq!(complaint(text.as_bytes()), "line 3: this record is earlier than the one before");
+        let error = log.save(&file.path().join("run.jsonl")).unwrap_err().to_string();
+        assert!(error.contains("failed, nothing was kept"), "{error}");
+    }
+}

@@ -1,0 +1,79 @@
+//! The run log: what a run was asked to do, and what happened, in the order of time.
+
+use super::Header;
+use crate::record::Record;
+
+/// A run's records under its header.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunLog {
+    /// What the run was asked to do.
+    pub header: Header,
+    records: Vec<Record>,
+}
+
+impl RunLog {
+    /// A log in which nothing has happened yet.
+    pub fn new(header: Header) -> Self {
+        Self { header, records: Vec::new() }
+    }
+
+    /// Everything that has happened, in the order of time. Records of one party at the same time stay in the order in
+    /// which the party made them.
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// Sorts a batch of one party's records in. Parties deliver theirs a little late, so that only the log's end is
+    /// touched, and sorting what is made of two sorted runs takes linear time.
+    pub fn add(&mut self, batch: Vec<Record>) {
+        let Some(first) = batch.iter().map(|record| record.at).min() else { return };
+        let untouched = self.records.partition_point(|record| record.at <= first);
+        self.records.extend(batch);
+        self.records[untouched..].sort_by_key(|record| record.at);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::header;
+    use super::*;
+    use crate::balance::Party;
+    use crate::record::What;
+    use crate::time::Time;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn batches_of_several_parties_end_up_in_order(
+            // By party: the batches' times, made to ascend by adding them up.
+            parties in prop::collection::vec(prop::collection::vec(prop::collection::vec(0u64..4, 0..5), 0..5), 1..4),
+        ) {
+            let mut log = RunLog::new(header(&[1.0; 4]));
+            let mut made: Vec<Vec<Record>> = vec![Vec::new(); parties.len()];
+            for round in 0..5 {
+                for (node, batches) in parties.iter().enumerate() {
+                    let Some(batch) = batches.get(round) else { continue };
+                    let mut at = made[node].last().map_or(0, |record: &Record| record.at.0);
+                    let mut records = Vec::new();
+                    for later in batch {
+                        at += later;
+                        // The id tells those made at the same time apart.
+                        let id = (made[node].len() + records.len()) as u64;
+                        let what = What::Received { id, by: Party::Node(node as u16) };
+                        records.push(Record { at: Time(at), what });
+                    }
+                    made[node].extend(records.clone());
+                    log.add(records);
+                }
+            }
+            prop_assert!(log.records().is_sorted_by_key(|record| record.at));
+            for (node, made) in made.into_iter().enumerate() {
+                let by_node = |record: &&Record| {
+                    matches!(record.what, What::Received { by: Party::Node(by), .. } if usize::from(by) == node)
+                };
+                let of_node: Vec<_> = log.records().iter().filter(by_node).cloned().collect();
+                prop_assert_eq!(of_node, made);
+            }
+        }
+    }
+}
