@@ -47,6 +47,11 @@ impl Canvas {
         self.size
     }
 
+    /// What is seen where nothing is.
+    pub fn ground(&self) -> Rgb {
+        self.ground
+    }
+
     /// Takes in traced pixels: `pixels` are those of `atoms`.
     pub fn place(&mut self, atoms: Range<Atom>, pixels: &[Colour]) {
         let start = self.division.pixels(atoms.start).start as usize;

@@ -42,6 +42,8 @@ pub enum Activity {
     Idle,
     /// Its own offer came back: nobody needs it.
     Retired,
+    /// The picture is complete.
+    Done,
 }
 
 impl NodeState {

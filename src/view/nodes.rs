@@ -39,7 +39,7 @@ pub struct Share {
 
 /// A row for each node at `now`.
 pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
-    let now = state.finished().map_or(now, |end| now.min(end));
+    let until = state.finished().map_or(now, |end| now.min(end));
     let most = state.nodes().iter().map(|node| node.done + node.left()).max().unwrap_or(0).max(1) as f32;
     let row = |(node, of): (NodeId, &NodeState)| Row {
         node,
@@ -48,7 +48,7 @@ pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
         left: of.left(),
         done_bar: of.done as f32 / most,
         left_bar: (of.done + of.left()) as f32 / most,
-        idle: if now == Time::ZERO { 0.0 } else { of.idle(now).as_secs_f64().min(now.secs()) / now.secs() },
+        idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
         activity: state.activity(node, now),
     };
     (0..).zip(state.nodes()).map(row).collect()

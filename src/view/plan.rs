@@ -19,18 +19,25 @@ pub(super) struct Plan {
     pub(super) node: f32,
     /// Radius of the parent.
     pub(super) parent: f32,
+    /// Whether there is little room for words.
+    pub(super) small: bool,
 }
+
+/// Below this height there is little room for words.
+const SMALL: f32 = 380.0;
 
 impl Plan {
     /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
     pub(super) fn new(nodes: usize, [width, height]: Point) -> Self {
-        // Beside the rail there is room for a label, above and below it for one of two lines.
-        let rail = (height / 2.0 - 48.0).min(width / 2.0 - 88.0).max(40.0);
+        // Beside the rail there is room for a label, above and below it for one of two lines, or of one line where
+        // there is little.
+        let small = height < SMALL;
+        let rail = (height / 2.0 - if small { 36.0 } else { 48.0 }).min(width / 2.0 - 88.0).max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
         let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
         let seats = rail - node * 1.3 - 8.0;
-        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24 }
+        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, small }
     }
 
     /// A node's direction seen from the centre, clockwise from the right.

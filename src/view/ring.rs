@@ -24,6 +24,9 @@ pub struct Outcome {
     pub efficiency: f64,
 }
 
+/// Beyond this many the labels would run into each other; the rows have the numbers.
+const LABELLED: usize = 16;
+
 /// The ring at `now`, for an area of `size` whose corner is at 0, 0; the text sizes are taken to be in its units.
 pub fn ring(state: &RunState, outcome: Option<Outcome>, now: Time, size: Point) -> Vec<Mark> {
     let plan = Plan::new(state.nodes().len(), size);
@@ -33,8 +36,12 @@ pub fn ring(state: &RunState, outcome: Option<Outcome>, now: Time, size: Point) 
     traffic::results(&plan, state, now, &mut marks);
     traffic::offers(&plan, state, now, &mut marks);
     for (node, of) in (0..).zip(state.nodes()) {
-        draw_node(&plan, node, of, state.activity(node, now), &mut marks);
-        label(&plan, node, of, state.activity(node, now), &mut marks);
+        let activity = state.activity(node, now);
+        draw_node(&plan, node, of, activity, &mut marks);
+        if plan.nodes <= LABELLED {
+            let words = words(state, of, activity);
+            label(&plan, plan.angle(node), words, activity, &mut marks);
+        }
     }
     centre(&plan, state, outcome, &mut marks);
     traffic::parcels(&plan, state, now, &mut marks);
@@ -84,7 +91,7 @@ fn draw_node(plan: &Plan, node: NodeId, of: &NodeState, activity: Activity, mark
     }
     let radius = plan.node * (0.5 + 0.5 * of.speed.clamp(0.0, 1.0).sqrt() as f32);
     let (fill, number) = match activity {
-        Activity::Computing => (1.0, Hue::OnNode(node)),
+        Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
         Activity::Waiting | Activity::Offering | Activity::Idle | Activity::Stopped => (0.18, Hue::Text),
         Activity::Retired => (0.08, Hue::Quiet),
@@ -104,60 +111,63 @@ fn draw_node(plan: &Plan, node: NodeId, of: &NodeState, activity: Activity, mark
     });
 }
 
-/// What a node still has to do and what it does, outside the rail.
-fn label(plan: &Plan, node: NodeId, of: &NodeState, activity: Activity, marks: &mut Vec<Mark>) {
-    // Beyond this many the labels would run into each other; the rows have the numbers.
-    const LABELLED: usize = 16;
-    if plan.nodes > LABELLED {
-        return;
+/// What is said of a node beside it: what it still has to do and what it does; at the end, what it has done.
+fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
+    let left = || format!("{} left", count(of.left()));
+    let done = || format!("{} done", count(of.done));
+    match activity {
+        _ if state.finished().is_some() => {
+            [done(), format!("{:.0} %", f64::from(of.done) / f64::from(state.atoms().max(1)) * 100.0)]
+        }
+        Activity::Retired => [done(), "retired".into()],
+        _ if of.left() == 0 => [activity_word(activity).into(), String::new()],
+        Activity::Receiving => [left(), "receiving".into()],
+        _ if of.speed < 0.995 => [left(), format!("at {:.0} %", of.speed * 100.0)],
+        _ => [left(), String::new()],
     }
-    let angle = plan.angle(node);
-    let (x, y) = (angle.cos(), angle.sin());
-    let [left, top] = plan.at(angle, plan.rail + 18.0);
+}
+
+/// Puts words outside the rail, on one line or two.
+fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activity, marks: &mut Vec<Mark>) {
+    let [x, y] = plan.at(angle, plan.rail + 22.0);
     // To the right of the ring a text begins at its place, to the left it ends there.
-    let anchor = match x {
-        x if x > 0.2 => Anchor::Left,
-        x if x < -0.2 => Anchor::Right,
+    let anchor = match angle.cos() {
+        cos if cos > 0.2 => Anchor::Left,
+        cos if cos < -0.2 => Anchor::Right,
         _ => Anchor::Centre,
     };
-    let top = top + 10.0 * y;
-    let slow = of.speed < 0.995;
-    let (first, strong) = match (of.left(), activity) {
-        (0, Activity::Retired) => (format!("{} done", count(of.done)), false),
-        (0, _) => (activity_word(activity).to_owned(), true),
-        (left, _) => (format!("{} left", count(left)), true),
-    };
-    let second = if slow { format!("at {:.0} %", of.speed * 100.0) } else { String::new() };
-    let second = match activity {
-        Activity::Receiving if !slow => "receiving".to_owned(),
-        Activity::Retired => "retired".to_owned(),
-        _ => second,
-    };
-    let spread = if second.is_empty() { 0.0 } else { 9.0 };
-    let ink = if strong { Hue::Text } else { Hue::Quiet }.full();
-    marks.push(Mark::Label { at: [left, top - spread], anchor, text: first, size: TextSize::Body, ink });
-    if !second.is_empty() {
-        let ink = Hue::Quiet.full();
-        marks.push(Mark::Label { at: [left, top + spread], anchor, text: second, size: TextSize::Small, ink });
+    let two = !second.is_empty() && !plan.small;
+    let y = y + if plan.small { 0.0 } else { 10.0 * angle.sin() };
+    let spread = if two { 9.0 } else { 0.0 };
+    let ink = if activity == Activity::Retired { Hue::Quiet } else { Hue::Text }.full();
+    marks.push(Mark::Label { at: [x, y - spread], anchor, text: first, size: TextSize::Body, ink });
+    if two {
+        let (at, ink) = ([x, y + spread], Hue::Quiet.full());
+        marks.push(Mark::Label { at, anchor, text: second, size: TextSize::Small, ink });
     }
 }
 
 /// The parent, and how far the picture is; when it is done, the result.
 fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut Vec<Mark>) {
     let [x, y] = plan.centre;
+    let large = (plan.rail * 0.15).clamp(14.0, 40.0);
     let mut text = |dy: f32, text: String, size: TextSize, hue: Hue| {
         marks.push(Mark::Label { at: [x, y + dy], anchor: Anchor::Centre, text, size, ink: hue.full() });
     };
     if let Some(Outcome { makespan, efficiency }) = outcome {
-        text(-38.0, format!("{:.1} s", makespan.as_secs_f64()), TextSize::Large, Hue::Text);
-        text(-14.0, "from start to finish".into(), TextSize::Small, Hue::Quiet);
-        text(20.0, format!("{:.0} %", efficiency * 100.0), TextSize::Large, Hue::Text);
-        text(44.0, "efficiency".into(), TextSize::Small, Hue::Quiet);
+        let large = large * 1.1;
+        text(-large * 1.3, format!("{:.1} s", makespan.as_secs_f64()), TextSize::Fit(large), Hue::Text);
+        text(-large * 0.45, "start to finish".into(), TextSize::Small, Hue::Quiet);
+        text(large * 0.65, format!("{:.0} %", efficiency * 100.0), TextSize::Fit(large), Hue::Text);
+        text(large * 1.5, "efficiency".into(), TextSize::Small, Hue::Quiet);
         return;
     }
     let done = state.done() as f32 / state.atoms().max(1) as f32;
-    text(-7.0, format!("{:.0} %", (done * 100.0).floor()), TextSize::Large, Hue::Text);
-    text(17.0, "parent".into(), TextSize::Small, Hue::Quiet);
+    let lift = if plan.small { 0.0 } else { large * 0.25 };
+    text(-lift, format!("{:.0} %", (done * 100.0).floor()), TextSize::Fit(large), Hue::Text);
+    if !plan.small {
+        text(large * 0.6, "parent".into(), TextSize::Small, Hue::Quiet);
+    }
     let points = Plan::arc(plan.centre, plan.parent, 0.0, TAU);
     marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });
     if done > 0.0 {

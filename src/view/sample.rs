@@ -82,7 +82,12 @@ impl<'a> Sample<'a> {
                 self.note(at, What::AtomDone { node, atom, cost: COST });
                 self.done[usize::from(node)] += 1;
                 self.queues[usize::from(node)].pop_front();
-                self.send(at, Party::Node(node), Party::Parent, Message::Results(std::iter::once(atom..atom + 1).collect()));
+                self.send(
+                    at,
+                    Party::Node(node),
+                    Party::Parent,
+                    Message::Results(std::iter::once(atom..atom + 1).collect()),
+                );
                 self.go_on(at, node);
             }
         }

@@ -144,7 +144,9 @@ impl RunState {
         // What lasts only an instant is shown for as long as it is drawn.
         let offers =
             self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.presence(now) > 0.4);
-        if state.retired {
+        if self.finished.is_some_and(|end| end <= now) {
+            Activity::Done
+        } else if state.retired {
             Activity::Retired
         } else if !state.has_band {
             Activity::Waiting

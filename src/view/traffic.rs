@@ -67,7 +67,7 @@ pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
 fn lane_offset(lane: usize) -> f32 {
     let lane = lane % 8;
-    let out = lane.div_ceil(2) as f32 * 5.0;
+    let out = lane.div_ceil(2) as f32 * 4.0;
     if lane % 2 == 1 { out } else { -out }
 }
 

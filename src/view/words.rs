@@ -37,7 +37,7 @@ impl Narrator {
 
     /// What is to be read at `now`: the last event while it is fresh, else how things stand.
     pub fn sentence(&self, state: &RunState, now: Time) -> String {
-        const FRESH: Duration = Duration::from_secs(4);
+        const FRESH: Duration = Duration::from_secs(3);
         match &self.told {
             Some(told) if now < told.at + FRESH || state.finished().is_some() => told.sentence.clone(),
             _ => standing(state),
@@ -73,6 +73,7 @@ pub fn activity_word(activity: Activity) -> &'static str {
         Activity::Receiving => "receiving",
         Activity::Idle => "idle",
         Activity::Retired => "retired",
+        Activity::Done => "done",
     }
 }
 
