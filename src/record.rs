@@ -35,7 +35,7 @@ pub enum What {
         message: Message,
         /// Its weight on the wire ([`Message::bytes`]).
         bytes: u64,
-        /// When the link delivers it; the receiver may handle it a little later.
+        /// When the link delivers it, always after [`Record::at`]; the receiver may handle it a little later.
         arrives: Time,
     },
     /// A message was handled by its receiver.

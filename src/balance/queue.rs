@@ -18,8 +18,10 @@ impl Queue {
     }
 
     /// Appends atoms at the back.
-    pub fn push(&mut self, ranges: impl IntoIterator<Item = Range<Atom>>) {
-        self.ranges.extend(ranges.into_iter().filter(|range| !range.is_empty()));
+    pub fn push(&mut self, range: Range<Atom>) {
+        if !range.is_empty() {
+            self.ranges.push_back(range);
+        }
     }
 
     /// Takes the atom at the front.
@@ -40,7 +42,7 @@ impl Queue {
         {
             let cut = last.end - count.min(last.end - last.start);
             count -= last.end - cut;
-            self.push([last.start..cut]);
+            self.push(last.start..cut);
             taken.push_front(cut..last.end);
         }
         taken.into()
@@ -64,7 +66,7 @@ mod tests {
         ) {
             let all = atoms(ranges.clone());
             let mut queue = Queue::default();
-            queue.push(ranges);
+            ranges.into_iter().for_each(|range| queue.push(range));
             prop_assert_eq!(queue.len() as usize, all.len());
             let taken = atoms(queue.split_off(count));
             prop_assert_eq!(taken.len(), all.len().min(count as usize));

@@ -43,7 +43,7 @@ impl Work {
 
     /// Queues atoms and fills the pipe.
     pub fn add(&mut self, ranges: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
-        self.queue.push(ranges);
+        ranges.into_iter().for_each(|range| self.queue.push(range));
         self.fill_pipe(actions);
     }
 

@@ -85,8 +85,9 @@ impl Machine {
 }
 
 fn rate(speed: f64, pace: f64) -> f64 {
-    // In this order NaN becomes 0: a machine that stands still.
-    (speed * pace).max(0.0).min(1.0)
+    let rate = speed * pace;
+    // NaN is not above 0 either: a machine that stands still.
+    if rate > 0.0 { rate.min(1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

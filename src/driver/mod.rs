@@ -2,6 +2,11 @@
 //!
 //! The threads of a run: one a node (its handler and its worker), one for the parent, and one that started them, waits
 //! for their end, and says how it went. Parties share nothing but the clock and each other's inboxes.
+//!
+//! Each party has a time of its own, at which it acts and which its records bear. It is that of the emulated machine: a
+//! thread may wake a little late, or work a little ahead of the clock, but what it does is dated to when the machine
+//! would have done it, and what comes of it is due accordingly. Machines at full speed are not emulated: their times
+//! are the clock's.
 
 mod clock;
 mod link;
@@ -113,8 +118,10 @@ impl Run {
     }
 
     /// Changes a node's speed (0 to 1) at once, in the middle of an atom too. At 0 its worker stands still, but the
-    /// node still answers messages.
+    /// node still answers messages. A node that has ended does not mind.
     pub fn set_speed(&self, node: NodeId, speed: f64) {
+        // NaN is not above 0 either.
+        let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
         self.shared.set_speed(usize::from(node), speed);
     }
 
@@ -212,4 +219,42 @@ impl Drop for StopOnPanic<'_> {
 fn said(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::What;
+    use crate::runlog::examples::header;
+
+    /// The emulation does not depend on how busy this computer is: in the machine's own time an atom takes exactly what
+    /// it cost, at the machine's rate.
+    #[test]
+    fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
+        let header = Header { pace: 0.5, ..header(&[0.5, 0.1]) };
+        let trace = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+            let spin = |pixel| (0..1000).fold(pixel as f32, |x: f32, _| (x + 1.3).sin());
+            out.extend(pixels.map(|pixel| [spin(pixel); 3]));
+        };
+        let run = Run::start_with(trace, &header);
+        let updates: Vec<Update> =
+            run.updates().iter().take_while(|update| !matches!(update, Update::Finished)).collect();
+        let mut started = [Time::ZERO; 2];
+        let mut atoms = 0;
+        for record in
+            updates.iter().flat_map(|update| if let Update::Records(records) = update { &records[..] } else { &[] })
+        {
+            match record.what {
+                What::AtomStarted { node, .. } => started[usize::from(node)] = record.at,
+                What::AtomDone { node, cost, .. } => {
+                    let rate = header.speeds[usize::from(node)] * header.pace;
+                    let took = record.at.since(started[usize::from(node)]);
+                    assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
+                    atoms += 1;
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(atoms, header.division.atoms());
+    }
 }

@@ -91,12 +91,12 @@ impl<'run> NodeThread<'run> {
     fn work_until_shutdown(&mut self) -> Result<(), Stopped> {
         loop {
             let now = self.step()?;
-            self.handle_until(self.next_start(now).unwrap_or(now));
+            self.handle_until(|node| node.next_start(now).unwrap_or(now));
             if self.finished {
                 return Ok(());
             }
-            // Asked again, since a message may have brought atoms or stopped the machine.
-            if let Some(start) = self.next_start(now) {
+            // Asked again, since a message may have brought atoms or stopped the machine, and took its time.
+            if let Some(start) = self.next_start(self.port.shared.clock.now()) {
                 self.trace_piece(start)?;
             } else {
                 self.split_batch();
@@ -125,9 +125,10 @@ impl<'run> NodeThread<'run> {
         (!self.machine.is_stopped()).then(|| self.machine.ready(available, now))
     }
 
-    /// Handles all that happens until `horizon`.
-    fn handle_until(&mut self, horizon: Time) {
-        while let Some(incoming) = self.port.next(horizon) {
+    /// Handles one by one what happens until `horizon`, which each may change: who was given atoms must not hear of
+    /// anything later before they are done, even if its thread woke too late for both.
+    fn handle_until(&mut self, horizon: impl Fn(&Self) -> Time) {
+        while let Some(incoming) = self.port.next(horizon(self)) {
             match incoming {
                 Incoming::Event(event, _) => self.hand_over(event),
                 Incoming::Speed(speed) => self.set_speed(speed),
@@ -160,13 +161,12 @@ impl<'run> NodeThread<'run> {
         let Some(hand) = &mut self.hand else { return Ok(()) };
         let cut = hand.rest.end.min(hand.rest.start + PIECE);
         let piece = mem::replace(&mut hand.rest.start, cut)..cut;
-        let clock = &self.port.shared.clock;
         if self.machine.is_full() {
-            let before = clock.now();
             (self.trace)(piece, &mut self.scratch, &mut self.pixels);
-            let after = clock.now();
-            hand.wall += after.since(before);
-            self.machine.finish(after);
+            let end = self.port.shared.clock.now();
+            // A full machine starts when the clock says so.
+            hand.wall += end.since(start);
+            self.machine.finish(end);
         } else {
             self.meter.lap();
             (self.trace)(piece, &mut self.scratch, &mut self.pixels);
@@ -181,23 +181,21 @@ impl<'run> NodeThread<'run> {
         Ok(())
     }
 
+    /// Waits until the piece in hand is due, unless that is near; handles what happens meanwhile.
     fn wait_until_due(&mut self) -> Result<(), Stopped> {
-        let near = self.port.shared.clock.now() + AHEAD;
-        let mut due = self.machine.due();
-        if due.is_none_or(|due| due > near) {
-            loop {
-                let now = self.step()?;
-                self.handle_until(due.map_or(now, |due| due.min(now)));
-                due = self.machine.due();
-                if due.is_some_and(|due| due <= now) {
-                    break;
-                }
-                self.port.wait(due);
+        let mut near = AHEAD;
+        loop {
+            let now = self.step()?;
+            let due = self.machine.due();
+            if let Some(due) = due.filter(|&due| due <= now + near) {
+                self.machine.finish(due);
+                return Ok(());
             }
+            // Who waits at all waits for the full time, or the thread would wake for each piece.
+            near = Duration::ZERO;
+            self.handle_until(|node| node.machine.due().map_or(now, |due| due.min(now)));
+            self.port.wait(self.machine.due());
         }
-        // Without a due time the loop above does not end.
-        due.into_iter().for_each(|due| self.machine.finish(due));
-        Ok(())
     }
 
     fn finish_atom(&mut self, Hand { atom, cost, wall, .. }: Hand) {

@@ -25,6 +25,17 @@ struct Placed {
     pixels: Vec<Colour>,
 }
 
+impl Placed {
+    fn add(&mut self, atoms: &[Range<Atom>], pixels: Vec<Colour>) {
+        self.atoms.extend_from_slice(atoms);
+        if self.pixels.is_empty() {
+            self.pixels = pixels;
+        } else {
+            self.pixels.extend(pixels);
+        }
+    }
+}
+
 impl<'run> ParentThread<'run> {
     /// The parent of the run that `header` describes.
     pub fn new(header: &Header, port: Port<'run>) -> Self {
@@ -46,8 +57,7 @@ impl<'run> ParentThread<'run> {
             match self.port.next(now) {
                 Some(Incoming::Event(event, pixels)) => {
                     if let Event::Message { message: Message::Results(atoms), .. } = &event {
-                        self.placed.atoms.extend_from_slice(atoms);
-                        self.placed.pixels.extend(pixels);
+                        self.placed.add(atoms, pixels);
                     }
                     self.hand_over(event);
                 }

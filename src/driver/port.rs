@@ -305,3 +305,63 @@ impl Ord for Parcel {
         (self.due, self.id).cmp(&(other.due, other.id))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::runlog::Link as Network;
+    use crate::runlog::examples;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    /// Of two emulated nodes.
+    fn header(handling: Duration, latency: Duration) -> Header {
+        Header { handling, link: Network { latency, bandwidth: None }, ..examples::header(&[0.5, 0.5]) }
+    }
+
+    /// Sends results (empty ones) from each node to the parent, the second node's 1 ms before the first's; then what
+    /// the parent gets until each of `horizons`: from whom, and when (ms, rounded down).
+    fn results(header: &Header, horizons: &[u32]) -> Vec<Option<(Party, u64)>> {
+        let (shared, mut inboxes) = Shared::new(header);
+        let (updates, _listener) = crossbeam_channel::unbounded();
+        let mut port = |me| Port::new(me, header, &shared, inboxes.pop().unwrap(), updates.clone());
+        let (mut parent, mut second, mut first) = (port(Party::Parent), port(Party::Node(1)), port(Party::Node(0)));
+        for (port, at) in [(&mut first, 4), (&mut second, 3)] {
+            port.advance(Time::ZERO + at * MS);
+            port.send(Party::Parent, Message::Results(Vec::new()), Vec::new());
+        }
+        let mut next = |horizon: u32| match parent.next(Time::ZERO + horizon * MS)? {
+            Incoming::Event(Event::Message { from, .. }, _) => Some((from, parent.time().0 / 1_000_000)),
+            _ => None,
+        };
+        horizons.iter().map(|&horizon| next(horizon)).collect()
+    }
+
+    #[test]
+    fn messages_are_held_until_they_are_due_and_come_in_order() {
+        let (zero, one) = (Party::Node(0), Party::Node(1));
+        let got = results(&header(Duration::ZERO, 10 * MS), &[12, 20, 20, 20]);
+        assert_eq!(got, [None, Some((one, 13)), Some((zero, 14)), None]);
+    }
+
+    #[test]
+    fn the_parent_handles_one_message_after_the_other() {
+        let (zero, one) = (Party::Node(0), Party::Node(1));
+        let got = results(&header(5 * MS, Duration::ZERO), &[7, 9, 9, 20]);
+        assert_eq!(got, [None, Some((one, 8)), None, Some((zero, 13))]);
+    }
+
+    #[test]
+    fn a_timer_fires_once_and_a_later_one_replaces_it() {
+        let header = header(Duration::ZERO, Duration::ZERO);
+        let (shared, mut inboxes) = Shared::new(&header);
+        let (updates, _listener) = crossbeam_channel::unbounded();
+        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.remove(0), updates);
+        port.set_timer(Time::ZERO + MS);
+        port.set_timer(Time::ZERO + 3 * MS);
+        assert!(port.next(Time::ZERO + 2 * MS).is_none());
+        assert!(matches!(port.next(Time::ZERO + 9 * MS), Some(Incoming::Event(Event::Timer, _))));
+        assert_eq!(port.time(), Time::ZERO + 3 * MS);
+        assert!(port.next(Time::ZERO + 9 * MS).is_none());
+    }
+}

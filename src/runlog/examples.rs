@@ -1,4 +1,4 @@
-//! Small headers and records for the tests of this module.
+//! Small headers and records for tests.
 
 use std::time::Duration;
 

@@ -165,7 +165,7 @@ mod tests {
             sent(9, node(1), node(0), Message::Offer { who: 1, done: 1 }),
             sent(10, node(0), node(1), Message::Offer { who: 1, done: 1 }),
             done(12, 0, 15, 8),
-            sent(12, node(0), PARENT, Message::Results(vec![15..16])),
+            sent(12, node(0), PARENT, Message::Results(vec![0..1, 15..16])),
             at(13, What::Finished),
             sent(13, PARENT, node(0), Message::Shutdown),
         ]

@@ -2,7 +2,7 @@
 
 mod check;
 #[cfg(test)]
-mod examples;
+pub(crate) mod examples;
 mod file;
 mod header;
 mod log;

@@ -1,0 +1,286 @@
+//! The article's rules, one by one, on the parent and the nodes themselves: no threads, no clock.
+
+#![expect(clippy::single_range_in_vec_init, reason = "messages hold ranges")]
+
+mod virtual_time;
+
+use std::ops::Range;
+use std::time::Duration;
+
+use anel::balance::{Action, Event, Message, Node, NodeId, Parent, Party, Strategy};
+use anel::picture::{Atom, Division};
+use anel::time::Time;
+use proptest::prelude::*;
+use virtual_time::Setup;
+
+const MS: Duration = Duration::from_millis(1);
+
+fn started(nodes: NodeId, division: Division) -> (Parent, Vec<Range<Atom>>) {
+    let mut parent = Parent::new(Strategy::Ring, division, nodes);
+    let mut actions = Vec::new();
+    parent.handle(Time::ZERO, Event::Started, &mut actions);
+    let bands = actions.into_iter().enumerate().map(|(node, action)| match action {
+        Action::Send { to, message: Message::Band(band) } if to == Party::Node(node as NodeId) => band,
+        other => panic!("{other:?} is not a band for node {node}"),
+    });
+    (parent, bands.collect())
+}
+
+/// A node of the ring that is told things, at one and the same time.
+struct Told(Node);
+
+impl Told {
+    /// Node `id` of `nodes`, and what it does with `band`.
+    fn with_band(id: NodeId, nodes: NodeId, band: Range<Atom>) -> (Self, Vec<Action>) {
+        let mut node = Self(Node::new(Strategy::Ring, id, nodes, 1));
+        let actions = node.message(Message::Band(band));
+        (node, actions)
+    }
+
+    fn event(&mut self, event: Event) -> Vec<Action> {
+        let mut actions = Vec::new();
+        self.0.handle(Time::ZERO, event, &mut actions);
+        actions
+    }
+
+    fn message(&mut self, message: Message) -> Vec<Action> {
+        self.event(Event::Message { from: Party::Parent, message })
+    }
+
+    fn offer(&mut self, who: NodeId, done: u32) -> Vec<Action> {
+        self.message(Message::Offer { who, done })
+    }
+
+    /// The worker is done with these atoms; what the node did about the last.
+    fn traced(&mut self, atoms: Range<Atom>) -> Vec<Action> {
+        atoms.map(|atom| self.event(Event::AtomDone { atom, cost: MS })).last().unwrap_or_default()
+    }
+}
+
+fn send(to: NodeId, message: Message) -> Action {
+    Action::Send { to: Party::Node(to), message }
+}
+
+fn send_offer(to: NodeId, who: NodeId, done: u32) -> Action {
+    send(to, Message::Offer { who, done })
+}
+
+fn results(ranges: &[Range<Atom>]) -> Action {
+    Action::Send { to: Party::Parent, message: Message::Results(ranges.to_vec()) }
+}
+
+proptest! {
+    /// §7: the picture is divided exactly among the machines; *ours:* some bands are empty if there are too few atoms.
+    #[test]
+    fn r1_bands_are_consecutive_and_differ_by_at_most_one_atom(nodes in 1..50u16, pixels in 1..5000u32, atom in 1..100u32) {
+        let division = Division::new(pixels, atom);
+        let (_, bands) = started(nodes, division);
+        prop_assert_eq!(bands.len(), usize::from(nodes));
+        let (shortest, longest) = (bands.iter().map(Range::len).min(), bands.iter().map(Range::len).max());
+        prop_assert!(longest <= shortest.map(|shortest| shortest + 1));
+        prop_assert!(bands.into_iter().flatten().eq(0..division.atoms()));
+    }
+
+    /// §7: a band is equal atoms, of which only the picture's last may be shorter.
+    #[test]
+    fn r2_atoms_are_equal_and_hold_each_pixel_once(pixels in 1..5000u32, size in 1..100u32) {
+        let division = Division::new(pixels, size);
+        let atoms: Vec<_> = (0..division.atoms()).map(|atom| division.pixels(atom)).collect();
+        let (last, others) = atoms.split_last().unwrap();
+        prop_assert!(others.iter().all(|atom| atom.len() == size as usize));
+        prop_assert!((1..=size as usize).contains(&last.len()));
+        prop_assert!(atoms.into_iter().flatten().eq(0..pixels));
+    }
+}
+
+/// §7, *ours:* a node with an empty band offers at once.
+#[test]
+fn r1_a_node_with_an_empty_band_offers_with_none_done() {
+    let (_, actions) = Told::with_band(3, 5, 2..2);
+    assert_eq!(actions, [send_offer(2, 3, 0)]);
+}
+
+/// §8: some atoms are put into the pipe, at least two so that the worker never waits.
+#[test]
+fn r3_the_pipe_holds_two_atoms_while_there_are_any() {
+    let (mut node, actions) = Told::with_band(0, 2, 0..5);
+    assert_eq!(actions, [Action::Trace(0), Action::Trace(1)]);
+    let mut in_pipe = 2;
+    for atom in 0..5 {
+        let actions = node.traced(atom..atom + 1);
+        in_pipe += actions.iter().filter(|action| matches!(action, Action::Trace(_))).count();
+        in_pipe -= 1;
+        assert_eq!(in_pipe, 2.min(4 - atom as usize));
+    }
+    let (_, actions) = Told::with_band(0, 2, 0..1);
+    assert_eq!(actions, [Action::Trace(0)]);
+}
+
+/// §7: after each atom the node counts it, puts it in place and queues one more.
+#[test]
+fn r4_an_atom_done_is_counted_kept_and_replaced() {
+    let (mut node, _) = Told::with_band(1, 2, 10..13);
+    assert!(node.traced(10..11).contains(&Action::Trace(12)));
+    // Three were traced, in order: the offer counts them and the results hold them.
+    assert_eq!(node.traced(11..13), [send_offer(0, 1, 3), results(&[10..13])]);
+}
+
+/// §8: at its last atom the node offers help to its left and sends the parent its results; and again after atoms
+/// that it was given.
+#[test]
+fn r5_whoever_runs_out_offers_first_and_then_sends_results() {
+    let (mut node, _) = Told::with_band(0, 4, 0..2);
+    assert_eq!(node.traced(0..2), [send_offer(3, 0, 2), results(&[0..2])]);
+    let actions = node.message(Message::Transfer(vec![7..9]));
+    assert_eq!(actions, [Action::Trace(7), Action::Trace(8)]);
+    assert_eq!(node.traced(7..9), [send_offer(3, 0, 4), results(&[7..9])]);
+}
+
+/// §8, *ours:* results stream in small batches too, and each atom is in one of them.
+#[test]
+fn r5_results_stream_while_the_node_works() {
+    let (mut node, _) = Told::with_band(0, 2, 0..9);
+    assert!(node.traced(0..1).contains(&Action::SetTimer(Time::ZERO + 15 * MS)));
+    let second = node.traced(1..2);
+    assert!(!second.iter().any(|action| matches!(action, Action::SetTimer(_))), "the batch has its timer");
+    assert_eq!(node.event(Event::Timer), [results(&[0..2])]);
+    assert_eq!(node.event(Event::Timer), [], "nothing is sent twice");
+    assert!(node.traced(2..3).iter().any(|action| matches!(action, Action::SetTimer(_))));
+}
+
+/// §8: one offer of a node is under way at a time; the virtual world asserts that there are at most as many as nodes.
+#[test]
+fn r5_a_node_offers_again_only_after_atoms_it_was_given() {
+    let outcome = virtual_time::run(&Setup { speeds: vec![1.0, 0.05, 0.3, 0.6], ..setup() });
+    for node in (0..4).map(Party::Node) {
+        let mut under_way = false;
+        for (_, from, action) in &outcome.log {
+            match action {
+                Action::Send { message: Message::Offer { who, .. }, .. }
+                    if *from == node && Party::Node(*who) == node =>
+                {
+                    assert!(!under_way, "{node:?} offers twice");
+                    under_way = true;
+                }
+                Action::Send { to, message: Message::Transfer(_) } if *to == node => under_way = false,
+                _ => {}
+            }
+        }
+    }
+}
+
+/// §8: a worthwhile offer ends where it is taken, and the atoms go straight to the offerer.
+#[test]
+fn r6_a_worthwhile_offer_is_taken_and_ends() {
+    let (mut node, _) = Told::with_band(1, 5, 0..12);
+    // Ten wait behind the pipe, and neither has traced any: half.
+    assert_eq!(node.offer(4, 0), [send(4, Message::Transfer(vec![7..12]))]);
+    // They are off the queue: five traced, two traced after, and the node has run out.
+    assert_eq!(node.traced(0..7), [send_offer(0, 1, 7), results(&[0..7])]);
+}
+
+/// §8: an offer that is not worth it is passed on as it is.
+#[test]
+fn r6_an_offer_that_is_not_worth_it_is_passed_on_unchanged() {
+    let (mut node, _) = Told::with_band(1, 5, 0..2);
+    assert_eq!(node.offer(4, 99), [send_offer(0, 4, 99)], "both atoms are in the pipe");
+    let mut choosy = Told(Node::new(Strategy::Ring, 1, 5, 6));
+    choosy.message(Message::Band(0..12));
+    assert_eq!(choosy.offer(4, 0), [send_offer(0, 4, 0)], "five of ten are less than a part of six");
+}
+
+/// §8, *ours:* the article's child first waits for its part; offers that come earlier are weighed after it.
+#[test]
+fn r6_offers_that_come_before_the_band_wait_for_it() {
+    let mut node = Told(Node::new(Strategy::Ring, 0, 3, 1));
+    assert_eq!((node.offer(1, 4), node.offer(2, 0)), (vec![], vec![]));
+    let actions = node.message(Message::Band(0..8));
+    assert_eq!(actions[2..], [send(1, Message::Transfer(vec![2..8])), send_offer(2, 2, 0)]);
+}
+
+/// §7: the share is by what both have traced, from the back of the queue.
+#[test]
+fn r7_a_fast_offerer_gets_many_and_a_slow_one_few() {
+    let shared = |done| {
+        let (mut node, _) = Told::with_band(0, 3, 0..110);
+        node.traced(0..8);
+        // A hundred wait.
+        node.offer(2, done)
+    };
+    assert_eq!(shared(72), [send(2, Message::Transfer(vec![20..110]))]);
+    assert_eq!(shared(8), [send(2, Message::Transfer(vec![60..110]))]);
+    assert_eq!(shared(2), [send(2, Message::Transfer(vec![90..110]))]);
+    assert_eq!(shared(0), [send(2, Message::Transfer(vec![109..110]))]);
+}
+
+/// §7: the share is meant to let all end at the same time: within a few atoms of the slowest.
+#[test]
+fn r7_nodes_of_any_speed_end_together() {
+    for speeds in [vec![1.0, 1.0], vec![1.0, 0.1], vec![0.1, 1.0, 1.0, 1.0, 1.0], vec![0.7, 0.01, 0.3, 1.0]] {
+        let setup = Setup { speeds, ..setup() };
+        let outcome = virtual_time::run(&setup);
+        let slowest = setup.speeds.iter().copied().fold(1.0, f64::min);
+        let ends = || outcome.ends.iter().map(|end| end.secs());
+        let spread = ends().fold(0.0, f64::max) - ends().fold(f64::MAX, f64::min);
+        assert!(spread <= 3.0 * (setup.cost)(0) / slowest, "{:?}: {spread} s", setup.speeds);
+    }
+}
+
+/// §7: a node whose own offer comes back is no longer needed; §8: it serves until the shutdown.
+#[test]
+fn r8_whoever_gets_its_own_offer_back_retires_but_passes_on_others() {
+    let (mut node, _) = Told::with_band(2, 3, 0..1);
+    node.traced(0..1);
+    assert_eq!(node.offer(2, 1), [Action::Retire]);
+    assert_eq!(node.offer(0, 5), [send_offer(1, 0, 5)]);
+    assert_eq!(node.message(Message::Shutdown), [Action::Finish]);
+}
+
+/// §7, *ours:* a node alone in the ring is its own left neighbour.
+#[test]
+fn r8_a_node_alone_gets_its_offer_straight_back() {
+    let (mut node, _) = Told::with_band(0, 1, 0..1);
+    assert_eq!(node.traced(0..1), [send_offer(0, 0, 1), results(&[0..1])]);
+    assert_eq!(node.offer(0, 1), [Action::Retire]);
+}
+
+/// §8: the parent sends each node the scene and its band, assembles what comes, and when the picture is complete
+/// sends shutdown.
+#[test]
+fn r9_the_parent_assembles_and_shuts_down() {
+    let division = Division::new(40, 10);
+    let (mut parent, bands) = started(2, division);
+    assert_eq!(bands, [0..2, 2..4]);
+    assert_eq!(Message::Band(0..2).bytes(division, 1000) - Message::Band(0..2).bytes(division, 0), 1000);
+    let mut hand = |node, ranges: &[Range<Atom>]| {
+        let mut actions = Vec::new();
+        let message = Message::Results(ranges.to_vec());
+        parent.handle(Time::ZERO, Event::Message { from: Party::Node(node), message }, &mut actions);
+        actions
+    };
+    assert_eq!(hand(1, &[2..3]), []);
+    assert_eq!(hand(0, &[0..1, 3..4]), []);
+    assert_eq!(hand(0, &[1..2]), [send(0, Message::Shutdown), send(1, Message::Shutdown), Action::Finish]);
+}
+
+/// §8: nothing is left running; the virtual world asserts it of every party.
+#[test]
+fn r9_everybody_ends() {
+    for nodes in [1, 2, 7, 40] {
+        let outcome = virtual_time::run(&Setup { speeds: vec![1.0; nodes], latency: 40 * MS, ..setup() });
+        let ended = outcome.log.iter().filter(|(_, _, action)| *action == Action::Finish).count();
+        assert_eq!(ended, nodes + 1);
+    }
+}
+
+/// 1,000 atoms of 10 ms.
+fn setup() -> Setup {
+    Setup {
+        division: Division::new(1000, 1),
+        speeds: Vec::new(),
+        swings: Vec::new(),
+        cost: |_| 0.01,
+        latency: Duration::ZERO,
+        part: 1,
+    }
+}

@@ -1,0 +1,273 @@
+//! A thousand random runs: each ends, and every atom is placed exactly once. Most are in virtual time, some on real
+//! threads; and what users do to a run while it goes on.
+
+mod virtual_time;
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+
+use anel::balance::{Action, Message, NodeId, Party, Strategy};
+use anel::driver::{Run, Update};
+use anel::picture::{Atom, Colour, Division, Size};
+use anel::record::What;
+use anel::runlog::{Header, Link, RunLog, metrics};
+use anel::tracer::Scratch;
+use virtual_time::Setup;
+
+const MS: Duration = Duration::from_millis(1);
+
+/// Random numbers from a seed: SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, end: u64) -> u64 {
+        self.next() % end
+    }
+
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.below(choices.len() as u64) as usize]
+    }
+
+    fn speed(&mut self) -> f64 {
+        self.one_of(&[1.0, 1.0, 0.5, 0.2, 0.05])
+    }
+}
+
+/// Does `test` with each seed; names the seed before it fails.
+fn with_seeds(seeds: Range<u64>, test: impl Fn(&mut Random)) {
+    struct Named(u64);
+    impl Drop for Named {
+        fn drop(&mut self) {
+            if std::thread::panicking() {
+                eprintln!("failed with seed {}", self.0);
+            }
+        }
+    }
+    for seed in seeds {
+        let _named = Named(seed);
+        test(&mut Random(seed));
+    }
+}
+
+#[test]
+fn nine_hundred_in_virtual_time() {
+    with_seeds(0..900, |random| {
+        let nodes = random.one_of(&[1, 2, 3, 4, 7, 8, 16, 32]);
+        let mut swings = Vec::new();
+        for _ in 0..random.below(8) {
+            let (at, node) = (random.below(3000) as f64 * 1e-3, random.below(nodes) as NodeId);
+            // A node that stops goes on again some time.
+            swings.push((at, node, random.one_of(&[0.0, 0.1, 1.0])));
+            swings.push((3.0 + at, node, random.speed()));
+        }
+        let costs: [fn(Atom) -> f64; 3] =
+            [|_| 1e-3, |atom| if atom < 20 { 0.05 } else { 1e-5 }, |atom| f64::from(atom % 7) * 1e-3];
+        let setup = Setup {
+            // Often fewer atoms than nodes.
+            division: Division::new(1 + random.below(500) as u32, 1 + random.below(50) as u32),
+            speeds: (0..nodes).map(|_| random.speed()).collect(),
+            swings,
+            cost: random.one_of(&costs),
+            latency: random.one_of(&[0, 1, 40, 1000]) * MS,
+            part: random.one_of(&[0, 1, 1, 5]),
+        };
+        let outcome = virtual_time::run(&setup);
+        let results = outcome.log.iter().filter_map(|(_, _, action)| match action {
+            Action::Send { to: Party::Parent, message: Message::Results(ranges) } => Some(ranges.clone()),
+            _ => None,
+        });
+        assert_each_once(results.flatten(), setup.division);
+    });
+}
+
+#[test]
+fn one_hundred_on_threads() {
+    with_seeds(0..100, |random| {
+        let size = Size::new(1 + random.below(40) as u32, 1 + random.below(20) as u32).unwrap();
+        let speeds = (0..random.one_of(&[1, 2, 3, 5, 8, 20])).map(|_| random.speed()).collect();
+        let header = Header {
+            strategy: random.one_of(&[Strategy::Ring, Strategy::Ring, Strategy::Ring, Strategy::Serial]),
+            pace: random.one_of(&[1.0, 0.5]),
+            link: Link {
+                latency: random.one_of(&[0, 0, 1, 5]) * MS,
+                bandwidth: random.one_of(&[None, None, Some(1e7)]),
+            },
+            handling: random.one_of(&[0, 0, 100]) * Duration::from_micros(1),
+            part: random.one_of(&[1, 1, 3]),
+            ..header(size, random.one_of(&[1, 10, 50, 1000]), speeds)
+        };
+        // All the cost in one corner.
+        let run =
+            Run::start_with(|pixels, _, out| trace(pixels, out, |pixel| if pixel < 50 { 2000 } else { 10 }), &header);
+        for _ in 0..random.below(4) {
+            std::thread::sleep(random.below(3) as u32 * MS);
+            run.set_speed(random.below(header.speeds.len() as u64) as NodeId, random.speed());
+            run.set_latency(random.below(5) as u32 * MS);
+        }
+        finish(&run, &header);
+    });
+}
+
+#[test]
+fn a_paused_run_stands_still_and_goes_on() {
+    let header = header(Size::new(100, 50).unwrap(), 10, vec![0.5, 1.0, 0.1]);
+    let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
+    std::thread::sleep(3 * MS);
+    run.pause();
+    let paused = run.now();
+    std::thread::sleep(60 * MS);
+    assert_eq!(run.now(), paused);
+    run.resume();
+    let log = finish(&run, &header);
+    // Nothing was dated more than a moment beyond the clock, neither before the pause nor after.
+    assert!(log.records().iter().all(|record| record.at <= run.now() + 2 * MS));
+}
+
+#[test]
+fn a_stopped_machine_answers_messages_and_traces_nothing_until_it_goes_on() {
+    let header = header(Size::new(60, 50).unwrap(), 10, vec![1.0, 1.0, 1.0]);
+    let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 500), &header);
+    run.set_speed(1, 0.0);
+    let mut log = RunLog::new(header.clone());
+    let mut placed = Vec::new();
+    let retired =
+        |log: &RunLog| log.records().iter().filter(|record| matches!(record.what, What::Retired { .. })).count();
+    // The others' offers pass through the stopped machine, and come back to them.
+    while retired(&log) < 2 {
+        take(run.updates().recv().unwrap(), &mut log, &mut placed);
+    }
+    run.set_speed(1, 1.0);
+    while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
+    assert_each_once(placed.into_iter(), header.division);
+
+    let mut stopped = false;
+    for record in log.records() {
+        match record.what {
+            What::SpeedSet { node: 1, speed } => stopped = speed == 0.0,
+            What::AtomStarted { node: 1, atom } | What::AtomDone { node: 1, atom, .. } => {
+                assert!(!stopped, "atom {atom} was traced by a stopped machine");
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn dropping_a_run_ends_its_threads_in_the_middle_of_an_atom() {
+    // One atom, the whole picture, would take a quarter of an hour.
+    let header = header(Size::new(10_000, 1000).unwrap(), u32::MAX, vec![1.0, 1.0]);
+    for paused in [false, true] {
+        let traced = Arc::new(AtomicU32::new(0));
+        let count = traced.clone();
+        let run = Run::start_with(
+            move |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+                count.fetch_add(pixels.len() as u32, Ordering::Relaxed);
+                std::thread::sleep(pixels.len() as u32 * Duration::from_micros(100));
+                out.extend(pixels.map(|_| [0.0; 3]));
+            },
+            &header,
+        );
+        while traced.load(Ordering::Relaxed) == 0 {
+            std::thread::yield_now();
+        }
+        if paused {
+            run.pause();
+        }
+        drop(run);
+        // Each thread held the tracing function, and so the counter: they are all gone.
+        assert_eq!(Arc::strong_count(&traced), 1);
+    }
+}
+
+#[test]
+fn a_panicking_worker_fails_the_run() {
+    let header = header(Size::new(100, 10).unwrap(), 10, vec![1.0, 0.3, 1.0]);
+    let run = Run::start_with(
+        |pixels, _, out| {
+            assert!(pixels.start < 500, "no way to trace pixel {}", pixels.start);
+            trace(pixels, out, |_| 10);
+        },
+        &header,
+    );
+    let last = run.updates().iter().find_map(|update| match update {
+        Update::Failed(why) => Some(why),
+        Update::Finished => panic!("the run finished without half of its pixels"),
+        _ => None,
+    });
+    let why = last.unwrap();
+    assert!(why.starts_with("node ") && why.contains(" failed: no way to trace pixel "), "{why}");
+}
+
+/// Adds colours that cost about `steps(pixel)` times 10 ns each.
+fn trace(pixels: Range<u32>, out: &mut Vec<Colour>, steps: fn(u32) -> u32) {
+    for pixel in pixels {
+        let x = (0..steps(pixel)).fold(pixel as f32, |x, _| (x + 1.3).sin());
+        out.push([x, pixel as f32, 0.0]);
+    }
+}
+
+/// Waits for the run's end; every atom is placed once, with its own pixels, and the log says the same.
+fn finish(run: &Run, header: &Header) -> RunLog {
+    let mut log = RunLog::new(header.clone());
+    let mut placed = Vec::new();
+    while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
+    assert_each_once(placed.into_iter(), header.division);
+    let traced: u32 = metrics::atoms_by_node(header, log.records()).iter().sum();
+    assert_eq!(traced, header.division.atoms());
+    assert!(metrics::makespan(log.records()).is_some());
+    log
+}
+
+/// Takes an update in; whether it was the last.
+fn take(update: Update, log: &mut RunLog, placed: &mut Vec<Range<Atom>>) -> bool {
+    match update {
+        Update::Records(records) => {
+            assert!(records.is_sorted_by_key(|record| record.at), "a party's time went back");
+            log.add(records);
+        }
+        Update::Placed { atoms, pixels } => {
+            let division = log.header.division;
+            let expected = atoms.iter().cloned().flatten().flat_map(|atom| division.pixels(atom));
+            assert!(expected.eq(pixels.iter().map(|pixel| pixel[1] as u32)), "pixels of other atoms");
+            placed.extend(atoms);
+        }
+        Update::Totals { .. } => {}
+        Update::Finished => return true,
+        Update::Failed(why) => panic!("{why}"),
+    }
+    false
+}
+
+fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Division) {
+    let mut atoms: Vec<Atom> = ranges.flatten().collect();
+    atoms.sort_unstable();
+    assert!(atoms.into_iter().eq(0..division.atoms()));
+}
+
+/// Machines of these speeds at full pace, on perfect links.
+fn header(size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
+    Header {
+        scene: "random".into(),
+        scene_bytes: 100,
+        size,
+        samples: 1,
+        division: Division::new(size.pixels(), atom_pixels),
+        strategy: Strategy::Ring,
+        speeds,
+        pace: 1.0,
+        link: Link { latency: Duration::ZERO, bandwidth: None },
+        handling: Duration::ZERO,
+        part: 1,
+        cores: 2,
+    }
+}

@@ -1,0 +1,89 @@
+//! However the work is shared, the picture is that of a plain loop over all pixels, byte for byte.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use anel::balance::Strategy;
+use anel::driver::{Run, Update};
+use anel::picture::{Colour, Division, Frame, Size};
+use anel::runlog::{Header, Link};
+use anel::scene::{Scene, built_in};
+use anel::tracer::{Quality, Scratch, Tracer};
+
+const ATOMS: [u32; 4] = [1, 50, 333, 5000];
+
+#[test]
+fn the_ring_of_equal_machines() {
+    compare(Strategy::Ring, |_| 1.0);
+}
+
+#[test]
+fn the_ring_of_wildly_different_machines() {
+    compare(Strategy::Ring, |node| [0.3, 1.0, 0.02, 0.7, 0.1][node % 5]);
+}
+
+#[test]
+fn one_node_that_traces_all() {
+    compare(Strategy::Serial, |_| 1.0);
+}
+
+fn compare(strategy: Strategy, speed: fn(usize) -> f64) {
+    let size = Size::new(40, 25).unwrap();
+    let scene = Scene::parse(built_in("ten-objects").unwrap()).unwrap();
+    let tracer = Arc::new(Tracer::new(&scene, size, Quality::default()));
+    let mut plain = Vec::new();
+    for pixel in 0..size.pixels() {
+        tracer.trace(pixel..pixel + 1, &mut Scratch::default(), &mut plain);
+    }
+    for nodes in [1, 2, 3, 4, 7, 8, 16, 32] {
+        for atom_pixels in ATOMS {
+            let header = header(strategy, size, atom_pixels, (0..nodes).map(speed).collect());
+            let frame = picture(&tracer, &header);
+            assert!(bits(frame.pixels()).eq(bits(&plain)), "{nodes} nodes, atoms of {atom_pixels}");
+        }
+    }
+}
+
+/// NaN is not equal to itself, but its bits are.
+fn bits(pixels: &[Colour]) -> impl Iterator<Item = u32> {
+    pixels.iter().flatten().map(|channel| channel.to_bits())
+}
+
+fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
+    let mut frame = Frame::new(header.size);
+    let run = Run::start(tracer.clone(), header);
+    for update in run.updates() {
+        match update {
+            Update::Placed { atoms, pixels } => {
+                let mut rest = &pixels[..];
+                for range in atoms.into_iter().flatten().map(|atom| header.division.pixels(atom)) {
+                    let (atom, others) = rest.split_at(range.len());
+                    frame.place(range, atom);
+                    rest = others;
+                }
+                assert!(rest.is_empty());
+            }
+            Update::Records(_) | Update::Totals { .. } => {}
+            Update::Finished => return frame,
+            Update::Failed(why) => panic!("{why}"),
+        }
+    }
+    panic!("the run ended without saying so");
+}
+
+fn header(strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
+    Header {
+        scene: "ten-objects".into(),
+        scene_bytes: 0,
+        size,
+        samples: 1,
+        division: Division::new(size.pixels(), atom_pixels),
+        strategy,
+        speeds,
+        pace: 1.0,
+        link: Link { latency: Duration::ZERO, bandwidth: None },
+        handling: Duration::ZERO,
+        part: 1,
+        cores: 2,
+    }
+}
