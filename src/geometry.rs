@@ -9,7 +9,8 @@ pub struct Ray {
     pub origin: DVec3,
     /// Where it goes; of length 1.
     pub direction: DVec3,
-    /// 1 / `direction`, component by component; infinite where that is 0.
+    /// 1 / `direction`, component by component; very large where that is 0, but finite, so that no product with it
+    /// is NaN.
     pub inverse: DVec3,
     /// The largest coordinate that the origin was computed from. Rounding errors along the ray are a few parts in
     /// 10¹⁶ of this and of the distance, so a tolerance made of both follows the scene's own scale.
@@ -22,7 +23,9 @@ const RELATIVE_TOLERANCE: f64 = 1e-12;
 impl Ray {
     /// `direction` must have length 1.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
-        Self { origin, direction, inverse: direction.recip(), scale: origin.abs().max_element() }
+        const LARGEST: f64 = 1e300;
+        let inverse = direction.recip().clamp(DVec3::splat(-LARGEST), DVec3::splat(LARGEST));
+        Self { origin, direction, inverse, scale: origin.abs().max_element() }
     }
 
     /// The ray that goes on from the point at distance `t` of this one.
@@ -107,11 +110,22 @@ impl Aabb {
     pub fn entry(&self, ray: &Ray, from: f64, to: f64) -> Option<f64> {
         let a = (self.min - ray.origin) * ray.inverse;
         let b = (self.max - ray.origin) * ray.inverse;
-        // 0 × ∞, where a ray runs in the plane of a face, is NaN; `f64::max` and `min` pass over it.
-        let near = a.x.min(b.x).max(a.y.min(b.y)).max(a.z.min(b.z)).max(from);
-        let far = a.x.max(b.x).min(a.y.max(b.y)).min(a.z.max(b.z)).min(to);
+        let near = greater(greater(lesser(a.x, b.x), lesser(a.y, b.y)), greater(lesser(a.z, b.z), from));
+        let far = lesser(lesser(greater(a.x, b.x), greater(a.y, b.y)), lesser(greater(a.z, b.z), to));
         (near <= far).then_some(near)
     }
+}
+
+/// `f64::min` without its care for NaN: one instruction.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// `f64::max` without its care for NaN: one instruction.
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// Rotation by `degrees` about x, then about y, then about z (right-handed).

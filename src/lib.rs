@@ -25,6 +25,11 @@ pub mod tracer; // a scene compiled to what it needs, and the article's equation
 pub mod driver; // executes the protocol on threads, as emulated machines on links
 pub mod view; // pure functions from records to what is drawn; no egui
 
-// Floor 5: what the user touches.
-pub mod cli; // arguments, the headless commands
+// Floor 5: what leaves the program.
+pub mod export; // scenes for POV-Ray
+
+// Floor 6: what the user sees.
 pub mod gui; // the window: paints what `view` returns
+
+// Floor 7: what the user types.
+pub mod cli; // arguments, the headless commands

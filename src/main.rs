@@ -1,3 +1,7 @@
-//! The program: a window, or a headless command.
+//! The program: see `anel --help`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    anel::cli::main()
+}

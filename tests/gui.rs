@@ -4,20 +4,14 @@ use std::time::Duration;
 
 use anel::gui::{App, Launch, Phase};
 use anel::record::What;
-use anel::scene::{Scene, built_in};
+use anel::scene::Opened;
 use egui::{Key, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 fn open(size: [f32; 2]) -> Harness<'static, App> {
-    let text = built_in("ten-objects").expect("a built-in scene");
-    let launch = Launch {
-        scene_name: "ten-objects".into(),
-        scene: Scene::parse(text).expect("the built-in scene is right"),
-        scene_bytes: text.len() as u64,
-        log: None,
-    };
-    Harness::builder().with_size(size).build_eframe(move |creation| App::new(&creation.egui_ctx, launch))
+    let launch = Launch { scene: Opened::new("ten-objects").expect("a built-in scene"), log: None };
+    Harness::builder().with_size(size).build_eframe(move |creation| App::new(&creation.egui_ctx, &launch))
 }
 
 const SIZE: [f32; 2] = [1280.0, 800.0];

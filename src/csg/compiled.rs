@@ -36,9 +36,20 @@ pub struct Start {
 pub type Stack = Vec<Event>;
 
 #[derive(Debug)]
-enum Node {
+struct Node {
+    bounds: Aabb,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
     Leaf(u32),
-    Composition { operation: Operation, bounds: Aabb, children: Vec<u32> },
+    /// The intersection of convex leaves: one span at most, found without merging.
+    Convex(Vec<u32>),
+    Composition {
+        operation: Operation,
+        children: Vec<u32>,
+    },
 }
 
 impl Tree {
@@ -48,7 +59,7 @@ impl Tree {
             Solid::Placed { primitive, scene_from_own, tag } => {
                 let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag);
                 self.leaves.push(leaf);
-                return Some((self.node(Node::Leaf(self.leaves.len() as u32 - 1)), bounds));
+                return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
             }
             Solid::Union(solids) => (Operation::Union, solids),
             Solid::Intersection(solids) => (Operation::Intersection, solids),
@@ -62,7 +73,7 @@ impl Tree {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };
                     bounds = bounds.union(child_bounds);
-                    self.absorb(Operation::Union, child, &mut children);
+                    children.extend(self.parts(Operation::Union, child));
                 }
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
@@ -70,28 +81,32 @@ impl Tree {
                     if bounds.is_empty() {
                         return None;
                     }
-                    self.absorb(Operation::Intersection, child, &mut children);
+                    children.extend(self.parts(Operation::Intersection, child));
                 }
                 Operation::Difference if index == 0 => {
                     let (child, child_bounds) = child?;
                     bounds = child_bounds;
                     // (a − b) − c = a − b − c
-                    self.absorb(Operation::Difference, child, &mut children);
+                    children.extend(self.parts(Operation::Difference, child));
                 }
                 Operation::Difference => {
-                    let Some((child, child_bounds)) = child else { continue };
-                    // What does not reach the first operand takes nothing from it.
-                    if !bounds.intersection(child_bounds).is_empty() {
-                        // a − (b ∪ c) = a − b − c
-                        self.absorb(Operation::Union, child, &mut children);
-                    }
+                    let Some((child, _)) = child else { continue };
+                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
+                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
+                    children.extend(self.parts(Operation::Union, child).into_iter().filter(reach));
                 }
             }
         }
+        if operation == Operation::Intersection {
+            self.join_convex(&mut children);
+        }
         match children[..] {
             [] => None,
-            [only] => Some((only, bounds)),
-            _ => Some((self.node(Node::Composition { operation, bounds, children }), bounds)),
+            [only] => {
+                self.nodes[only as usize].bounds = bounds;
+                Some((only, bounds))
+            }
+            _ => Some((self.node(Kind::Composition { operation, children }, bounds), bounds)),
         }
     }
 
@@ -102,11 +117,10 @@ impl Tree {
 
     /// Every leaf of the solid `root`.
     pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
-        match &self.nodes[root as usize] {
-            Node::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
-            Node::Composition { children, .. } => {
-                children.iter().flat_map(|&child| self.leaves_of(child)).collect()
-            }
+        match &self.nodes[root as usize].kind {
+            Kind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
+            Kind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
+            Kind::Composition { children, .. } => children.iter().flat_map(|&child| self.leaves_of(child)).collect(),
         }
     }
 
@@ -139,26 +153,31 @@ impl Tree {
         let on_this = start.is_some_and(|start| start.root == root);
         let counts = |t: f64, enters: bool| t < t_max && t > if enters && !on_this { -slack } else { slack };
         let start = start.filter(|_| on_this).map(|start| start.surface);
-        match &self.nodes[root as usize] {
-            Node::Leaf(leaf) => {
-                let spans = self.leaves[*leaf as usize].spans(ray, face_of(start, *leaf));
-                for span in [spans.first, spans.second].into_iter().flatten() {
-                    for (t, face, enters) in [(span.from, span.from_face, true), (span.to, span.to_face, false)] {
-                        let surface = Surface { leaf: *leaf, face };
-                        if counts(t, enters) && !visit(Hit { t: t.max(0.0), surface, enters }) {
-                            return;
-                        }
+        let mut meet = |event: Event, enters: bool| {
+            !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
+        };
+        match &self.nodes[root as usize].kind {
+            Kind::Leaf(leaf) => {
+                for [enter, leave] in self.leaf_spans(*leaf, ray, start) {
+                    if !meet(enter, true) || !meet(leave, false) {
+                        return;
                     }
                 }
             }
-            Node::Composition { .. } => {
+            Kind::Convex(leaves) => {
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                    && meet(enter, true)
+                {
+                    meet(leave, false);
+                }
+            }
+            Kind::Composition { operation, children } => {
                 stack.clear();
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
-                self.events(root, ray, start, window, stack);
+                // Whoever asks has looked at the bounds.
+                self.composition_events(*operation, children, ray, start, window, stack);
                 for (index, event) in stack.iter().enumerate() {
-                    let enters = index % 2 == 0;
-                    let hit = Hit { t: event.t.max(0.0), surface: event.surface, enters };
-                    if counts(event.t, enters) && !visit(hit) {
+                    if !meet(*event, index % 2 == 0) {
                         return;
                     }
                 }
@@ -168,15 +187,38 @@ impl Tree {
 
     /// Pushes the events of a node. Spans that lie outside `window` may be left out.
     fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
-        let (operation, bounds, children) = match &self.nodes[node as usize] {
-            Node::Leaf(leaf) => return self.leaf_events(*leaf, ray, start, window, stack),
-            Node::Composition { operation, bounds, children } => (*operation, bounds, children),
-        };
+        let Node { bounds, kind } = &self.nodes[node as usize];
         if bounds.entry(ray, window[0], window[1]).is_none() {
             return;
         }
+        let mut push = |[enter, leave]: [Event; 2]| {
+            if leave.t >= window[0] && enter.t <= window[1] {
+                stack.extend([enter, leave]);
+            }
+        };
+        match kind {
+            Kind::Leaf(leaf) => self.leaf_spans(*leaf, ray, start).for_each(push),
+            Kind::Convex(leaves) => {
+                if let Some(span) = self.convex_span(leaves, ray, start) {
+                    push(span);
+                }
+            }
+            Kind::Composition { operation, children } => {
+                self.composition_events(*operation, children, ray, start, window, stack);
+            }
+        }
+    }
+
+    fn composition_events(
+        &self,
+        operation: Operation,
+        children: &[u32],
+        ray: &Ray,
+        start: Option<Surface>,
+        mut window: [f64; 2],
+        stack: &mut Stack,
+    ) {
         let first = stack.len();
-        let mut window = window;
         for (index, &child) in children.iter().enumerate() {
             let second = stack.len();
             self.events(child, ray, start, window, stack);
@@ -196,33 +238,76 @@ impl Tree {
         }
     }
 
-    fn leaf_events(&self, leaf: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
+    #[inline(always)]
+    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> impl Iterator<Item = [Event; 2]> {
         let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
-        for Span { from, from_face, to, to_face } in [spans.first, spans.second].into_iter().flatten() {
-            if to >= window[0] && from <= window[1] {
-                stack.push(Event { t: from, surface: Surface { leaf, face: from_face } });
-                stack.push(Event { t: to, surface: Surface { leaf, face: to_face } });
+        [spans.first, spans.second].into_iter().flatten().map(move |span| span_events(leaf, span))
+    }
+
+    /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
+    /// first leaf's is seen, and a stay shorter than the tolerance is none.
+    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Event; 2]> {
+        let mut stay: Option<[Event; 2]> = None;
+        for &leaf in leaves {
+            let span = self.leaves[leaf as usize].spans(ray, face_of(start, leaf)).first?;
+            let [enter, leave] = span_events(leaf, span);
+            let [first, last] = stay.get_or_insert([enter, leave]);
+            if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
+                *first = enter;
             }
+            if leave.t < last.t - ray.tolerance(leave.t) || last.t == f64::INFINITY {
+                *last = leave;
+            }
+            if last.t <= first.t + ray.tolerance(first.t) {
+                return None;
+            }
+        }
+        stay
+    }
+
+    /// Makes the convex leaves with which the operands of an intersection begin one operand.
+    fn join_convex(&mut self, children: &mut Vec<u32>) {
+        let mut leaves = Vec::new();
+        let mut bounds = Aabb::ALL;
+        let mut joined = 0;
+        for &child in &*children {
+            let Node { kind, bounds: own } = &self.nodes[child as usize];
+            match kind {
+                Kind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
+                Kind::Convex(inner) => leaves.extend(inner),
+                _ => break,
+            }
+            bounds = bounds.intersection(*own);
+            joined += 1;
+        }
+        if joined > 1 {
+            let convex = self.node(Kind::Convex(leaves), bounds);
+            children.splice(..joined, [convex]);
         }
     }
 
-    fn node(&mut self, node: Node) -> u32 {
-        self.nodes.push(node);
+    fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
+        self.nodes.push(Node { bounds, kind });
         self.nodes.len() as u32 - 1
     }
 
-    /// Adds `child`, or its children in its place if it is a composition by `operation`.
-    fn absorb(&self, operation: Operation, child: u32, children: &mut Vec<u32>) {
-        match &self.nodes[child as usize] {
-            Node::Composition { operation: same, children: inner, .. } if *same == operation => {
-                children.extend(inner);
-            }
-            _ => children.push(child),
+    /// The operands of `node` if it is a composition by `operation`, else itself.
+    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
+        match &self.nodes[node as usize].kind {
+            Kind::Composition { operation: same, children } if *same == operation => children.clone(),
+            _ => vec![node],
         }
     }
 }
 
+#[inline(always)]
+fn span_events(leaf: u32, span: Span) -> [Event; 2] {
+    let event = |t: f64, face: u8| Event { t, surface: Surface { leaf, face } };
+    [event(span.from, span.from_face), event(span.to, span.to_face)]
+}
+
 /// The face of `leaf` that a ray starts on.
+#[inline(always)]
 fn face_of(start: Option<Surface>, leaf: u32) -> Option<u8> {
     start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
 }

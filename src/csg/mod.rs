@@ -8,7 +8,7 @@ mod quadratic;
 mod shape;
 mod solid;
 
-pub use compiled::{Hit, Start, Stack, Tree};
+pub use compiled::{Hit, Stack, Start, Tree};
 pub use merge::Event;
 pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};

@@ -41,3 +41,24 @@ pub struct QuadricCoefficients {
     /// Without a variable.
     pub constant: f64,
 }
+
+impl Primitive {
+    /// Whether `p`, in the primitive's own coordinates, is in it or on its boundary.
+    pub fn holds(&self, p: DVec3) -> bool {
+        let across = p.x * p.x + p.z * p.z;
+        match self {
+            Self::Sphere => p.length_squared() <= 1.0,
+            Self::HalfSpace { normal, offset } => normal.dot(p) <= *offset,
+            Self::Cube => p.abs().max_element() <= 1.0,
+            Self::Cylinder => across <= 1.0 && p.y.abs() <= 1.0,
+            Self::Cone { bottom, top } => {
+                let radius = bottom + (top - bottom) * (p.y + 1.0) / 2.0;
+                across <= radius * radius && p.y.abs() <= 1.0
+            }
+            Self::Quadric(q) => {
+                let products = DVec3::new(p.x * p.y, p.y * p.z, p.z * p.x);
+                q.squares.dot(p * p) + q.products.dot(products) + q.linear.dot(p) + q.constant <= 0.0
+            }
+        }
+    }
+}

@@ -108,8 +108,7 @@ impl Leaf {
             Primitive::HalfSpace { normal, offset } => {
                 let carried = to_own.transpose() * normal;
                 let length = carried.length();
-                let (normal, offset) =
-                    (carried / length, (offset - normal.dot(own_from_scene.translation)) / length);
+                let (normal, offset) = (carried / length, (offset - normal.dot(own_from_scene.translation)) / length);
                 (Shape::HalfSpace { normal, offset }, half_space_bounds(normal, offset))
             }
             Primitive::Cube => {
@@ -117,9 +116,7 @@ impl Leaf {
                 let along_axes = (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
                 (if along_axes { Shape::Block(bounds) } else { Shape::Cube(own()) }, bounds)
             }
-            Primitive::Cylinder => {
-                (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2])))
-            }
+            Primitive::Cylinder => (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2]))),
             Primitive::Cone { bottom, top } => {
                 let disc = |radius: f64, y: f64| {
                     let (middle, half) = (centre + columns[1] * y, round(columns[0], columns[2]) * radius);
@@ -149,7 +146,7 @@ impl Leaf {
 
     /// The ray's stays inside, over the whole line. `start` is the face of this leaf that the ray starts on, if it
     /// does: the root there is then 0 by definition, whatever rounding made of the origin.
-    #[inline]
+    #[inline(always)]
     pub(super) fn spans(&self, ray: &Ray, start: Option<u8>) -> Spans {
         match &self.shape {
             Shape::Ball { centre, radius } => {
@@ -190,12 +187,7 @@ impl Leaf {
                     Inside::from_surface(a, b)
                 } else {
                     let closest = o - d * (b / a);
-                    Inside::with_discriminant(
-                        a,
-                        b,
-                        o.length_squared() - 1.0,
-                        a * (1.0 - closest.length_squared()),
-                    )
+                    Inside::with_discriminant(a, b, o.length_squared() - 1.0, a * (1.0 - closest.length_squared()))
                 })
             }
             Shape::Cylinder(own) => {
@@ -239,6 +231,11 @@ impl Leaf {
                 })
             }
         }
+    }
+
+    /// Whether a ray has one stay inside at most.
+    pub(super) fn is_convex(&self) -> bool {
+        !matches!(self.shape, Shape::Quadric { .. })
     }
 
     /// The normal of length 1 that points out of the leaf, at a point of one of its faces.

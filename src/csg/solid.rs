@@ -1,6 +1,6 @@
 //! The tree of boolean operations, as a scene gives it.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 use super::Primitive;
 
@@ -22,4 +22,21 @@ pub enum Solid {
     Intersection(Vec<Solid>),
     /// What is in the first and in none of the others.
     Difference(Vec<Solid>),
+}
+
+impl Solid {
+    /// Whether `point` is in the solid or on its boundary, as far as rounding can tell.
+    pub fn holds(&self, point: DVec3) -> bool {
+        match self {
+            Self::Placed { primitive, scene_from_own, .. } => {
+                primitive.holds(scene_from_own.inverse().transform_point3(point))
+            }
+            Self::Union(solids) => solids.iter().any(|solid| solid.holds(point)),
+            Self::Intersection(solids) => !solids.is_empty() && solids.iter().all(|solid| solid.holds(point)),
+            Self::Difference(solids) => match solids.split_first() {
+                Some((first, others)) => first.holds(point) && !others.iter().any(|solid| solid.holds(point)),
+                None => false,
+            },
+        }
+    }
 }

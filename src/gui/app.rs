@@ -20,7 +20,7 @@ pub struct App {
 
 impl App {
     /// The window's content; the run starts at once.
-    pub fn new(ctx: &egui::Context, launch: Launch) -> Self {
+    pub fn new(ctx: &egui::Context, launch: &Launch) -> Self {
         theme::install(ctx);
         places::install(ctx);
         let ground = theme::rgb(Look::of(ctx).ground);

@@ -1,6 +1,7 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
 
 mod app;
+mod demonstration;
 mod nodes_panel;
 mod paint;
 mod picture_panel;
@@ -17,20 +18,17 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::scene::Scene;
+use crate::scene::Opened;
 
 pub use app::App;
+pub use demonstration::demonstration;
 pub use session::{Phase, Session};
 
 /// What the window opens with.
 #[derive(Clone, Debug)]
 pub struct Launch {
-    /// The scene's name, for people.
-    pub scene_name: String,
     /// The scene.
-    pub scene: Scene,
-    /// Bytes of the scene's text, which each band carries along.
-    pub scene_bytes: u64,
+    pub scene: Opened,
     /// Where each run's records are written when it ends or the window closes.
     pub log: Option<PathBuf>,
 }
@@ -61,24 +59,42 @@ pub fn open(launch: Launch) -> Result<(), String> {
     let ended = panic::catch_unwind(AssertUnwindSafe(|| {
         let create: eframe::AppCreator<'_> = Box::new(move |creation| {
             created();
-            Ok(Box::new(App::new(&creation.egui_ctx, launch)))
+            Ok(Box::new(App::new(&creation.egui_ctx, &launch)))
         });
         eframe::run_native("anel", options, create)
     }));
     restore();
-    match ended {
-        Ok(Ok(())) => Ok(()),
-        Ok(Err(error)) => Err(format!("no window can be opened: {error}")),
+    let why = match ended {
+        Ok(Ok(())) => return Ok(()),
+        Ok(Err(error)) => error.to_string(),
         Err(reason) => {
-            let said = reason.downcast_ref::<&str>().copied();
-            let said =
-                said.or_else(|| reason.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given");
-            Err(format!("no window can be opened: {said}"))
+            let said = reason.downcast_ref::<&str>().map(|said| (*said).to_owned());
+            said.or_else(|| reason.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into())
         }
-    }
+    };
+    Err(without_place(&why))
+}
+
+/// What an error says without the place in some crate's source where it arose: `… at FILE.rs:LINE: WHAT`.
+fn without_place(said: &str) -> String {
+    let after = said.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let what = after.map_or(said, |(_, what)| what);
+    what.lines().map(str::trim).collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()
 }
 
 #[cfg(feature = "glow")]
 const RENDERER: eframe::Renderer = eframe::Renderer::Glow;
 #[cfg(not(feature = "glow"))]
 const RENDERER: eframe::Renderer = eframe::Renderer::Wgpu;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_told_without_their_place_in_a_crate() {
+        let said = "winit EventLoopError: os error at /a/b-0.1/src/mod.rs:788: Failed to open connection to X server";
+        assert_eq!(without_place(said), "Failed to open connection to X server");
+        assert_eq!(without_place("library libxkbcommon-x11.so could not be loaded."), "library libxkbcommon-x11.so could not be loaded");
+    }
+}

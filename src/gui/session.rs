@@ -3,18 +3,17 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender, unbounded};
 
-use super::Launch;
-use crate::balance::{NodeId, Strategy};
-use crate::driver::{Run, Update, auto_pace, probe};
+use super::{Launch, demonstration};
+use crate::balance::NodeId;
+use crate::driver::{Run, Update};
 use crate::palette::{Rgb, node_colour};
-use crate::picture::{Division, Frame, Size, write_png};
-use crate::runlog::{Header, Link, RunLog, metrics};
+use crate::picture::{Frame, write_png};
+use crate::runlog::{Header, RunLog, metrics};
 use crate::time::Time;
-use crate::tracer::{Quality, Tracer};
+use crate::tracer::Tracer;
 use crate::view::{Canvas, Narrator, Outcome, RunState};
 
 /// What the window shows: a run, and everything that is known of it.
@@ -53,44 +52,11 @@ pub enum Done {
     Chosen(Option<PathBuf>),
 }
 
-/// What the window opens with: eight machines, of which the fifth is slow.
-const SPEEDS: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 0.1, 1.0, 1.0, 1.0];
-
-/// How long the probed work is to last. The run itself takes about 20 s, long enough to see it and short enough to
-/// see it again: machines that wait after every atom find their caches cold, which costs about a quarter.
-const LASTS: Duration = Duration::from_secs(16);
-
 impl Session {
-    /// Starts the first run. This takes a moment, in which a sample of the picture is traced to choose the pace.
-    ///
-    /// # Panics
-    /// Never: the built-in size is possible.
-    pub fn start(launch: Launch, ground: Rgb) -> Self {
-        const LOOK: Duration = Duration::from_millis(120);
-        #[expect(clippy::unwrap_used, reason = "neither side is 0, and there are few pixels")]
-        let size = Size::new(640, 480).unwrap();
-        let quality = Quality::default();
-        let division = Division::new(size.pixels(), 50);
-        let tracer = Arc::new(Tracer::new(&launch.scene, size, quality));
-        let cores = thread::available_parallelism().map_or(1, usize::from);
-        let speeds = SPEEDS.to_vec();
-        let work = probe(&tracer, division, LOOK).whole.as_secs_f64();
-        let pace = (work / (LASTS.as_secs_f64() * speeds.iter().sum::<f64>())).min(auto_pace(&speeds, cores));
-        let header = Header {
-            scene: launch.scene_name,
-            scene_bytes: launch.scene_bytes,
-            size,
-            samples: quality.samples,
-            division,
-            strategy: Strategy::Ring,
-            speeds,
-            pace: pace.max(1e-6),
-            link: Link { latency: Duration::from_millis(40), bandwidth: None },
-            handling: Duration::ZERO,
-            part: 1,
-            cores,
-        };
-        Self::begin(tracer, header, launch.log, ground)
+    /// Starts the first run: [`demonstration`].
+    pub fn start(launch: &Launch, ground: Rgb) -> Self {
+        let (tracer, header) = demonstration(&launch.scene);
+        Self::begin(tracer, header, launch.log.clone(), ground)
     }
 
     /// Ends the run and starts it anew with the speeds as they are now.

@@ -81,6 +81,8 @@ pub fn atoms_by_node(header: &Header, records: &[Record]) -> Vec<u32> {
 /// How much was said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Messages {
+    /// Requests for work to the parent: a ring makes none.
+    pub requests: u64,
     /// Offers that a node made.
     pub offers: u64,
     /// Offers passed on.

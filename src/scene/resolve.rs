@@ -146,14 +146,9 @@ fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
             let own = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(radius)), translation: centre };
             (Primitive::Sphere, own)
         }
-        SolidFields::HalfSpace { normal, offset, .. } => {
-            (Primitive::HalfSpace { normal, offset }, DAffine3::IDENTITY)
-        }
+        SolidFields::HalfSpace { normal, offset, .. } => (Primitive::HalfSpace { normal, offset }, DAffine3::IDENTITY),
         SolidFields::Box { min, max, .. } => {
-            let own = DAffine3 {
-                matrix3: DMat3::from_diagonal((max - min) / 2.0),
-                translation: (min + max) / 2.0,
-            };
+            let own = DAffine3 { matrix3: DMat3::from_diagonal((max - min) / 2.0), translation: (min + max) / 2.0 };
             (Primitive::Cube, own)
         }
         SolidFields::Cylinder { from, to, radius, .. } => (Primitive::Cylinder, along(from, to, radius)),

@@ -20,8 +20,16 @@ struct Node {
 
 /// Below this depth the tree is halved by count, so that [`STACK`] always suffices.
 const MAX_UNBALANCED: u32 = 32;
-/// 32 unbalanced levels and 32 that halve at most 2³² solids.
-const STACK: usize = 64;
+/// Boxes still to be visited, and where the ray enters them: 32 unbalanced levels, and 32 that halve at most 2³²
+/// solids. Kept from ray to ray, since clearing it would cost more than a box.
+#[derive(Debug)]
+pub(super) struct Pending([(f64, u32); 64]);
+
+impl Default for Pending {
+    fn default() -> Self {
+        Self([(0.0, 0); 64])
+    }
+}
 
 impl Bvh {
     pub fn new(mut solids: Vec<(u32, Aabb)>) -> Self {
@@ -39,13 +47,18 @@ impl Bvh {
     /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` answers with a new
     /// `t_max`; a negative one ends the search.
     #[inline(always)]
-    pub fn visit(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+    pub fn visit(
+        &self,
+        ray: &Ray,
+        mut t_max: f64,
+        Pending(stack): &mut Pending,
+        mut visit: impl FnMut(u32, f64) -> f64,
+    ) {
         let Some(top) = self.nodes.first().and_then(|node| node.bounds.entry(ray, 0.0, t_max)) else { return };
-        let mut stack = [(0.0, 0); STACK];
         let mut depth = 0;
         let (mut entry, mut at) = (top, 0);
         loop {
-            let node = &self.nodes[at];
+            let node = &self.nodes[at as usize];
             if entry <= t_max {
                 if node.count > 0 {
                     for &root in &self.roots[node.to as usize..(node.to + node.count) as usize] {
@@ -55,11 +68,12 @@ impl Bvh {
                         return;
                     }
                 } else {
-                    let (first, second) = (at + 1, node.to as usize);
-                    let meet = |child: usize| self.nodes[child].bounds.entry(ray, 0.0, t_max);
+                    let (first, second) = (at + 1, node.to);
+                    let meet = |child: u32| self.nodes[child as usize].bounds.entry(ray, 0.0, t_max);
                     let next = match (meet(first), meet(second)) {
                         (Some(a), Some(b)) => {
-                            let (near, far) = if a <= b { ((a, first), (b, second)) } else { ((b, second), (a, first)) };
+                            let (near, far) =
+                                if a <= b { ((a, first), (b, second)) } else { ((b, second), (a, first)) };
                             stack[depth] = far;
                             depth += 1;
                             Some(near)
@@ -134,7 +148,6 @@ fn best_split(solids: &mut [(u32, Aabb)], bounds: &Aabb, depth: u32) -> Option<(
 
 fn sort_along(solids: &mut [(u32, Aabb)], axis: usize) {
     // By number where centres are equal, so that the same scene always gives the same tree.
-    solids.sort_by(|(a, a_box), (b, b_box)| {
-        a_box.centre()[axis].total_cmp(&b_box.centre()[axis]).then_with(|| a.cmp(b))
-    });
+    solids
+        .sort_by(|(a, a_box), (b, b_box)| a_box.centre()[axis].total_cmp(&b_box.centre()[axis]).then_with(|| a.cmp(b)));
 }

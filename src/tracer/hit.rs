@@ -1,18 +1,35 @@
 //! What a ray meets among all solids.
 
+use super::bvh::Pending;
 use super::world::World;
 use crate::csg::{Hit, Stack, Start};
 use crate::geometry::Ray;
 
+/// What finding a hit needs of memory, kept from ray to ray.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    spans: Stack,
+    boxes: Pending,
+}
+
 impl World {
     /// The nearest boundary on `ray`, and the root that it bounds.
     #[inline]
-    pub fn nearest(&self, ray: &Ray, start: Option<Start>, stack: &mut Stack) -> Option<(u32, Hit)> {
+    pub fn nearest(&self, ray: &Ray, start: Option<Start>, memory: &mut Memory) -> Option<(u32, Hit)> {
+        let Memory { spans, boxes } = memory;
         let mut nearest: Option<(u32, Hit)> = None;
-        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, stack) {
+        // Of solids that touch, the one that stands first in the scene is seen, whatever rounding says: so no two
+        // of them mingle where their faces coincide.
+        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
-                nearest = Some((root, hit));
-                hit.t
+                let slack = ray.tolerance(hit.t);
+                match nearest {
+                    Some((other, best)) if hit.t >= best.t - slack && other < root => t_max,
+                    _ => {
+                        nearest = Some((root, hit));
+                        hit.t + slack
+                    }
+                }
             }
             None => t_max,
         };
@@ -20,7 +37,7 @@ impl World {
         for &root in &self.unbounded {
             t_max = test(root, t_max);
         }
-        self.bounded.visit(ray, t_max, test);
+        self.bounded.visit(ray, t_max, boxes, test);
         nearest
     }
 
@@ -34,21 +51,22 @@ impl World {
         start: Start,
         t_max: f64,
         suspect: &mut Option<u32>,
-        stack: &mut Stack,
+        memory: &mut Memory,
     ) -> f64 {
+        let Memory { spans, boxes } = memory;
         if let Some(root) = *suspect
-            && self.tree.nearest(root, ray, Some(start), t_max, stack).is_some()
+            && self.tree.nearest(root, ray, Some(start), t_max, spans).is_some()
         {
             return 0.0;
         }
         let mut arriving = 1.0;
         let mut test = |root: u32, t_max: f64| {
             if self.transmits[root as usize] {
-                self.tree.crossings(root, ray, Some(start), t_max, stack, |hit| {
+                self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                     arriving *= self.finish(hit.surface).kt;
                     arriving > 0.0
                 });
-            } else if self.tree.nearest(root, ray, Some(start), t_max, stack).is_some() {
+            } else if self.tree.nearest(root, ray, Some(start), t_max, spans).is_some() {
                 *suspect = Some(root);
                 arriving = 0.0;
             }
@@ -59,7 +77,7 @@ impl World {
                 return 0.0;
             }
         }
-        self.bounded.visit(ray, t_max, test);
+        self.bounded.visit(ray, t_max, boxes, test);
         arriving
     }
 }

@@ -4,9 +4,10 @@
 
 use glam::DVec3;
 
+use super::hit::Memory;
 use super::world::Finish;
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, Stack, Start};
+use crate::csg::{Hit, Start};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
@@ -15,7 +16,7 @@ use crate::scene::Light;
 pub struct Scratch {
     /// Rays traced with this scratch so far.
     pub rays: RayCounts,
-    stack: Stack,
+    memory: Memory,
     /// The solid that blocked each light last.
     suspects: Vec<Option<u32>>,
 }
@@ -48,7 +49,7 @@ impl Tracer {
     }
 
     fn colour(&self, ray: &Ray, start: Option<Start>, branch: Branch, scratch: &mut Scratch) -> DVec3 {
-        let Some((root, hit)) = self.world.nearest(ray, start, &mut scratch.stack) else {
+        let Some((root, hit)) = self.world.nearest(ray, start, &mut scratch.memory) else {
             return self.world.background;
         };
         let place = self.place(ray, root, &hit);
@@ -105,14 +106,14 @@ impl Tracer {
             Light::Directional { direction, colour } => (-direction, f64::INFINITY, colour),
         };
         let cosine = place.normal.dot(direction);
-        // Also false for NaN: the light is in the surface itself.
-        if !(cosine > 0.0) {
+        // NaN if the light is at the very point.
+        if cosine <= 0.0 || cosine.is_nan() {
             return DVec3::ZERO;
         }
         scratch.rays.shadow += 1;
-        let Scratch { stack, suspects, .. } = scratch;
+        let Scratch { memory, suspects, .. } = scratch;
         let onward = ray.onward(place.t, direction);
-        let arriving = self.world.light_arriving(&onward, place.start, distance, &mut suspects[index], stack);
+        let arriving = self.world.light_arriving(&onward, place.start, distance, &mut suspects[index], memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }
@@ -134,7 +135,7 @@ impl Tracer {
 }
 
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
-    (direction - normal * (2.0 * direction.dot(normal))).normalize()
+    direction - normal * (2.0 * direction.dot(normal))
 }
 
 /// Snell's law; nothing under total internal reflection.

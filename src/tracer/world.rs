@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Compiled;
 use super::bvh::Bvh;
-use crate::csg::{Surface, Tree};
+use crate::csg::{Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
 #[derive(Debug)]
@@ -57,7 +57,11 @@ impl World {
     pub fn new(scene: &Scene) -> Self {
         let mut tree = Tree::default();
         let (mut bounded, mut unbounded, mut transmits, mut dropped) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        let mut solids = Vec::new();
         for solid in &scene.solids {
+            split(solid, scene, &mut solids);
+        }
+        for solid in solids {
             let Some((root, bounds)) = tree.add(solid) else {
                 dropped += 1;
                 continue;
@@ -89,9 +93,8 @@ impl World {
 
     pub fn compiled(&self) -> Compiled {
         let roots = || self.bounded.roots().chain(self.unbounded.iter().copied());
-        let finishes = || {
-            roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize])
-        };
+        let finishes =
+            || roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize]);
         Compiled {
             solids: roots().count(),
             compositions: roots().filter(|&root| self.tree.leaves_of(root).len() > 1).count(),
@@ -100,6 +103,26 @@ impl World {
             lights: self.lights.len(),
             reflects: finishes().any(|finish| finish.ks > 0.0),
             transmits: finishes().any(|finish| finish.kt > 0.0),
+        }
+    }
+}
+
+/// Takes unions apart where nobody can tell: an opaque union seen from outside looks like its parts one by one, and
+/// each of them has closer bounds.
+fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
+    match solid {
+        Solid::Union(solids) if is_opaque(solid, scene) && !solid.holds(scene.camera.eye) => {
+            solids.iter().for_each(|solid| split(solid, scene, parts));
+        }
+        _ => parts.push(solid),
+    }
+}
+
+fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
+    match solid {
+        Solid::Placed { tag, .. } => scene.materials[*tag as usize].kt == 0.0,
+        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+            solids.iter().all(|solid| is_opaque(solid, scene))
         }
     }
 }

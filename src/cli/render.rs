@@ -1,0 +1,127 @@
+//! A run without a window.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::args::RenderArgs;
+use super::report::Report;
+use super::{Failure, open};
+use crate::driver::{Run, Update, probe};
+use crate::picture::{Division, Frame, check_writable, write_png};
+use crate::record::What;
+use crate::runlog::{Header, Link, RunLog, metrics};
+use crate::tracer::{Quality, RayCounts, Tracer};
+
+/// Where a run's results go.
+pub(super) struct Outputs<'a> {
+    pub out: &'a Path,
+    pub log: Option<&'a Path>,
+    pub json: bool,
+}
+
+/// What a run leaves behind.
+struct Outcome {
+    frame: Frame,
+    log: RunLog,
+    rays: RayCounts,
+    wall: Duration,
+}
+
+pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
+    let opened = open(&args.scene)?;
+    let speeds = args.node_speeds().map_err(Failure::Refused)?;
+    for path in [Some(&args.out), args.log.as_ref()].into_iter().flatten() {
+        check_writable(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    }
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let header = Header {
+        scene: opened.name,
+        scene_bytes: opened.bytes,
+        size: args.size,
+        samples: args.samples,
+        division: Division::new(args.size.pixels(), args.atom),
+        strategy: args.strategy,
+        pace: args.pace_of(&speeds, cores),
+        speeds,
+        link: Link { latency: args.latency, bandwidth: args.bandwidth },
+        handling: args.handling,
+        part: args.part,
+        cores,
+    };
+    let quality = Quality { samples: args.samples, ..Quality::default() };
+    let tracer = Arc::new(Tracer::new(&opened.scene, args.size, quality));
+    run_and_save(&tracer, &header, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
+}
+
+/// Does the run that `header` describes, and says how it was.
+pub(super) fn run_and_save(tracer: &Arc<Tracer>, header: &Header, to: &Outputs<'_>) -> Result<(), Failure> {
+    let outcome = run(tracer, header)?;
+    write_png(to.out, header.size, &outcome.frame.to_srgb8()).map_err(|error| Failure::Failed(error.to_string()))?;
+    if let Some(log) = to.log {
+        outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
+    }
+    let report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead(tracer, &outcome.log), tracer);
+    if to.json {
+        println!("{}", report.json());
+    } else {
+        eprint!("{report}");
+        println!("{}", to.out.display());
+    }
+    Ok(())
+}
+
+#[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
+    let begun = Instant::now();
+    let run = Run::start(Arc::clone(tracer), header);
+    let bar = ProgressBar::new(u64::from(header.division.atoms()));
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let mut frame = Frame::new(header.size);
+    let mut log = RunLog::new(header.clone());
+    let mut rays = RayCounts::default();
+    let failure = loop {
+        match run.updates().recv() {
+            Ok(Update::Records(records)) => log.add(records),
+            Ok(Update::Placed { atoms, pixels }) => {
+                let mut rest = &pixels[..];
+                for atom in atoms.into_iter().flatten() {
+                    let place = header.division.pixels(atom);
+                    let (now, later) = rest.split_at(place.len());
+                    frame.place(place, now);
+                    rest = later;
+                    bar.inc(1);
+                }
+            }
+            Ok(Update::Totals { rays: more, .. }) => rays += more,
+            Ok(Update::Finished) => break None,
+            Ok(Update::Failed(why)) => break Some(why),
+            Err(_) => break Some("the run ended without a result".into()),
+        }
+    };
+    bar.finish_and_clear();
+    match failure {
+        Some(why) => Err(Failure::Failed(why)),
+        None => Ok(Outcome { frame, log, rays, wall: begun.elapsed() }),
+    }
+}
+
+/// How much dearer atoms were in the run than one after another on one thread, from a sample of them: contention for
+/// caches and cores hides in an atom's cost, and so in the efficiency.
+fn overhead(tracer: &Tracer, log: &RunLog) -> Option<f64> {
+    let mut costs = vec![Duration::ZERO; log.header.division.atoms() as usize];
+    for record in log.records() {
+        if let What::AtomDone { atom, cost, .. } = record.what {
+            costs[atom as usize] = cost;
+        }
+    }
+    let budget = (metrics::work(log.records()) / 10).min(Duration::from_secs(1));
+    let serial = probe(tracer, log.header.division, budget).atoms;
+    let in_run: Duration = serial.iter().map(|(atom, _)| costs[*atom as usize]).sum();
+    let alone: Duration = serial.iter().map(|(_, cost)| *cost).sum();
+    (!alone.is_zero()).then(|| in_run.as_secs_f64() / alone.as_secs_f64())
+}

@@ -1,0 +1,95 @@
+//! What a headless run says about itself.
+
+use std::fmt;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::runlog::RunLog;
+use crate::runlog::metrics::{self, Messages};
+use crate::tracer::{Compiled, RayCounts, Tracer};
+
+/// The run in figures; times are in seconds.
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    scene: String,
+    width: u32,
+    height: u32,
+    samples: u32,
+    strategy: &'static str,
+    driver: &'static str,
+    nodes: usize,
+    speeds: Vec<f64>,
+    pace: f64,
+    /// As the user felt it, threads started and ended.
+    wall_s: f64,
+    /// From the first band sent to the last atom placed.
+    makespan_s: f64,
+    /// CPU time in the tracer.
+    work_s: f64,
+    /// The least makespan possible for this work on these machines.
+    ideal_s: f64,
+    efficiency: f64,
+    /// An atom's cost in the run over its cost alone; null where there was too little to measure.
+    overhead: Option<f64>,
+    finish_spread_s: f64,
+    rays: RayCounts,
+    atoms: u32,
+    atoms_by_node: Vec<u32>,
+    messages: Messages,
+    compiled: Compiled,
+}
+
+impl Report {
+    pub fn new(log: &RunLog, rays: RayCounts, wall: Duration, overhead: Option<f64>, tracer: &Tracer) -> Self {
+        let (header, records) = (&log.header, log.records());
+        let seconds = |time: Option<Duration>| time.unwrap_or_default().as_secs_f64();
+        Self {
+            scene: header.scene.clone(),
+            width: header.size.width(),
+            height: header.size.height(),
+            samples: header.samples,
+            strategy: header.strategy.name(),
+            driver: "threads",
+            nodes: header.speeds.len(),
+            speeds: header.speeds.clone(),
+            pace: header.pace,
+            wall_s: wall.as_secs_f64(),
+            makespan_s: seconds(metrics::makespan(records)),
+            work_s: metrics::work(records).as_secs_f64(),
+            ideal_s: seconds(metrics::ideal(header, records)),
+            efficiency: metrics::efficiency(header, records).unwrap_or_default(),
+            overhead,
+            finish_spread_s: metrics::finish_spread(records).as_secs_f64(),
+            rays,
+            atoms: header.division.atoms(),
+            atoms_by_node: metrics::atoms_by_node(header, records),
+            messages: metrics::messages(records),
+            compiled: tracer.compiled(),
+        }
+    }
+
+    /// One JSON object on one line.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).expect("numbers, texts and lists have a JSON form")
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { scene, width, height, strategy, nodes, .. } = self;
+        writeln!(f, "{scene}, {width}x{height}, {strategy}, {nodes} nodes")?;
+        writeln!(
+            f,
+            "  makespan {:.3} s, ideal {:.3} s: efficiency {:.3}; the nodes ended within {:.3} s",
+            self.makespan_s, self.ideal_s, self.efficiency, self.finish_spread_s
+        )?;
+        if let Some(overhead) = self.overhead {
+            writeln!(f, "  tracing took {:.3} s of CPU time, {overhead:.3} times that of one thread", self.work_s)?;
+        }
+        let Messages { offers, hops, transfers, atoms_moved, .. } = self.messages;
+        writeln!(f, "  {offers} offers, {hops} hops, {transfers} transfers of {atoms_moved} atoms")?;
+        let shares: Vec<_> = self.atoms_by_node.iter().map(u32::to_string).collect();
+        writeln!(f, "  atoms by node: {}", shares.join(" "))
+    }
+}

@@ -1,0 +1,127 @@
+//! A scene for POV-Ray 3.7, with the same shading, so that anyone can compare pictures and times.
+//!
+//! POV-Ray weakens pigment by what the surface transmits (the equation does not), its ambient and diffuse are
+//! multiplied by the pigment, and its system of coordinates is left-handed unless `right` is negative.
+
+use std::fmt::Write;
+
+use glam::{DAffine3, DVec3};
+
+use crate::csg::{Primitive, Solid};
+use crate::picture::Size;
+use crate::scene::{Light, Material, Scene};
+use crate::tracer::Quality;
+
+/// The text of a POV-Ray scene file for a picture of the shape of `size`.
+pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {
+    let mut text = String::from("// Written by anel; render it with +W… +H… in the proportions it was written for.\n");
+    let camera = &scene.camera;
+    let aspect = f64::from(size.width()) / f64::from(size.height());
+    let across = 2.0 * ((camera.field_of_view.to_radians() / 2.0).tan() * aspect).atan();
+    put(
+        &mut text,
+        format_args!(
+            "#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level {} adc_bailout {} ambient_light rgb 1 }}\n\
+             background {{ rgb {} }}\n\
+             camera {{ location {} right -x*{aspect} up y angle {} sky {} look_at {} }}\n",
+            quality.max_depth,
+            quality.cutoff,
+            vector(scene.background),
+            vector(camera.eye),
+            across.to_degrees(),
+            vector(camera.up),
+            vector(camera.look_at),
+        ),
+    );
+    for light in &scene.lights {
+        match light {
+            Light::Point { position, colour } => {
+                put(&mut text, format_args!("light_source {{ {} rgb {} }}\n", vector(*position), vector(*colour)));
+            }
+            Light::Directional { direction, colour } => {
+                let from = vector(camera.look_at - *direction * 1e6);
+                let to = vector(camera.look_at);
+                let colour = vector(*colour);
+                put(&mut text, format_args!("light_source {{ {from} rgb {colour} parallel point_at {to} }}\n"));
+            }
+        }
+    }
+    for (tag, material) in scene.materials.iter().enumerate() {
+        put_material(&mut text, tag, material, scene.ambient);
+    }
+    for solid in &scene.solids {
+        put_solid(&mut text, solid);
+    }
+    text
+}
+
+fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVec3) {
+    let Material { colour, ka, kd, ks, kt, n, ior } = *material;
+    let kept = 1.0 - kt;
+    let (ka, kd) = if kept > 0.0 { (ka / kept, kd / kept) } else { (0.0, 0.0) };
+    put(
+        text,
+        format_args!(
+            "#declare M{tag} = material {{ texture {{ pigment {{ rgb {} transmit {kt} }}\n\
+             finish {{ ambient rgb {} diffuse {kd} phong {ks} phong_size {n} reflection {ks} }} }}\n\
+             interior {{ ior {ior} }} }}\n",
+            vector(colour),
+            vector(ambient * ka),
+        ),
+    );
+}
+
+fn put_solid(text: &mut String, solid: &Solid) {
+    let (operation, solids) = match solid {
+        Solid::Placed { primitive, scene_from_own, tag } => {
+            put(text, format_args!("{} {} material {{ M{tag} }} }}\n", body(primitive), matrix(scene_from_own)));
+            return;
+        }
+        Solid::Union(solids) => ("union", solids),
+        Solid::Intersection(solids) => ("intersection", solids),
+        Solid::Difference(solids) => ("difference", solids),
+    };
+    match &solids[..] {
+        // POV-Ray warns of compositions of one.
+        [only] => put_solid(text, only),
+        _ => {
+            put(text, format_args!("{operation} {{\n"));
+            for solid in solids {
+                put_solid(text, solid);
+            }
+            text.push_str("}\n");
+        }
+    }
+}
+
+/// The primitive in its own coordinates, without the closing brace.
+fn body(primitive: &Primitive) -> String {
+    match primitive {
+        Primitive::Sphere => "sphere { 0, 1".into(),
+        Primitive::HalfSpace { normal, offset } => format!("plane {{ {}, {offset}", vector(*normal)),
+        Primitive::Cube => "box { -1, 1".into(),
+        Primitive::Cylinder => "cylinder { -y, y, 1".into(),
+        Primitive::Cone { bottom, top } => format!("cone {{ -y, {bottom}, y, {top}"),
+        Primitive::Quadric(q) => format!(
+            "quadric {{ {}, {}, {}, {}",
+            vector(q.squares),
+            // POV-Ray's order is xy, xz, yz.
+            vector(DVec3::new(q.products.x, q.products.z, q.products.y)),
+            vector(q.linear),
+            q.constant
+        ),
+    }
+}
+
+fn matrix(map: &DAffine3) -> String {
+    let numbers: Vec<_> = map.to_cols_array().iter().map(f64::to_string).collect();
+    format!("matrix <{}>", numbers.join(", "))
+}
+
+fn vector(v: DVec3) -> String {
+    format!("<{}, {}, {}>", v.x, v.y, v.z)
+}
+
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+    text.write_fmt(what).expect("a String takes everything");
+}

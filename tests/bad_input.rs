@@ -1,0 +1,263 @@
+//! Bad scenes and arguments: one clear sentence, exit code 2, nothing written; a disk that fills: exit code 1 and no
+//! half file.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const GOOD: &str = "(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), objects: [Sphere(radius: 1)])";
+
+fn anel(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_anel"))
+        .current_dir(directory)
+        .args(arguments)
+        .output()
+        .expect("the program can be started")
+}
+
+/// Renders a file with these contents, and gives the error's text.
+fn refused_scene(contents: impl AsRef<[u8]>) -> String {
+    let directory = TempDir::new().expect("a temporary directory");
+    fs::write(directory.path().join("bad.ron"), contents).expect("a file in it");
+    refused(directory.path(), &["render", "bad.ron", "--out", "out.png"])
+}
+
+/// Runs the program, which must refuse: exit code 2, nothing on standard output, no new file.
+fn refused(directory: &Path, arguments: &[&str]) -> String {
+    let before = fs::read_dir(directory).expect("the directory").count();
+    let output = anel(directory, arguments);
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+    assert!(output.stdout.is_empty(), "{arguments:?} printed on standard output");
+    assert_eq!(fs::read_dir(directory).expect("the directory").count(), before, "{arguments:?} wrote something");
+    assert!(!error.contains("panicked"), "{error}");
+    error
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_its_line_its_column_and_its_field() {
+    let with = |objects: &str| GOOD.replace("Sphere(radius: 1)", objects);
+    let many =
+        |head: &str, tail: &str| format!("{}{}{}", head.repeat(100_000), "Sphere(radius: 1)", tail.repeat(100_000));
+    // What is in the file, and what its error must name.
+    let cases: &[(String, &[&str])] = &[
+        ("(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), objects: [".into(), &["line 1, column "]),
+        (with("Sphere(radius: 1, colour: 3)"), &["line 1, column ", "objects[0]", "colour", "radius"]),
+        (
+            with("Sphere(\n  centre: (0, 0, 0),\n  radius: NaN)"),
+            &["line 3, column ", "objects[0].Sphere.radius", "NaN"],
+        ),
+        (with("Sphere(radius: inf)"), &["line 1, column ", "objects[0].Sphere.radius", "inf"]),
+        (with("Sphere(radius: 0)"), &["line 1, column ", "objects[0].Sphere.radius", "greater than 0"]),
+        (with("Sphere(radius: -1)"), &["line 1, column ", "objects[0].Sphere.radius", "greater than 0", "-1"]),
+        (with("Sphere(centre: (0, inf, 0), radius: 1)"), &["objects[0].Sphere.centre", "inf"]),
+        (
+            with("Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0)"),
+            &["objects[0].Cylinder.radius", "greater than 0"],
+        ),
+        (with("Cylinder(from: (0, 1, 0), to: (0, 1, 0), radius: 1)"), &["line 1", "from and to"]),
+        (with("Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, to_radius: -1)"), &["line 1", "to_radius"]),
+        (with("Box(min: (0, 0, 0), max: (1, 0, 1))"), &["line 1", "min must be below max"]),
+        (with("HalfSpace(normal: (0, 0, 0))"), &["objects[0].HalfSpace.normal", "length 0"]),
+        (with("Quadric(constant: 1)"), &["line 1", "squares, products and linear"]),
+        (with("Union(of: [])"), &["line 1", "at least one solid"]),
+        (with("Sphere(radius: 1, transform: [Scale((1, 0, 1))])"), &["objects[0].Sphere.transform[0]", "other than 0"]),
+        (with("Sphere(radius: 1, material: \"gold\")"), &["line 1, column 86", "no material `gold`"]),
+        (with("Use(solid: \"wheel\")"), &["line 1, column ", "no solid `wheel`"]),
+        (with("Torus(radius: 1)"), &["line 1, column ", "Torus", "Sphere"]),
+        (
+            GOOD.replace(
+                "objects",
+                "solids: {\"a\": Union(of: [Use(solid: \"b\")]), \"b\": Use(solid: \"a\")}, objects",
+            ),
+            &["line 1, column ", "a solid uses itself", "a → b → a"],
+        ),
+        (
+            GOOD.replace("objects", "solids: {\"a\": Sphere(radius: 1), \"a\": Sphere(radius: 2)}, objects"),
+            &["line 1, column ", "`a` is defined twice"],
+        ),
+        (
+            GOOD.replace("objects", "materials: {\"m\": (kd: 1.5)}, objects"),
+            &["line 1, column ", "materials.m.kd", "between 0 and 1", "1.5"],
+        ),
+        (with(&many("Union(of: [", "])")), &["line 1, column "]),
+        ("(objects: [Sphere(radius: 1)])".into(), &["line 1, column ", "camera"]),
+        (GOOD.replace("(0, 0, 0)", "(0, 0, 5)"), &["camera", "eye and look_at"]),
+        (GOOD.replace("look_at", "up: (0, 0, 1), look_at"), &["camera", "up"]),
+        (GOOD.replace("look_at", "field_of_view: 180, look_at"), &["camera.field_of_view", "180"]),
+        (format!("{GOOD} {GOOD}"), &["line 1, column ", "follows the end"]),
+        (String::new(), &["empty"]),
+        (" \n\n".into(), &["empty"]),
+        ("\u{0}\u{1}garbage".into(), &["line 1, column "]),
+    ];
+    for (text, names) in cases {
+        let error = refused_scene(text);
+        let start: String = text.chars().take(200).collect();
+        assert_eq!(error.trim_end().lines().count(), 1, "more than a sentence for {start}: {error}");
+        assert!(error.starts_with("anel: bad.ron: "), "the file is named: {error}");
+        for name in *names {
+            assert!(error.contains(name), "{name} is missing for {start}: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_would_grow_without_bounds_is_refused() {
+    // Forty names, each twice the one before: 2⁴⁰ spheres.
+    let mut solids = String::from("\"s0\": Sphere(radius: 1)");
+    for k in 1..=40 {
+        solids += &format!(", \"s{k}\": Union(of: [Use(solid: \"s{0}\"), Use(solid: \"s{0}\")])", k - 1);
+    }
+    let error = refused_scene(
+        GOOD.replace("objects: [Sphere(radius: 1)]", &format!("solids: {{{solids}}}, objects: [Use(solid: \"s40\")]")),
+    );
+    assert!(error.contains("more than 200000 primitives"), "{error}");
+    // A chain of names, deeper than any stack.
+    let mut solids = String::from("\"s0\": Sphere(radius: 1)");
+    for k in 1..=100_000 {
+        solids += &format!(", \"s{k}\": Use(solid: \"s{}\")", k - 1);
+    }
+    let error =
+        refused_scene(GOOD.replace(
+            "objects: [Sphere(radius: 1)]",
+            &format!("solids: {{{solids}}}, objects: [Use(solid: \"s100000\")]"),
+        ));
+    assert!(error.contains("deep"), "{error}");
+    // Transforms that end in nothing.
+    let tiny = "Scale((1e-6, 1e-6, 1e-6)), ".repeat(60);
+    let error = refused_scene(GOOD.replace("radius: 1", &format!("radius: 1, transform: [{tiny}]")));
+    assert!(error.contains("too small"), "{error}");
+}
+
+#[test]
+fn what_is_no_scene_file_is_refused() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let at = directory.path();
+    let error = refused(at, &["render", "nowhere.ron", "--out", "out.png"]);
+    assert!(
+        error.contains("nowhere.ron") && error.contains("no such file") && error.contains("ten-objects"),
+        "{error}"
+    );
+    fs::create_dir(at.join("folder.ron")).expect("a directory");
+    assert!(refused(at, &["render", "folder.ron", "--out", "out.png"]).contains("directory"));
+    fs::write(at.join("latin.ron"), b"(camera: (\n// caf\xe9\n").expect("a file");
+    assert!(refused(at, &["render", "latin.ron", "--out", "out.png"]).contains("line 2: the file is not text"));
+    // A gigabyte, which nobody should read to the end.
+    let large = fs::File::create(at.join("large.ron")).expect("a file");
+    large.set_len(1 << 30).expect("a sparse file");
+    assert!(refused(at, &["render", "large.ron", "--out", "out.png"]).contains("larger than 16 MiB"));
+    // The viewer's own argument goes the same way.
+    assert!(refused(at, &["nowhere.ron"]).contains("no such file"));
+}
+
+#[test]
+fn bad_arguments_are_refused_before_anything_is_traced() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let at = directory.path();
+    fs::create_dir(at.join("folder")).expect("a directory");
+    let cases: &[(&[&str], &str)] = &[
+        (&["--size", "0x0"], "has no pixels"),
+        (&["--size", "0x480"], "has no pixels"),
+        (&["--size", "1000000x1000000"], "too large"),
+        (&["--size", "99999999999x1"], "not a size"),
+        (&["--size", "large"], "not a size"),
+        (&["--nodes", "0"], "0 is not in 1..=1024"),
+        (&["--nodes", "10000"], "10000 is not in 1..=1024"),
+        (&["--speeds", "0"], "above 0"),
+        (&["--speeds", "1,-1"], "above 0"),
+        (&["--speeds", "1,NaN"], "above 0"),
+        (&["--speeds", "1,1.5"], "at most 1"),
+        (&["--speeds", "1,1", "--nodes", "3"], "3 nodes but 2 speeds"),
+        (&["--speeds", ""], "speed"),
+        (&["--strategy", "magic"], "ring"),
+        (&["--strategy", "serial", "--nodes", "2"], "one node"),
+        (&["--pace", "0"], "pace"),
+        (&["--pace", "fast"], "pace"),
+        (&["--atom", "0"], "0 is not in 1.."),
+        (&["--samples", "0"], "0 is not in 1..=64"),
+        (&["--latency", "-1"], "latency"),
+        (&["--bandwidth", "0"], "bandwidth"),
+        (&["--out", "missing/out.png"], "does not exist"),
+        (&["--out", "folder"], "is a directory"),
+        (&["--out", "/dev/null"], "not a regular file"),
+        (&["--log", "missing/run.log"], "does not exist"),
+        (&["--sise", "1x1"], "--sise"),
+    ];
+    for (arguments, names) in cases {
+        let mut all = vec!["render", "glass"];
+        if !arguments.contains(&"--out") {
+            all.extend(["--out", "out.png"]);
+        }
+        all.extend(*arguments);
+        let error = refused(at, &all);
+        assert_eq!(error.trim_end().lines().count(), 1, "more than a sentence: {error}");
+        assert!(error.contains(names), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn a_camera_inside_a_solid_renders() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let scene = GOOD.replace("radius: 1", "radius: 50");
+    fs::write(directory.path().join("inside.ron"), scene).expect("a file");
+    let output = anel(directory.path(), &["render", "inside.ron", "--out", "out.png", "--size", "32x24"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "out.png");
+    assert!(directory.path().join("out.png").exists());
+}
+
+/// A limit on the size of files stands for a disk that is full.
+#[test]
+#[cfg(unix)]
+fn a_disk_that_fills_leaves_no_half_file() {
+    let directory = TempDir::new().expect("a temporary directory");
+    fs::write(directory.path().join("out.png"), "an older picture").expect("a file");
+    let render = |rest: &str| {
+        let command =
+            format!("trap '' XFSZ; ulimit -f 4; exec '{}' render ten-objects {rest}", env!("CARGO_BIN_EXE_anel"));
+        let output = Command::new("bash").current_dir(directory.path()).args(["-c", &command]).output();
+        let output = output.expect("a shell can be started");
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{error}");
+        assert!(error.contains("nothing was kept"), "{error}");
+    };
+    render("--size 320x240 --out out.png");
+    let kept = fs::read_to_string(directory.path().join("out.png")).expect("the older picture");
+    assert_eq!(kept, "an older picture");
+    let files = || fs::read_dir(directory.path()).expect("the directory").count();
+    assert_eq!(files(), 1, "the partial file is gone");
+    // A picture so small that only the records do not fit.
+    render("--out small.png --size 8x8 --atom 1 --log run.log");
+    assert!(!directory.path().join("run.log").exists());
+}
+
+#[test]
+fn json_is_one_object_on_standard_output_and_nothing_else() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let arguments = ["render", "glass", "--out", "out.png", "--size", "64x48", "--speeds", "1,0.5", "--json"];
+    let output = anel(directory.path(), &arguments);
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(text.trim_end().lines().count(), 1);
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    for field in "scene width height strategy driver nodes wall_s makespan_s work_s ideal_s efficiency overhead \
+                  finish_spread_s rays atoms atoms_by_node messages compiled"
+        .split_whitespace()
+    {
+        assert!(report.get(field).is_some(), "{field} is missing");
+    }
+    for field in ["primary", "shadow", "reflected", "refracted"] {
+        assert!(report["rays"][field].is_u64(), "rays.{field}");
+    }
+    for field in ["requests", "offers", "hops", "transfers", "atoms_moved", "bytes"] {
+        assert!(report["messages"][field].is_u64(), "messages.{field}");
+    }
+    assert_eq!((&report["nodes"], &report["rays"]["primary"]), (&2.into(), &(64 * 48).into()));
+    let by_node = report["atoms_by_node"].as_array().expect("a list");
+    assert_eq!(
+        by_node.iter().filter_map(serde_json::Value::as_u64).sum::<u64>(),
+        report["atoms"].as_u64().expect("a number")
+    );
+}

@@ -1,0 +1,235 @@
+//! The article's equation (§3), term by term, on scenes whose colours are known beforehand.
+
+use anel::picture::{Colour, Size};
+use anel::scene::Scene;
+use anel::tracer::{Quality, RayCounts, Scratch, Tracer};
+
+/// The pixel in the middle of a picture of the scene, and the rays that it took.
+fn middle_with(text: &str, quality: Quality) -> (Colour, RayCounts) {
+    let scene = Scene::parse(text).unwrap_or_else(|error| panic!("{error}"));
+    let tracer = Tracer::new(&scene, Size::new(3, 3).expect("nine pixels"), quality);
+    let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
+    tracer.trace(4..5, &mut scratch, &mut pixels);
+    (pixels[0], scratch.rays)
+}
+
+fn middle(text: &str) -> Colour {
+    middle_with(text, Quality::default()).0
+}
+
+fn assert_near(seen: Colour, expected: [f64; 3]) {
+    let near = seen.iter().zip(expected).all(|(a, b)| (f64::from(*a) - b).abs() < 1e-6);
+    assert!(near, "{seen:?} is not {expected:?}");
+}
+
+/// Looks down −z from z = 5, at what stands at the origin.
+fn scene(rest: &str) -> String {
+    format!("(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), {rest})")
+}
+
+#[test]
+fn where_nothing_is_hit_the_background_is_seen() {
+    assert_near(middle(&scene("background: (0.1, 0.2, 0.3), objects: []")), [0.1, 0.2, 0.3]);
+}
+
+#[test]
+fn ambient_light_needs_no_source() {
+    let text = scene(
+        r#"ambient: (0.5, 0.5, 1), materials: {"m": (colour: (1, 0.5, 0.5), ka: 0.5, kd: 0.9)},
+           objects: [Sphere(radius: 1, material: "m")]"#,
+    );
+    assert_near(middle(&text), [0.25, 0.125, 0.25]);
+}
+
+#[test]
+fn diffuse_light_goes_with_the_cosine_and_adds_up() {
+    // Straight on, and at 60° to the normal.
+    let text = scene(
+        r#"lights: [Directional(direction: (0, 0, -1), colour: (0.5, 0.5, 0.5)),
+                    Directional(direction: (0, -0.8660254037844386, -0.5), colour: (0.4, 0.4, 0.4))],
+           materials: {"m": (colour: (1, 0.5, 0), kd: 0.5)},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 1), material: "m")]"#,
+    );
+    let both = 0.5 * (0.5 + 0.4 * 0.5);
+    assert_near(middle(&text), [both, both * 0.5, 0.0]);
+}
+
+#[test]
+fn the_highlight_is_the_cosine_to_the_eye_to_the_power_n() {
+    // The light's reflection leaves at 60° to the way to the eye: cos = 0.5, to the third power 1/8.
+    let text = scene(
+        r#"lights: [Directional(direction: (0, -0.8660254037844386, -0.5))],
+           materials: {"m": (kd: 0, ks: 0.4, n: 3)},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 1), material: "m")]"#,
+    );
+    // The mirror term adds Ks times the black background.
+    assert_near(middle(&text), [0.4 / 8.0; 3]);
+}
+
+#[test]
+fn a_light_behind_the_surface_gives_nothing() {
+    let text = scene(
+        r#"lights: [Point(position: (0, 0, -5))], materials: {"m": (kd: 1, ks: 0.5)},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 1), material: "m")]"#,
+    );
+    assert_near(middle(&text), [0.0; 3]);
+}
+
+/// A floor seen from above at a slant, a light above it, and `between` them.
+fn floor_under(between: &str) -> String {
+    format!(
+        r#"(camera: (eye: (4, 4, 0), look_at: (0, 0, 0), up: (0, 1, 0)),
+            lights: [Point(position: (0, 9, 0))],
+            materials: {{"floor": (kd: 1), "clear": (ka: 0, kd: 0, kt: 0.5), "solid": (ka: 0, kd: 0)}},
+            objects: [HalfSpace(normal: (0, 1, 0), material: "floor"), {between}])"#
+    )
+}
+
+#[test]
+fn a_shadow_ray_is_dimmed_by_every_surface_that_transmits_and_stopped_by_any_other() {
+    assert_near(middle(&floor_under("")), [1.0; 3]);
+    let clear = r#"Sphere(centre: (0, 6, 0), radius: 0.5, material: "clear")"#;
+    assert_near(middle(&floor_under(clear)), [0.25; 3]);
+    let two = format!(r#"{clear}, Sphere(centre: (0, 7.5, 0), radius: 0.5, material: "clear")"#);
+    assert_near(middle(&floor_under(&two)), [0.0625; 3]);
+    let solid = format!(r#"{clear}, Sphere(centre: (0, 7.5, 0), radius: 0.5, material: "solid")"#);
+    assert_near(middle(&floor_under(&solid)), [0.0; 3]);
+    let beyond_the_light = r#"Sphere(centre: (0, 12, 0), radius: 0.5, material: "solid")"#;
+    assert_near(middle(&floor_under(beyond_the_light)), [1.0; 3]);
+}
+
+#[test]
+fn a_mirror_shows_what_is_behind_the_eye() {
+    let text = scene(
+        r#"ambient: (1, 1, 1), materials: {"mirror": (ka: 0, kd: 0, ks: 0.5), "red": (colour: (0.8, 0, 0))},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 0), material: "mirror"),
+                     Box(min: (-1, -1, 8), max: (1, 1, 9), material: "red")]"#,
+    );
+    assert_near(middle(&text), [0.4, 0.0, 0.0]);
+}
+
+/// A ray in glass that meets its face at `degrees`: a prism is entered at right angles, and its far face is tilted.
+fn prism(degrees: f64) -> RayCounts {
+    let text = scene(&format!(
+        r#"background: (1, 1, 1), materials: {{"glass": (ka: 0, kd: 0, kt: 1, ior: 1.5)}},
+           objects: [Intersection(material: "glass", of: [
+               Box(min: (-20, -20, -20), max: (20, 20, 1)),
+               HalfSpace(normal: (0, 0, -1), transform: [Rotate(({degrees}, 0, 0))])])]"#
+    ));
+    middle_with(&text, Quality { max_depth: 3, ..Quality::default() }).1
+}
+
+#[test]
+fn light_leaves_glass_up_to_the_critical_angle_and_is_reflected_wholly_beyond_it() {
+    // sin⁻¹(1 / 1.5) = 41.810°
+    assert_eq!(prism(41.80), RayCounts { primary: 1, shadow: 0, reflected: 0, refracted: 2 });
+    assert_eq!(prism(41.82), RayCounts { primary: 1, shadow: 0, reflected: 1, refracted: 1 });
+}
+
+#[test]
+fn a_slab_moves_a_ray_but_does_not_turn_it() {
+    // Behind ten tilted slabs stands a wall that is red only where an unturned, moved ray can hit it.
+    let slabs: String = (0..10)
+        .map(|k| {
+            format!(
+                r#"Box(min: (-9, -9, -0.05), max: (9, 9, 0.05), material: "glass",
+                   transform: [Rotate((30, 0, 0)), Translate((0, 0, {}))]),"#,
+                2.0 - 0.3 * f64::from(k)
+            )
+        })
+        .collect();
+    let wall = |from: f64, to: f64| {
+        scene(&format!(
+            r#"ambient: (1, 1, 1), materials: {{"glass": (ka: 0, kd: 0, kt: 1, ior: 1.5), "red": (colour: (1, 0, 0))}},
+               objects: [{slabs} Box(min: (-1, {from}, -100), max: (1, {to}, -99), material: "red")]"#
+        ))
+    };
+    let quality = Quality { max_depth: 30, ..Quality::default() };
+    // Each slab of thickness 0.1 moves the ray by 0.1 sin(30°) (1 − cos 30° / √(1.5² − sin² 30°)) = 0.01938.
+    let (sine, cosine) = (0.5, 0.75f64.sqrt());
+    let moved: f64 = 10.0 * 0.1 * sine * (1.0 - cosine / (2.25f64 - sine * sine).sqrt());
+    let seen = |from, to| middle_with(&wall(from, to), quality).0;
+    let (up, down) = (seen(moved - 1e-9, moved + 1e-9), seen(-moved - 1e-9, -moved + 1e-9));
+    assert!(up == [1.0, 0.0, 0.0] || down == [1.0, 0.0, 0.0], "moved by other than {moved}: {up:?} {down:?}");
+}
+
+#[test]
+fn the_tree_of_rays_ends_at_its_limit() {
+    // Two mirrors that face each other would reflect for ever.
+    let text = scene(
+        r#"materials: {"mirror": (ka: 0, kd: 0, ks: 1)},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 0), material: "mirror"),
+                     Box(min: (-1, -1, 8), max: (1, 1, 9), material: "mirror")]"#,
+    );
+    let (_, rays) = middle_with(&text, Quality { max_depth: 10, ..Quality::default() });
+    assert_eq!((rays.primary, rays.reflected), (1, 9));
+}
+
+#[test]
+fn a_ray_that_can_contribute_nothing_to_speak_of_is_not_followed() {
+    let text = scene(
+        r#"materials: {"mirror": (ka: 0, kd: 0, ks: 0.1)},
+           objects: [Box(min: (-1, -1, -1), max: (1, 1, 0), material: "mirror"),
+                     Box(min: (-1, -1, 8), max: (1, 1, 9), material: "mirror")]"#,
+    );
+    // 0.1 and 0.01 exceed 1/255, 0.001 does not.
+    assert_eq!(middle_with(&text, Quality::default()).1.reflected, 2);
+}
+
+#[test]
+fn a_camera_inside_a_solid_sees_it_from_within() {
+    let text = scene(
+        r#"ambient: (1, 1, 1), materials: {"m": (colour: (0, 1, 0))}, objects: [Sphere(radius: 50, material: "m")]"#,
+    );
+    assert_near(middle(&text), [0.0, 1.0, 0.0]);
+}
+
+/// All lengths of a scene times a power of two: no rounding changes, so no pixel may.
+#[test]
+fn scaling_the_scene_by_a_power_of_two_changes_no_bit() {
+    let scaled = |factor: f64| {
+        let vector = |x: f64, y: f64, z: f64| format!("({:e}, {:e}, {:e})", x * factor, y * factor, z * factor);
+        let text = format!(
+            r#"(camera: (eye: {}, look_at: (0, 0, 0)), ambient: (0.1, 0.1, 0.1), background: (0.2, 0.3, 0.4),
+                lights: [Point(position: {})],
+                materials: {{"glass": (ka: 0, kd: 0.05, ks: 0.2, kt: 0.8, ior: 1.5), "matt": (ks: 0.3)}},
+                objects: [Box(min: {}, max: {}, material: "matt"),
+                    Sphere(centre: {}, radius: {:e}, material: "glass"),
+                    Difference(material: "matt", transform: [Rotate((20, 30, 0))], of: [
+                        Cylinder(from: {}, to: {}, radius: {:e}),
+                        Cone(from: {}, to: {}, radius: {:e}, to_radius: {:e})])])"#,
+            vector(3.0, 2.0, 6.0),
+            vector(4.0, 9.0, 5.0),
+            vector(-9.0, -2.0, -9.0),
+            vector(9.0, -1.0, 9.0),
+            vector(1.3, 0.0, 1.0),
+            0.9 * factor,
+            vector(-1.0, -1.0, 0.0),
+            vector(-1.0, 1.0, 0.0),
+            0.8 * factor,
+            vector(-1.0, -1.0, 0.0),
+            vector(-1.0, 1.0, 0.0),
+            0.3 * factor,
+            0.6 * factor,
+        );
+        let scene = Scene::parse(&text).unwrap_or_else(|error| panic!("{error}"));
+        let size = Size::new(64, 48).expect("small");
+        let mut pixels = Vec::new();
+        let tracer = Tracer::new(&scene, size, Quality::default());
+        tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+        pixels
+    };
+    let (same, larger, smaller) = (scaled(1.0), scaled(2f64.powi(20)), scaled(2f64.powi(-20)));
+    assert!(same.iter().any(|pixel| *pixel != same[0]), "the picture shows something");
+    assert_eq!(same, larger);
+    assert_eq!(same, smaller);
+}
+
+#[test]
+fn samples_are_averaged() {
+    // The left half of the middle pixel is covered: with 2 × 2 samples half of the light is seen.
+    let text = scene(r#"ambient: (1, 1, 1), objects: [Box(min: (-9, -9, -1), max: (0, 9, 0))]"#);
+    let (colour, rays) = middle_with(&text, Quality { samples: 2, ..Quality::default() });
+    assert_near(colour, [0.5; 3]);
+    assert_eq!(rays.primary, 4);
+}

@@ -1,0 +1,107 @@
+//! The scenes that come with the program, and what compiling does to them.
+
+use anel::csg::{Primitive, Solid};
+use anel::export::to_pov;
+use anel::picture::{Colour, Size};
+use anel::scene::{BUILT_IN, Scene};
+use anel::tracer::{Quality, Scratch, Tracer};
+use glam::{DAffine3, DVec3};
+
+fn parse(name: &str, text: &str) -> Scene {
+    Scene::parse(text).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn pixels(scene: &Scene) -> Vec<Colour> {
+    let size = Size::new(80, 60).expect("small");
+    let mut pixels = Vec::new();
+    let tracer = Tracer::new(scene, size, Quality::default());
+    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+    pixels
+}
+
+fn leaves(solid: &Solid, visit: &mut impl FnMut(&Primitive)) {
+    match solid {
+        Solid::Placed { primitive, .. } => visit(primitive),
+        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+            solids.iter().for_each(|solid| leaves(solid, visit));
+        }
+    }
+}
+
+#[test]
+fn every_built_in_scene_shows_something_and_no_pixel_is_lost() {
+    for (name, text) in BUILT_IN {
+        let pixels = pixels(&parse(name, text));
+        let finite = pixels.iter().flatten().all(|channel| channel.is_finite() && *channel >= 0.0);
+        assert!(finite, "{name} has a pixel that is no colour");
+        let mut colours: Vec<_> = pixels.iter().map(|pixel| pixel.map(|channel| (channel * 64.0) as u32)).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        assert!(colours.len() > 100, "{name} has only {} colours", colours.len());
+    }
+}
+
+#[test]
+fn the_articles_scene_has_ten_objects_and_two_lights() {
+    let (name, text) = BUILT_IN[0];
+    let scene = parse(name, text);
+    assert_eq!((scene.solids.len(), scene.lights.len()), (10, 2));
+    assert!(scene.materials.iter().any(|material| material.kt > 0.5), "a glass");
+    assert!(scene.materials.iter().any(|material| material.ks > 0.5), "a mirror");
+}
+
+#[test]
+fn every_primitive_has_a_scene_that_uses_it() {
+    let mut used = [false; 6];
+    for (name, text) in BUILT_IN {
+        for solid in &parse(name, text).solids {
+            leaves(solid, &mut |primitive| {
+                used[match primitive {
+                    Primitive::Sphere => 0,
+                    Primitive::HalfSpace { .. } => 1,
+                    Primitive::Cube => 2,
+                    Primitive::Cylinder => 3,
+                    Primitive::Cone { .. } => 4,
+                    Primitive::Quadric(_) => 5,
+                }] = true;
+            });
+        }
+    }
+    assert_eq!(used, [true; 6], "sphere, half-space, cube, cylinder, cone, quadric");
+}
+
+/// Taking opaque unions apart must not show. Inside a box around everything a union stays whole.
+#[test]
+fn a_union_that_is_taken_apart_looks_the_same() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let mut kept_whole = scene.clone();
+        let around = Solid::Placed {
+            primitive: Primitive::Cube,
+            scene_from_own: DAffine3::from_scale(DVec3::splat(1e5)),
+            tag: 0,
+        };
+        for solid in &mut kept_whole.solids {
+            if matches!(solid, Solid::Union(_)) {
+                *solid = Solid::Intersection(vec![solid.clone(), around.clone()]);
+            }
+        }
+        let (apart, whole) = (pixels(&scene), pixels(&kept_whole));
+        let differing = apart.iter().zip(&whole).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "{name}: pixels that differ, of {}", apart.len());
+    }
+}
+
+#[test]
+fn an_exported_scene_names_every_primitive_and_every_light() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default());
+        let count = |word: &str| pov.matches(word).count();
+        assert_eq!(count("light_source {"), scene.lights.len(), "{name}");
+        let mut primitives = 0;
+        scene.solids.iter().for_each(|solid| leaves(solid, &mut |_| primitives += 1));
+        assert_eq!(count("matrix <"), primitives, "{name}");
+        assert_eq!(count("{"), count("}"), "{name}");
+    }
+}
