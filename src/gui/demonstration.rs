@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::session::cores;
 use crate::balance::Strategy;
 use crate::driver::{auto_pace, probe};
 use crate::picture::{Division, Size};
@@ -26,7 +27,7 @@ pub fn demonstration(scene: &Opened) -> (Arc<Tracer>, Header) {
     let quality = Quality::default();
     let division = Division::new(size.pixels(), 50);
     let tracer = Arc::new(Tracer::new(&scene.scene, size, quality));
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let cores = cores();
     let work = probe(&tracer, division, PROBE).whole.as_secs_f64();
     let pace = work / (LASTS.as_secs_f64() * SPEEDS.iter().sum::<f64>());
     let header = Header {

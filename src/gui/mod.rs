@@ -95,6 +95,9 @@ mod tests {
     fn errors_are_told_without_their_place_in_a_crate() {
         let said = "winit EventLoopError: os error at /a/b-0.1/src/mod.rs:788: Failed to open connection to X server";
         assert_eq!(without_place(said), "Failed to open connection to X server");
-        assert_eq!(without_place("library libxkbcommon-x11.so could not be loaded."), "library libxkbcommon-x11.so could not be loaded");
+        assert_eq!(
+            without_place("library libxkbcommon-x11.so could not be loaded."),
+            "library libxkbcommon-x11.so could not be loaded"
+        );
     }
 }

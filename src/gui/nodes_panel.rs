@@ -51,7 +51,7 @@ impl Grid {
 
     fn new(rows: usize, room: f32) -> Self {
         // Two columns are worth some squeezing, more are not.
-        let columns = if room < 912.0 { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
+        let columns = if room < 800.0 { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
         let lines = rows.div_ceil(columns).max(1);
         let columns = rows.div_ceil(lines).max(1);
         Self { columns, lines, width: (room + Self::GAP) / columns as f32 - Self::GAP }

@@ -88,10 +88,10 @@ fn is_closed(points: &[Point]) -> bool {
 /// A band that grows from nothing, in breadth and in strength.
 fn trail(points: &[Pos2], width: f32, colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
-    let last = points.len().saturating_sub(1).max(1);
+    let last = points.len().saturating_sub(1);
     for (i, &point) in points.iter().enumerate() {
         let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
-        let share = i as f32 / last as f32;
+        let share = i as f32 / last.max(1) as f32;
         let side = (after - before).normalized().rot90() * (width / 2.0 * share);
         for place in [point - side, point + side] {
             mesh.vertices.push(Vertex::untextured(place, colour.gamma_multiply(share * share)));

@@ -2,7 +2,7 @@
 
 use std::f32::consts::{PI, TAU};
 
-use super::display::Point;
+use super::display::{Point, TextSize};
 use crate::balance::NodeId;
 
 /// Where everything is, for a number of nodes and a size.
@@ -32,7 +32,8 @@ impl Plan {
         // Beside the rail there is room for a label, above and below it for one of two lines, or of one line where
         // there is little.
         let small = height < SMALL;
-        let rail = (height / 2.0 - if small { 36.0 } else { 48.0 }).min(width / 2.0 - 88.0).max(40.0);
+        let (beside, above) = if small { (66.0, 30.0) } else { (88.0, 48.0) };
+        let rail = (height / 2.0 - above).min(width / 2.0 - beside).max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
         let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
@@ -58,6 +59,11 @@ impl Plan {
     /// The angle between neighbours.
     pub(super) fn step(&self) -> f32 {
         TAU / self.nodes.max(1) as f32
+    }
+
+    /// How large what is to be read is.
+    pub(super) fn text_size(&self) -> TextSize {
+        if self.small { TextSize::Small } else { TextSize::Body }
     }
 
     /// A part of a circle round `centre`; clockwise if `sweep` is positive.

@@ -129,7 +129,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
 
 /// Puts words outside the rail, on one line or two.
 fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activity, marks: &mut Vec<Mark>) {
-    let [x, y] = plan.at(angle, plan.rail + 22.0);
+    let [x, y] = plan.at(angle, plan.rail + if plan.small { 16.0 } else { 22.0 });
     // To the right of the ring a text begins at its place, to the left it ends there.
     let anchor = match angle.cos() {
         cos if cos > 0.2 => Anchor::Left,
@@ -140,7 +140,8 @@ fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activi
     let y = y + if plan.small { 0.0 } else { 10.0 * angle.sin() };
     let spread = if two { 9.0 } else { 0.0 };
     let ink = if activity == Activity::Retired { Hue::Quiet } else { Hue::Text }.full();
-    marks.push(Mark::Label { at: [x, y - spread], anchor, text: first, size: TextSize::Body, ink });
+    let size = plan.text_size();
+    marks.push(Mark::Label { at: [x, y - spread], anchor, text: first, size, ink });
     if two {
         let (at, ink) = ([x, y + spread], Hue::Quiet.full());
         marks.push(Mark::Label { at, anchor, text: second, size: TextSize::Small, ink });

@@ -317,7 +317,7 @@ mod tests {
                 seen.insert((node, format!("{activity:?}")));
             }
         }
-        for what in ["Waiting", "Computing", "Offering", "Receiving", "Retired"] {
+        for what in ["Waiting", "Computing", "Offering", "Receiving", "Done"] {
             assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
         }
         assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);

@@ -112,12 +112,13 @@ fn parcel(
     }
     let centre = curve(from, bend, to, here);
     let text = format!("×{}", count(flight.cargo.atoms()));
-    let half = [7.0 + 4.6 * text.chars().count() as f32, 12.0];
+    let letters = text.chars().count() as f32;
+    let half = if plan.small { [5.0 + 3.8 * letters, 9.0] } else { [7.0 + 4.6 * letters, 12.0] };
     marks.push(Mark::Parcel { centre, half: [half[0] + 2.0, half[1] + 2.0], ink: Hue::Ground.faint(alpha) });
     marks.push(Mark::Parcel { centre, half, ink: hue.faint(alpha) });
     let Hue::Node(node) = hue else { return };
     let ink = Hue::OnNode(node).faint(alpha);
-    marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: TextSize::Body, ink });
+    marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: plan.text_size(), ink });
 }
 
 /// People follow four to six things at a time: more of a kind are only hinted at.
