@@ -1,1 +1,26 @@
-//! Pure functions from records to what is drawn.
+//! Pure functions from records to what is drawn: no egui, no driver, no clock.
+//!
+//! [`RunState`] is a fold over records; everything else looks at it at some time of the run's own clock, so a live
+//! run and a loaded one are shown by the same code, forwards and backwards.
+
+mod canvas;
+mod display;
+mod flight;
+mod node;
+mod nodes;
+mod plan;
+mod ring;
+#[cfg(test)]
+mod sample;
+mod state;
+mod traffic;
+mod words;
+
+pub use canvas::Canvas;
+pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};
+pub use flight::{Cargo, Flight};
+pub use node::{Activity, NodeState};
+pub use nodes::{Row, Share, rows, shares};
+pub use ring::{Outcome, ring};
+pub use state::RunState;
+pub use words::{Narrator, activity_word, count, node_name, result};

@@ -1,0 +1,164 @@
+//! How the window looks: an 8-pixel grid, three text sizes, one neutral surface, one accent.
+
+use std::sync::Arc;
+
+use egui::epaint::text::{FontTweak, VariationCoords};
+use egui::style::{HandleShape, WidgetVisuals, Widgets};
+use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
+
+use crate::palette::Rgb;
+
+/// The grid on which everything lies, in points.
+pub const GRID: f32 = 8.0;
+
+/// For what stands beside something.
+pub const SMALL: f32 = 13.0;
+/// For what is read.
+pub const BODY: f32 = 16.0;
+/// For what is seen from the back of the room.
+pub const LARGE: f32 = 26.0;
+
+/// The colours of one theme. Hues belong to the nodes; the accent is the only other one.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// What everything lies on.
+    pub ground: Color32,
+    /// What can be pressed.
+    pub raised: Color32,
+    /// Lines that order.
+    pub hairline: Color32,
+    /// Text.
+    pub text: Color32,
+    /// Text that explains.
+    pub quiet: Color32,
+    /// What to press first, and what has the focus.
+    pub accent: Color32,
+    /// Text on the accent.
+    pub on_accent: Color32,
+}
+
+const DARK: Look = Look {
+    ground: Color32::from_rgb(0x11, 0x14, 0x19),
+    raised: Color32::from_rgb(0x1d, 0x22, 0x2a),
+    hairline: Color32::from_rgb(0x2b, 0x32, 0x3c),
+    text: Color32::from_rgb(0xec, 0xef, 0xf4),
+    quiet: Color32::from_rgb(0x94, 0x9f, 0xae),
+    accent: Color32::from_rgb(0xa3, 0x94, 0xff),
+    on_accent: Color32::from_rgb(0x16, 0x10, 0x3a),
+};
+
+const LIGHT: Look = Look {
+    ground: Color32::from_rgb(0xfa, 0xfb, 0xfc),
+    raised: Color32::from_rgb(0xec, 0xef, 0xf3),
+    hairline: Color32::from_rgb(0xd5, 0xda, 0xe1),
+    text: Color32::from_rgb(0x16, 0x1b, 0x22),
+    quiet: Color32::from_rgb(0x5b, 0x66, 0x75),
+    accent: Color32::from_rgb(0x5a, 0x46, 0xd6),
+    on_accent: Color32::WHITE,
+};
+
+impl Look {
+    /// The colours of the theme in use.
+    pub fn of(ctx: &egui::Context) -> Self {
+        match ctx.theme() {
+            Theme::Dark => DARK,
+            Theme::Light => LIGHT,
+        }
+    }
+}
+
+/// Puts fonts and both themes in place.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_fonts(fonts());
+    for (theme, look) in [(Theme::Dark, DARK), (Theme::Light, LIGHT)] {
+        ctx.style_mut_of(theme, |style| {
+            style.visuals = visuals(theme, look);
+            let sizes = [
+                (TextStyle::Small, SMALL),
+                (TextStyle::Body, BODY),
+                (TextStyle::Button, BODY),
+                (TextStyle::Monospace, BODY),
+                (TextStyle::Heading, LARGE),
+            ];
+            style.text_styles = sizes.map(|(text, size)| (text, FontId::proportional(size))).into();
+            let spacing = &mut style.spacing;
+            spacing.item_spacing = egui::vec2(GRID, GRID);
+            spacing.button_padding = egui::vec2(1.5 * GRID, GRID * 0.75);
+            spacing.interact_size = egui::vec2(4.0 * GRID, 4.0 * GRID);
+            spacing.slider_rail_height = 4.0;
+            style.interaction.selectable_labels = false;
+        });
+    }
+}
+
+/// The text font: regular, its digits all of one width.
+pub fn regular(size: f32) -> FontId {
+    FontId::proportional(size)
+}
+
+/// The same, bold: for numbers and names.
+pub fn strong(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name(STRONG.into()))
+}
+
+/// A palette colour as egui takes it.
+pub fn colour([r, g, b]: Rgb) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+/// A colour of egui's as the palette has it.
+pub fn rgb(colour: Color32) -> Rgb {
+    [colour.r(), colour.g(), colour.b()]
+}
+
+const STRONG: &str = "strong";
+
+/// IBM Plex Sans in two weights of one variable font; egui's own fonts stand in for what it lacks.
+fn fonts() -> FontDefinitions {
+    const PLEX: &[u8] = include_bytes!("../../assets/fonts/IBMPlexSans.ttf");
+    let weighted = |weight: f32| {
+        let coords = VariationCoords::new([(b"wght", weight)]);
+        Arc::new(FontData::from_static(PLEX).tweak(FontTweak { coords, ..Default::default() }))
+    };
+    let mut fonts = FontDefinitions::default();
+    fonts.font_data.insert("plex".into(), weighted(400.0));
+    fonts.font_data.insert("plex strong".into(), weighted(600.0));
+    let others = fonts.families.get(&FontFamily::Proportional).cloned().unwrap_or_default();
+    for (family, font) in [(FontFamily::Proportional, "plex"), (FontFamily::Name(STRONG.into()), "plex strong")] {
+        let list = std::iter::once(font.to_owned()).chain(others.iter().cloned()).collect();
+        fonts.families.insert(family, list);
+    }
+    fonts
+}
+
+fn visuals(theme: Theme, look: Look) -> Visuals {
+    let mut visuals = if theme == Theme::Dark { Visuals::dark() } else { Visuals::light() };
+    let corner_radius = CornerRadius::same(6);
+    let widget = |fill: Color32, line: Color32, text: Color32| WidgetVisuals {
+        bg_fill: fill,
+        weak_bg_fill: fill,
+        bg_stroke: Stroke::new(1.0, line),
+        corner_radius,
+        fg_stroke: Stroke::new(1.5, text),
+        expansion: 0.0,
+    };
+    visuals.widgets = Widgets {
+        noninteractive: widget(look.ground, look.hairline, look.text),
+        inactive: widget(look.raised, Color32::TRANSPARENT, look.text),
+        hovered: widget(look.hairline, Color32::TRANSPARENT, look.text),
+        active: widget(look.hairline, look.accent, look.text),
+        open: widget(look.raised, look.accent, look.text),
+    };
+    visuals.override_text_color = None;
+    visuals.weak_text_color = Some(look.quiet);
+    visuals.panel_fill = look.ground;
+    visuals.window_fill = look.ground;
+    visuals.window_stroke = Stroke::new(1.0, look.hairline);
+    visuals.extreme_bg_color = look.raised;
+    visuals.selection.bg_fill = look.accent.gamma_multiply(0.5);
+    visuals.selection.stroke = Stroke::new(1.5, look.accent);
+    visuals.hyperlink_color = look.accent;
+    visuals.slider_trailing_fill = true;
+    visuals.handle_shape = HandleShape::Circle;
+    visuals
+}

@@ -1,0 +1,219 @@
+//! The picture as it is shown: the render, the owners, or anything between.
+
+use std::ops::Range;
+
+use super::state::RunState;
+use crate::palette::{Rgb, mix};
+use crate::picture::{Atom, Colour, Division, Size, srgb8};
+
+/// The shown picture in 8-bit sRGB, kept up to date piece by piece.
+///
+/// An atom that is not there yet has a shade of the node in whose queue it is, and stands out while it is traced.
+#[derive(Clone, Debug)]
+pub struct Canvas {
+    size: Size,
+    division: Division,
+    colours: Vec<Rgb>,
+    /// For each node, its colour as 256 levels of light.
+    tones: Vec<[Rgb; 256]>,
+    ground: Rgb,
+    blend: f32,
+    render: Vec<Rgb>,
+    placed: Vec<bool>,
+    shown: Vec<Rgb>,
+    dirty: Vec<bool>,
+}
+
+impl Canvas {
+    /// An empty canvas for nodes of these colours.
+    pub fn new(size: Size, division: Division, colours: Vec<Rgb>, ground: Rgb) -> Self {
+        let pixels = size.pixels() as usize;
+        Self {
+            size,
+            division,
+            tones: colours.iter().map(|&colour| tones(colour)).collect(),
+            colours,
+            ground,
+            blend: 0.0,
+            render: vec![[0; 3]; pixels],
+            placed: vec![false; division.atoms() as usize],
+            shown: vec![ground; pixels],
+            dirty: vec![true; size.height() as usize],
+        }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// What is seen where nothing is.
+    pub fn ground(&self) -> Rgb {
+        self.ground
+    }
+
+    /// Takes in traced pixels: `pixels` are those of `atoms`.
+    pub fn place(&mut self, atoms: Range<Atom>, pixels: &[Colour]) {
+        let start = self.division.pixels(atoms.start).start as usize;
+        for (to, &from) in self.render[start..].iter_mut().zip(pixels) {
+            *to = srgb8(from);
+        }
+        self.placed[atoms.start as usize..atoms.end as usize].fill(true);
+    }
+
+    /// Draws atoms anew after what `state` knows of them.
+    pub fn paint(&mut self, atoms: Range<Atom>, state: &RunState) {
+        for atom in atoms {
+            let pixels = self.division.pixels(atom);
+            if pixels.is_empty() {
+                continue;
+            }
+            let rows = pixels.start / self.size.width()..=(pixels.end - 1) / self.size.width();
+            self.dirty[*rows.start() as usize..=*rows.end() as usize].fill(true);
+            let pixels = pixels.start as usize..pixels.end as usize;
+            self.paint_atom(atom, pixels, state);
+        }
+    }
+
+    /// Shows the render (0), the owners (1) or something between, on `ground`. Nothing is drawn if nothing changes.
+    pub fn set_look(&mut self, blend: f32, ground: Rgb, state: &RunState) {
+        if (blend, ground) != (self.blend, self.ground) {
+            (self.blend, self.ground) = (blend, ground);
+            self.paint(0..self.division.atoms(), state);
+        }
+    }
+
+    /// The rows that have changed since this was last asked; runs that nearly touch are one.
+    pub fn take_dirty(&mut self) -> Vec<Range<u32>> {
+        const NEAR: u32 = 8;
+        let mut runs: Vec<Range<u32>> = Vec::new();
+        for (row, dirty) in (0..).zip(&mut self.dirty) {
+            if !std::mem::take(dirty) {
+                continue;
+            }
+            match runs.last_mut() {
+                Some(run) if row < run.end + NEAR => run.end = row + 1,
+                _ => runs.push(row..row + 1),
+            }
+        }
+        runs
+    }
+
+    /// The shown pixels of some rows.
+    pub fn rows(&self, rows: Range<u32>) -> &[Rgb] {
+        let width = self.size.width() as usize;
+        &self.shown[rows.start as usize * width..rows.end as usize * width]
+    }
+
+    fn paint_atom(&mut self, atom: Atom, pixels: Range<usize>, state: &RunState) {
+        let place = atom as usize;
+        let owner = state.owners()[place].map(usize::from);
+        if self.placed[place] {
+            let tones = owner.map(|owner| &self.tones[owner]);
+            for (to, &render) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
+                *to = match tones {
+                    Some(tones) if self.blend > 0.0 => mix(render, tones[light(render)], self.blend),
+                    _ => render,
+                };
+            }
+            return;
+        }
+        let holder = state.holders()[place];
+        let traced_now = holder.is_some_and(|node| state.nodes()[usize::from(node)].atom == Some(atom));
+        let colour = owner.or(holder.map(usize::from)).map(|node| self.colours[node]);
+        let strength = match (owner, traced_now) {
+            (None, false) => 0.16 + 0.14 * self.blend,
+            (None, true) => 1.0,
+            (Some(_), _) => 0.6,
+        };
+        self.shown[pixels].fill(colour.map_or(self.ground, |colour| mix(self.ground, colour, strength)));
+    }
+}
+
+/// How light a shown pixel looks, 0 to 255 (Rec. 601 luma, which is made for encoded values).
+fn light(pixel: Rgb) -> usize {
+    let [r, g, b] = pixel.map(usize::from);
+    (299 * r + 587 * g + 114 * b) / 1000
+}
+
+/// A node's colour at each level of light: dark but still itself in the shadows, full in the middle, towards white
+/// in highlights, so that the shapes stay as clear as the owners.
+fn tones(colour: Rgb) -> [Rgb; 256] {
+    const FULL: f32 = 0.62;
+    let dark = mix([0; 3], colour, 0.16);
+    std::array::from_fn(|level| {
+        let level = level as f32 / 255.0;
+        if level <= FULL {
+            mix(dark, colour, level / FULL)
+        } else {
+            mix(colour, [0xff; 3], 0.8 * (level - FULL) / (1.0 - FULL))
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    const COLOURS: [Rgb; 2] = [[200, 0, 0], [0, 0, 200]];
+    const GROUND: Rgb = [10, 10, 10];
+
+    fn finished() -> (Canvas, RunState) {
+        let header = sample::header(&[1.0, 1.0], 20);
+        let mut state = RunState::new(&header);
+        let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), GROUND);
+        sample::records(&header).iter().for_each(|record| state.apply(record));
+        canvas.take_dirty();
+        let touched = state.take_touched();
+        canvas.place(0..20, &vec![[0.0, 1.0, 0.0]; 1000]);
+        touched.into_iter().for_each(|atoms| canvas.paint(atoms, &state));
+        (canvas, state)
+    }
+
+    #[test]
+    fn the_render_is_shown_as_it_is_saved() {
+        let (canvas, _) = finished();
+        assert!(canvas.rows(0..20).iter().all(|&pixel| pixel == srgb8([0.0, 1.0, 0.0])));
+    }
+
+    #[test]
+    fn the_owners_colour_what_they_traced() {
+        let (mut canvas, state) = finished();
+        canvas.set_look(1.0, GROUND, &state);
+        let [first, last] = [canvas.rows(0..1)[0], canvas.rows(19..20)[49]];
+        assert!(first[0] > 150 && first[2] < 80, "{first:?}");
+        assert!(last[2] > 150 && last[0] < 80, "{last:?}");
+    }
+
+    #[test]
+    fn only_what_changed_is_drawn_again() {
+        let (mut canvas, state) = finished();
+        canvas.take_dirty();
+        canvas.set_look(0.0, GROUND, &state);
+        assert!(canvas.take_dirty().is_empty());
+        canvas.paint(3..4, &state);
+        canvas.paint(17..19, &state);
+        assert_eq!(canvas.take_dirty(), [3..4, 17..19]);
+    }
+
+    #[test]
+    fn what_is_not_there_yet_shows_whose_it_will_be() {
+        let header = sample::header(&[1.0, 1.0], 20);
+        let mut state = RunState::new(&header);
+        let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), GROUND);
+        sample::records(&header).iter().take(6).for_each(|record| state.apply(record));
+        state.take_touched().into_iter().for_each(|atoms| canvas.paint(atoms, &state));
+        let [traced, waiting, other] = [canvas.rows(0..1)[0], canvas.rows(5..6)[0], canvas.rows(15..16)[0]];
+        assert_eq!(traced, COLOURS[0]);
+        assert!(waiting[0] > GROUND[0] && waiting[0] < 80 && waiting[2] <= GROUND[2], "{waiting:?}");
+        assert!(other[2] > GROUND[2] && other[0] <= GROUND[0], "{other:?}");
+    }
+
+    #[test]
+    fn tones_rise_with_light() {
+        let lights: Vec<_> = tones([0x9A, 0x3B, 0x78]).map(light).to_vec();
+        assert!(lights.windows(2).all(|pair| pair[0] <= pair[1]));
+        assert!(lights[255] > 200 && lights[0] < 40);
+    }
+}

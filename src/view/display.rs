@@ -1,0 +1,122 @@
+//! A display list: what is to be drawn, without a word on how.
+
+use crate::balance::NodeId;
+
+/// A place in the picture: x to the right, y down, in the units of the size that the list was made for.
+pub type Point = [f32; 2];
+
+/// One thing to be drawn; later ones lie on top.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// A filled circle.
+    Disc {
+        /// Its middle.
+        centre: Point,
+        /// Its radius.
+        radius: f32,
+        /// Its colour.
+        ink: Ink,
+    },
+    /// A filled box with round corners.
+    Parcel {
+        /// Its middle.
+        centre: Point,
+        /// Half its width and height.
+        half: Point,
+        /// Its colour.
+        ink: Ink,
+    },
+    /// A line through points.
+    Line {
+        /// At least two points.
+        points: Vec<Point>,
+        /// How broad the line is.
+        width: f32,
+        /// Its colour.
+        ink: Ink,
+    },
+    /// A line that grows from nothing at its first point to `width` at its last.
+    Trail {
+        /// At least two points.
+        points: Vec<Point>,
+        /// How broad it is at its head.
+        width: f32,
+        /// Its colour at its head.
+        ink: Ink,
+    },
+    /// Text on one line.
+    Label {
+        /// Where it stands.
+        at: Point,
+        /// What of it stands there.
+        anchor: Anchor,
+        /// What it says.
+        text: String,
+        /// How large it is.
+        size: TextSize,
+        /// Its colour.
+        ink: Ink,
+    },
+}
+
+/// Which point of a text its place names; it is always the middle of its height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Left,
+    /// Its middle.
+    Centre,
+    /// Its right end.
+    Right,
+}
+
+/// How large text is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TextSize {
+    /// For what stands beside something.
+    Small,
+    /// For what is read.
+    Body,
+    /// For what is seen from the back of the room.
+    Large,
+    /// In the units of the list: for text that has to fit a shape.
+    Fit(f32),
+}
+
+/// A colour's name and how much of it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ink {
+    /// Which colour.
+    pub hue: Hue,
+    /// From 0 (nothing) to 1.
+    pub alpha: f32,
+}
+
+/// Colours by what they are for, so that a theme can choose them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hue {
+    /// A node's own colour.
+    Node(NodeId),
+    /// What can be read on a node's own colour.
+    OnNode(NodeId),
+    /// Text.
+    Text,
+    /// Text that explains.
+    Quiet,
+    /// Lines that order.
+    Hairline,
+    /// What everything lies on.
+    Ground,
+}
+
+impl Hue {
+    /// The colour, fully seen.
+    pub fn full(self) -> Ink {
+        Ink { hue: self, alpha: 1.0 }
+    }
+
+    /// The colour, only partly seen.
+    pub fn faint(self, alpha: f32) -> Ink {
+        Ink { hue: self, alpha }
+    }
+}

@@ -1,0 +1,168 @@
+//! Messages in flight, and for how long they are shown.
+//!
+//! On a fast link a message is gone before anyone has seen it. So each kind has a shortest displayed flight: it
+//! still leaves at its own time, but its drawing may arrive later than the message. One pure function of (sent,
+//! arrives) decides that for every view, so that pausing or going back costs nothing.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::time::Time;
+
+/// A message that has left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flight {
+    /// The sender.
+    pub from: Party,
+    /// The receiver.
+    pub to: Party,
+    /// What it carries.
+    pub cargo: Cargo,
+    /// When it left.
+    pub sent: Time,
+    /// When the link delivers it.
+    pub arrives: Time,
+}
+
+/// What a message carries, as far as views care.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cargo {
+    /// A node's first share.
+    Band(Range<Atom>),
+    /// An offer of help.
+    Offer {
+        /// The node that offers.
+        who: NodeId,
+    },
+    /// Atoms for the node that offered.
+    Transfer(Vec<Range<Atom>>),
+    /// How many traced atoms go to the parent.
+    Results(u32),
+    /// The end.
+    Shutdown,
+}
+
+impl Flight {
+    /// The message that left at `sent`.
+    pub fn new(from: Party, to: Party, message: &Message, sent: Time, arrives: Time) -> Self {
+        let cargo = match message {
+            Message::Band(band) => Cargo::Band(band.clone()),
+            Message::Offer { who, .. } => Cargo::Offer { who: *who },
+            Message::Transfer(ranges) => Cargo::Transfer(ranges.clone()),
+            Message::Results(ranges) => Cargo::Results(atoms_in(ranges)),
+            Message::Shutdown => Cargo::Shutdown,
+        };
+        Self { from, to, cargo, sent, arrives }
+    }
+
+    /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen.
+    pub fn shown(&self) -> Range<Time> {
+        self.sent..self.arrives.max(self.sent + self.cargo.shortest())
+    }
+
+    /// When the last of its fading trail is gone.
+    pub fn gone(&self) -> Time {
+        self.shown().end + self.cargo.fade()
+    }
+
+    /// How far it is on its way at `now`, 0 to 1.
+    pub fn progress(&self, now: Time) -> f32 {
+        let shown = self.shown();
+        let length = shown.end.since(shown.start).as_secs_f64();
+        if length == 0.0 { 1.0 } else { (now.since(shown.start).as_secs_f64() / length).min(1.0) as f32 }
+    }
+
+    /// How strongly its trail is still seen at `now`: 1 until it has arrived, then less and less, at last 0.
+    pub fn presence(&self, now: Time) -> f32 {
+        let (end, fade) = (self.shown().end, self.cargo.fade());
+        if now <= end {
+            1.0
+        } else if now >= end + fade {
+            0.0
+        } else {
+            1.0 - (now.since(end).as_secs_f64() / fade.as_secs_f64()) as f32
+        }
+    }
+}
+
+impl Cargo {
+    /// How many atoms it holds.
+    pub fn atoms(&self) -> u32 {
+        match self {
+            Self::Band(band) => band.len() as u32,
+            Self::Transfer(ranges) => atoms_in(ranges),
+            Self::Results(count) => *count,
+            Self::Offer { .. } | Self::Shutdown => 0,
+        }
+    }
+
+    /// The shortest time for which its flight is drawn. Offers are not stretched, or one that is passed on would
+    /// be seen in several places at once: they leave a trail instead.
+    pub const fn shortest(&self) -> Duration {
+        match self {
+            Self::Band(_) => Duration::from_millis(900),
+            Self::Transfer(_) => Duration::from_millis(1000),
+            Self::Results(_) => Duration::from_millis(500),
+            Self::Offer { .. } | Self::Shutdown => Duration::ZERO,
+        }
+    }
+
+    /// How long its trail fades after it has arrived.
+    const fn fade(&self) -> Duration {
+        match self {
+            Self::Offer { .. } => Duration::from_millis(700),
+            Self::Band(_) | Self::Transfer(_) => Duration::from_millis(300),
+            Self::Results(_) | Self::Shutdown => Duration::ZERO,
+        }
+    }
+}
+
+/// How many atoms `ranges` hold together.
+pub(super) fn atoms_in(ranges: &[Range<Atom>]) -> u32 {
+    ranges.iter().map(|range| range.len() as u32).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn transfer(sent: u64, length: u64) -> Flight {
+        let ranges = vec![Range { start: 0, end: 7 }, Range { start: 20, end: 50 }];
+        Flight::new(Party::Node(1), Party::Node(4), &Message::Transfer(ranges), Time(sent), Time(sent + length))
+    }
+
+    #[test]
+    fn a_short_transfer_is_stretched_and_a_long_one_is_not() {
+        assert_eq!(transfer(5, 40_000_000).shown(), Time(5)..Time(1_000_000_005));
+        assert_eq!(transfer(5, 3_000_000_000).shown(), Time(5)..Time(3_000_000_005));
+        assert_eq!(transfer(5, 1).cargo.atoms(), 37);
+    }
+
+    #[test]
+    fn an_offer_keeps_its_time_and_leaves_a_trail() {
+        let message = Message::Offer { who: 3, done: 9 };
+        let offer = Flight::new(Party::Node(3), Party::Node(2), &message, Time::from_secs(1.0), Time::from_secs(1.04));
+        assert_eq!(offer.shown().end, Time::from_secs(1.04));
+        assert_eq!(offer.presence(Time::from_secs(1.03)), 1.0);
+        let later = offer.presence(Time::from_secs(1.44));
+        assert!(later > 0.2 && later < 0.8, "{later}");
+        assert_eq!(offer.presence(offer.gone()), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn progress_and_presence_never_go_back(
+            sent in 0..10_000_000_000u64, length in 0..5_000_000_000u64, one in 0..20_000_000_000u64, more in 0..1_000_000_000u64,
+        ) {
+            let flight = transfer(sent, length);
+            let (earlier, later) = (Time(one), Time(one + more));
+            prop_assert!(flight.progress(earlier) <= flight.progress(later));
+            prop_assert!(flight.presence(earlier) >= flight.presence(later));
+            prop_assert!(flight.shown().end >= flight.arrives);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! A row a node, and who did how much.
+
+use super::node::{Activity, NodeState};
+use super::state::RunState;
+use crate::balance::NodeId;
+use crate::time::Time;
+
+/// What there is to say of a node at some time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Which node.
+    pub node: NodeId,
+    /// Its speed as a fraction of the reference machine.
+    pub speed: f64,
+    /// Atoms that it has traced.
+    pub done: u32,
+    /// Atoms that it still has.
+    pub left: u32,
+    /// Its done atoms on a scale that all rows share, 0 to 1.
+    pub done_bar: f32,
+    /// Where its bar of atoms left ends on the same scale; the bar begins at `done_bar`.
+    pub left_bar: f32,
+    /// What fraction of the time until now it had nothing to trace.
+    pub idle: f64,
+    /// What it is seen doing.
+    pub activity: Activity,
+}
+
+/// A node's part of the finished work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// Which node.
+    pub node: NodeId,
+    /// Where its part begins, 0 to 1 of all atoms.
+    pub start: f32,
+    /// Where it ends.
+    pub end: f32,
+}
+
+/// A row for each node at `now`.
+pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
+    let until = state.finished().map_or(now, |end| now.min(end));
+    let most = state.nodes().iter().map(|node| node.done + node.left()).max().unwrap_or(0).max(1) as f32;
+    let row = |(node, of): (NodeId, &NodeState)| Row {
+        node,
+        speed: of.speed,
+        done: of.done,
+        left: of.left(),
+        done_bar: of.done as f32 / most,
+        left_bar: (of.done + of.left()) as f32 / most,
+        idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
+        activity: state.activity(node, now),
+    };
+    (0..).zip(state.nodes()).map(row).collect()
+}
+
+/// Who has done which part of all atoms, one after the other; what is missing to 1 is still to be done.
+pub fn shares(state: &RunState) -> Vec<Share> {
+    let all = state.atoms().max(1) as f32;
+    let mut start = 0;
+    let mut share = |(node, of): (NodeId, &NodeState)| {
+        let from = start;
+        start += of.done;
+        Share { node, start: from as f32 / all, end: start as f32 / all }
+    };
+    (0..).zip(state.nodes()).map(&mut share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    #[test]
+    fn bars_share_a_scale_and_shares_fill_the_whole() {
+        let header = sample::header(&[1.0, 0.5, 0.2], 90);
+        let mut state = RunState::new(&header);
+        for record in sample::records(&header) {
+            state.apply(&record);
+            let rows = rows(&state, record.at);
+            assert!(rows.iter().all(|row| 0.0 <= row.done_bar && row.done_bar <= row.left_bar && row.left_bar <= 1.0));
+            assert!(rows.iter().all(|row| (0.0..=1.0).contains(&row.idle)), "{rows:?}");
+        }
+        let shares = shares(&state);
+        assert_eq!((shares[0].start, shares[2].end), (0.0, 1.0));
+        assert!(shares.windows(2).all(|pair| pair[0].end == pair[1].start));
+        let rows = rows(&state, state.head());
+        assert!(rows[0].done > rows[1].done && rows[1].done > rows[2].done, "{rows:?}");
+        assert_eq!(rows.iter().map(|row| row.done).sum::<u32>(), 90);
+    }
+}

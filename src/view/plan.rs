@@ -1,0 +1,147 @@
+//! Where everything in the ring is.
+
+use std::f32::consts::{PI, TAU};
+
+use super::display::{Point, TextSize};
+use crate::balance::NodeId;
+
+/// Where everything is, for a number of nodes and a size.
+pub(super) struct Plan {
+    /// How many nodes there are.
+    pub(super) nodes: usize,
+    /// Where the parent is.
+    pub(super) centre: Point,
+    /// Radius of the rail on which offers run.
+    pub(super) rail: f32,
+    /// Radius of the circle on which the nodes sit.
+    pub(super) seats: f32,
+    /// Radius of a node at full speed.
+    pub(super) node: f32,
+    /// Radius of the parent.
+    pub(super) parent: f32,
+    /// Whether there is little room for words.
+    pub(super) small: bool,
+}
+
+/// Below this height there is little room for words.
+const SMALL: f32 = 380.0;
+
+impl Plan {
+    /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
+    pub(super) fn new(nodes: usize, [width, height]: Point) -> Self {
+        // Beside the rail there is room for a label, above and below it for one of two lines, or of one line where
+        // there is little.
+        let small = height < SMALL;
+        let (beside, above) = if small { (66.0, 30.0) } else { (88.0, 48.0) };
+        let rail = (height / 2.0 - above).min(width / 2.0 - beside).max(40.0);
+        let apart = (PI / nodes.max(2) as f32).sin();
+        // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
+        let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
+        let seats = rail - node * 1.3 - 8.0;
+        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, small }
+    }
+
+    /// A node's direction seen from the centre, clockwise from the right.
+    pub(super) fn angle(&self, node: NodeId) -> f32 {
+        TAU * f32::from(node) / self.nodes.max(1) as f32 - PI / 2.0
+    }
+
+    /// A place by its direction and its distance from the centre.
+    pub(super) fn at(&self, angle: f32, radius: f32) -> Point {
+        [self.centre[0] + radius * angle.cos(), self.centre[1] + radius * angle.sin()]
+    }
+
+    /// Where a node sits.
+    pub(super) fn seat(&self, node: NodeId) -> Point {
+        self.at(self.angle(node), self.seats)
+    }
+
+    /// The angle between neighbours.
+    pub(super) fn step(&self) -> f32 {
+        TAU / self.nodes.max(1) as f32
+    }
+
+    /// How large what is to be read is.
+    pub(super) fn text_size(&self) -> TextSize {
+        if self.small { TextSize::Small } else { TextSize::Body }
+    }
+
+    /// A part of a circle round `centre`; clockwise if `sweep` is positive.
+    pub(super) fn arc(centre: Point, radius: f32, start: f32, sweep: f32) -> Vec<Point> {
+        let pieces = (sweep.abs() * radius.sqrt()).ceil().max(2.0) as usize;
+        let at = |i: usize| {
+            let angle = start + sweep * i as f32 / pieces as f32;
+            [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]
+        };
+        (0..=pieces).map(at).collect()
+    }
+
+    /// The control point of the curve between two places on the circle: towards the centre, but to the side of the
+    /// parent the more the straight way would lead through it. From the centre itself the way is straight.
+    pub(super) fn bend(&self, from: Point, to: Point) -> Point {
+        let centre = self.centre;
+        let middle = [(from[0] + to[0]) / 2.0 - centre[0], (from[1] + to[1]) / 2.0 - centre[1]];
+        let chord = [to[0] - from[0], to[1] - from[1]];
+        let (inward, aside) = if from == centre {
+            (1.0, 0.0)
+        } else {
+            let (distance, half) = (middle[0].hypot(middle[1]), chord[0].hypot(chord[1]) / 2.0);
+            let through = half / (half + distance).max(1.0);
+            (0.6, 0.45 * through * through)
+        };
+        // Square to the chord, away from the centre.
+        let aside = if chord[0] * middle[1] < chord[1] * middle[0] { -aside } else { aside };
+        [centre[0] + middle[0] * inward - chord[1] * aside, centre[1] + middle[1] * inward + chord[0] * aside]
+    }
+}
+
+/// A place on the curve from `from` to `to` bent towards `bend`, `t` of the way (a quadratic Bézier curve).
+pub(super) fn curve(from: Point, bend: Point, to: Point, t: f32) -> Point {
+    let (a, b, c) = ((1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t);
+    [a * from[0] + b * bend[0] + c * to[0], a * from[1] + b * bend[1] + c * to[1]]
+}
+
+/// Slow in, slow out.
+pub(super) fn ease(t: f32) -> f32 {
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Point = [520.0, 480.0];
+
+    #[test]
+    fn an_offer_runs_anticlockwise_to_the_left_neighbour() {
+        let plan = Plan::new(8, SIZE);
+        let top = plan.at(plan.angle(0) - plan.step() / 2.0, plan.rail);
+        assert!(top[0] < plan.centre[0] && top[1] < plan.centre[1]);
+        let arrived = plan.at(plan.angle(0) - plan.step(), plan.rail);
+        let neighbour = plan.at(plan.angle(7), plan.rail);
+        assert!((arrived[0] - neighbour[0]).hypot(arrived[1] - neighbour[1]) < 0.01);
+    }
+
+    #[test]
+    fn nodes_do_not_touch() {
+        for nodes in 2..=48 {
+            let plan = Plan::new(nodes, SIZE);
+            let ([x, y], [u, v]) = (plan.seat(0), plan.seat(1));
+            assert!((x - u).hypot(y - v) > 2.6 * plan.node, "{nodes}");
+        }
+    }
+
+    #[test]
+    fn parcels_go_round_the_parent() {
+        let plan = Plan::new(8, SIZE);
+        for to in 1..8 {
+            let (from, to) = (plan.seat(0), plan.seat(to));
+            let bend = plan.bend(from, to);
+            for i in 0..=20 {
+                let [x, y] = curve(from, bend, to, i as f32 / 20.0);
+                let apart = (x - plan.centre[0]).hypot(y - plan.centre[1]);
+                assert!(apart > plan.parent, "{apart}");
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What moves in the ring: results down the spokes, offers along the rail, atoms across.
+
+use super::display::{Anchor, Hue, Mark, Point, TextSize};
+use super::flight::{Cargo, Flight};
+use super::plan::{Plan, curve, ease};
+use super::state::RunState;
+use super::words::{count, node_name};
+use crate::balance::{NodeId, Party};
+use crate::time::Time;
+
+/// Results stream down the spokes.
+pub(super) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+    let dot = (plan.rail * 0.011).clamp(1.5, 3.0);
+    for flight in state.flights() {
+        if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
+            && flight.shown().contains(&now)
+        {
+            let (start, end) = (plan.seats - plan.node * 1.3, plan.parent);
+            let radius = start + (end - start) * flight.progress(now);
+            let ink = Hue::Node(from).full();
+            marks.push(Mark::Disc { centre: plan.at(plan.angle(from), radius), radius: dot, ink });
+        }
+    }
+}
+
+/// Offers run along the rail; where an offer has been, its trail fades. Each has a lane of its own.
+pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+    let mut offerers: Vec<(NodeId, &Flight)> = Vec::new();
+    let seen = |flight: &&Flight| flight.sent <= now && flight.presence(now) > 0.0;
+    for flight in state.flights().iter().filter(seen) {
+        let Cargo::Offer { who } = flight.cargo else { continue };
+        let lane = match offerers.iter().position(|(other, _)| *other == who) {
+            Some(lane) => lane,
+            None => {
+                offerers.push((who, flight));
+                offerers.len() - 1
+            }
+        };
+        offerers[lane].1 = flight;
+        let Party::Node(from) = flight.from else { continue };
+        let radius = plan.rail + lane_offset(lane);
+        let sweep = -plan.step() * flight.progress(now);
+        let strength = if lane < FOLLOWED { 0.9 } else { HINT };
+        marks.push(Mark::Line {
+            points: Plan::arc(plan.centre, radius, plan.angle(from), sweep),
+            width: 4.0,
+            ink: Hue::Node(who).faint(strength * flight.presence(now)),
+        });
+    }
+    for (lane, (who, flight)) in offerers.into_iter().enumerate().take(FOLLOWED) {
+        let Party::Node(from) = flight.from else { continue };
+        let angle = plan.angle(from) - plan.step() * flight.progress(now);
+        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(lane)), flight.presence(now));
+        let radius = (plan.node * 0.42).clamp(7.0, 13.0);
+        marks.push(Mark::Disc { centre, radius: radius + 2.0, ink: Hue::Ground.faint(alpha) });
+        marks.push(Mark::Disc { centre, radius, ink: Hue::Node(who).faint(alpha) });
+        marks.push(Mark::Label {
+            at: centre,
+            anchor: Anchor::Centre,
+            text: node_name(who).to_string(),
+            size: TextSize::Fit(radius * 1.2),
+            ink: Hue::OnNode(who).faint(alpha),
+        });
+    }
+}
+
+/// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
+fn lane_offset(lane: usize) -> f32 {
+    let lane = lane % 8;
+    let out = lane.div_ceil(2) as f32 * 4.0;
+    if lane % 2 == 1 { out } else { -out }
+}
+
+/// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
+pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+    let moving = |flight: &&Flight| flight.sent <= now && flight.presence(now) > 0.0 && flight.cargo.atoms() > 0;
+    let mut flights: Vec<_> = state.flights().iter().filter(moving).collect();
+    // The largest are followed; the sort keeps the order of equals, so nothing flickers.
+    flights.sort_by_key(|flight| std::cmp::Reverse(flight.cargo.atoms()));
+    let mut transfers = 0;
+    for flight in flights {
+        let (from, to, hue) = match (flight.from, flight.to, &flight.cargo) {
+            (Party::Parent, Party::Node(to), Cargo::Band(_)) => (plan.centre, plan.seat(to), Hue::Node(to)),
+            (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
+                transfers += 1;
+                (plan.seat(from), plan.seat(to), Hue::Node(from))
+            }
+            _ => continue,
+        };
+        let strength = if transfers <= FOLLOWED { 1.0 } else { HINT };
+        parcel(plan, from, to, hue, (flight, strength), now, marks);
+    }
+}
+
+fn parcel(
+    plan: &Plan,
+    from: Point,
+    to: Point,
+    hue: Hue,
+    (flight, strength): (&Flight, f32),
+    now: Time,
+    marks: &mut Vec<Mark>,
+) {
+    let bend = plan.bend(from, to);
+    let here = ease(flight.progress(now));
+    let pieces = 24;
+    let points = (0..=pieces).map(|i| curve(from, bend, to, here * i as f32 / pieces as f32)).collect();
+    let alpha = strength * flight.presence(now);
+    marks.push(Mark::Trail { points, width: plan.node * 0.5, ink: hue.faint(0.7 * alpha) });
+    if !flight.shown().contains(&now) {
+        return;
+    }
+    let centre = curve(from, bend, to, here);
+    let text = format!("×{}", count(flight.cargo.atoms()));
+    let letters = text.chars().count() as f32;
+    let half = if plan.small { [5.0 + 3.8 * letters, 9.0] } else { [7.0 + 4.6 * letters, 12.0] };
+    marks.push(Mark::Parcel { centre, half: [half[0] + 2.0, half[1] + 2.0], ink: Hue::Ground.faint(alpha) });
+    marks.push(Mark::Parcel { centre, half, ink: hue.faint(alpha) });
+    let Hue::Node(node) = hue else { return };
+    let ink = Hue::OnNode(node).faint(alpha);
+    marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: plan.text_size(), ink });
+}
+
+/// People follow four to six things at a time: more of a kind are only hinted at.
+const FOLLOWED: usize = 6;
+const HINT: f32 = 0.3;
