@@ -5,31 +5,34 @@
 
 // Floor 0: words that everything else is made of.
 pub mod geometry; // rays, boxes, rotations in degrees
+pub mod output; // files that are either whole or not there
 pub mod palette; // the nodes' colours
-pub mod picture; // size, division into atoms and bands, frame, PNG
 pub mod time; // nanoseconds since the run began
 
-// Floor 1: the two hard problems, each without knowledge of the other.
+// Floor 1: what is shared out.
+pub mod picture; // size, division into atoms and bands, frame, PNG
+
+// Floor 2: the two hard problems, each without knowledge of the other.
 pub mod balance; // how atoms are shared: messages, parent, ring, serial; no thread, clock, channel or colour
 pub mod csg; // primitives, boolean spans along a ray, bounds
 
-// Floor 2: what goes in, and what comes out.
+// Floor 3: what goes in, and what comes out.
 pub mod record; // what can happen in a run
 pub mod scene; // scene, camera, light, material, the scene file, the built-in scenes
 
-// Floor 3: made of floors 0 to 2.
+// Floor 4: made of what lies below.
 pub mod runlog; // a run's header, its file, its metrics
 pub mod tracer; // a scene compiled to what it needs, and the article's equation
 
-// Floor 4: two ends that never name each other.
+// Floor 5: two ends that never name each other.
 pub mod driver; // executes the protocol on threads, as emulated machines on links
 pub mod view; // pure functions from records to what is drawn; no egui
 
-// Floor 5: what leaves the program.
+// Floor 6: what leaves the program.
 pub mod export; // scenes for POV-Ray
 
-// Floor 6: what the user sees.
+// Floor 7: what the user sees.
 pub mod gui; // the window: paints what `view` returns
 
-// Floor 7: what the user types.
+// Floor 8: what the user types.
 pub mod cli; // arguments, the headless commands

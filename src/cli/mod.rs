@@ -4,7 +4,7 @@ mod args;
 mod render;
 mod report;
 
-use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -13,7 +13,8 @@ use clap::Parser;
 use crate::driver::auto_pace;
 use crate::export::to_pov;
 use crate::gui;
-use crate::picture::{Size, check_writable};
+use crate::output::{check_writable, write_whole};
+use crate::picture::Size;
 use crate::scene::Opened;
 use crate::tracer::Quality;
 use args::{Args, Command};
@@ -73,11 +74,8 @@ fn window(argument: &str, log: Option<PathBuf>) -> Result<(), Failure> {
 fn export(argument: &str, pov: &Path, size: Size) -> Result<(), Failure> {
     let opened = open(argument)?;
     check_writable(pov).map_err(|error| Failure::Refused(error.to_string()))?;
-    fs::write(pov, to_pov(&opened.scene, size, &Quality::default())).map_err(|error| {
-        // What was written is of no use; that it cannot be removed either would change nothing.
-        let _ = fs::remove_file(pov);
-        Failure::Failed(format!("writing {} failed, nothing was kept: {error}", pov.display()))
-    })
+    let text = to_pov(&opened.scene, size, &Quality::default());
+    write_whole(pov, |file| file.write_all(text.as_bytes())).map_err(|error| Failure::Failed(error.to_string()))
 }
 
 fn open(argument: &str) -> Result<Opened, Failure> {

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,8 +9,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::args::RenderArgs;
 use super::report::Report;
 use super::{Failure, open};
-use crate::driver::{Run, Update, probe};
-use crate::picture::{Division, Frame, check_writable, write_png};
+use crate::driver::{Run, Update, cores, probe};
+use crate::output::check_writable;
+use crate::picture::{Division, Frame, write_png};
 use crate::record::What;
 use crate::runlog::{Header, Link, RunLog, metrics};
 use crate::tracer::{Quality, RayCounts, Tracer};
@@ -37,7 +37,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     for path in [Some(&args.out), args.log.as_ref()].into_iter().flatten() {
         check_writable(path).map_err(|error| Failure::Refused(error.to_string()))?;
     }
-    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let cores = cores();
     let header = Header {
         scene: opened.name,
         scene_bytes: opened.bytes,

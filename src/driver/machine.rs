@@ -1,5 +1,6 @@
 //! The emulated machine: how long its worker takes for what the thread has already done.
 
+use std::thread;
 use std::time::Duration;
 
 use crate::time::Time;
@@ -7,6 +8,11 @@ use crate::time::Time;
 /// How far a machine may be behind the run's clock and still make up for it. Threads wake late and lose their core for
 /// a while; more than this means that the computer is too slow for the machines, and then the run takes longer.
 const MOST_LATE: Duration = Duration::from_millis(50);
+
+/// Cores of this computer.
+pub fn cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
 
 /// The pace that lets machines of these `speeds` be emulated on a computer of `cores` cores: 1, no waiting at all, if
 /// every speed is 1; else what leaves 0.6 of the computer idle, since at twice that load the threads get in each

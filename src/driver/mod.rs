@@ -17,7 +17,7 @@ mod parent_thread;
 mod port;
 mod probe;
 
-pub use machine::auto_pace;
+pub use machine::{auto_pace, cores};
 pub use probe::{Probe, probe};
 
 use std::any::Any;

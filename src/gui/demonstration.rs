@@ -3,9 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::session::cores;
 use crate::balance::Strategy;
-use crate::driver::{auto_pace, probe};
+use crate::driver::{auto_pace, cores, probe};
 use crate::picture::{Division, Size};
 use crate::runlog::{Header, Link};
 use crate::scene::Opened;

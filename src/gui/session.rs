@@ -245,11 +245,6 @@ impl Session {
     }
 }
 
-/// Cores of this computer.
-pub(super) fn cores() -> usize {
-    thread::available_parallelism().map_or(1, usize::from)
-}
-
 /// What the run amounts to, if it came to its end.
 fn outcome(log: &RunLog) -> Option<Outcome> {
     let makespan = metrics::makespan(log.records())?;

@@ -1,88 +1,21 @@
-//! PNG files that are either whole or not there.
+//! The picture as a PNG file.
 
-use std::fs;
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
-use tempfile::NamedTempFile;
-use thiserror::Error;
 
 use super::Size;
+use crate::output::{OutputError, write_whole};
 
-/// Why a picture could not be written.
-#[derive(Debug, Error)]
-pub enum ImageError {
-    /// The path can never hold the picture: found before anything is traced.
-    #[error("cannot write {path}: {why}")]
-    Path {
-        /// Where the picture was to go.
-        path: PathBuf,
-        /// What is wrong with it.
-        why: String,
-    },
-    /// Writing failed, for instance because the disk is full; the partial file has been removed.
-    #[error("writing {path} failed, nothing was kept: {source}")]
-    Write {
-        /// Where the picture was to go.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-}
-
-/// Makes sure that a picture can be written to `path`, before the work of making one.
+/// Writes `rgb` (three bytes a pixel, sRGB, scan order) as a PNG.
 ///
 /// # Errors
-/// [`ImageError::Path`], if `path` is a directory or a device, or its directory is missing or read-only.
-pub fn check_writable(path: &Path) -> Result<(), ImageError> {
-    let refuse = |why: String| Err(ImageError::Path { path: path.to_owned(), why });
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => return refuse("it is a directory; name a file in it".into()),
-        // Renaming over a device would replace it.
-        Ok(found) if !found.is_file() => return refuse("it is not a regular file".into()),
-        Ok(found) if found.permissions().readonly() => return refuse("it is read-only".into()),
-        _ => {}
-    }
-    match temporary_beside(path) {
-        Ok(_) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
-        Err(error) => refuse(error.to_string()),
-    }
-}
-
-/// Writes `rgb` (three bytes a pixel, sRGB, scan order) as a PNG. The file appears whole under its name or
-/// not at all; one that was there before stays until then.
-///
-/// # Errors
-/// [`ImageError::Write`] with what the system said.
-pub fn write_png(path: &Path, size: Size, rgb: &[u8]) -> Result<(), ImageError> {
-    let write = || {
-        let mut file = temporary_beside(path)?;
-        let mut buffer = BufWriter::new(file.as_file_mut());
-        PngEncoder::new(&mut buffer)
+/// Those of [`write_whole`].
+pub fn write_png(path: &Path, size: Size, rgb: &[u8]) -> Result<(), OutputError> {
+    write_whole(path, |file| {
+        PngEncoder::new(file)
             .write_image(rgb, size.width(), size.height(), ExtendedColorType::Rgb8)
-            .map_err(io::Error::other)?;
-        buffer.flush()?;
-        drop(buffer);
-        // A disk that fills may say so only here.
-        file.as_file().sync_all()?;
-        file.persist(path)?;
-        Ok(())
-    };
-    write().map_err(|source| ImageError::Write { path: path.to_owned(), source })
-}
-
-/// A temporary file in the directory of `path`, so that it can be renamed to it; it removes itself when dropped.
-fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".anel-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Readable by others as far as the user's umask allows, not the private mode of temporary files.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
+            .map_err(io::Error::other)
+    })
 }

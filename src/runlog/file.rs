@@ -1,30 +1,22 @@
 //! The run file: JSON lines, first the header and then a line a record.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use tempfile::NamedTempFile;
 use thiserror::Error;
 
 use super::{Header, RunLog, check};
+use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 
 /// The version of the format that this program writes, and the only one that it reads.
 const VERSION: u32 = 1;
 
-/// Why a run file could not be written or read.
+/// Why a run file could not be read.
 #[derive(Debug, Error)]
 pub enum LogError {
-    /// The file could not be written; nothing was kept.
-    #[error("writing {path} failed, nothing was kept: {source}")]
-    Write {
-        /// Where the log was to go.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
     /// The file could not be read.
     #[error("cannot read {path}: {source}")]
     Read {
@@ -54,28 +46,15 @@ struct FirstLine<H> {
 }
 
 impl RunLog {
-    /// Writes the log. The file appears whole under its name or not at all; one that was there before stays until
-    /// then.
+    /// Writes the log.
     ///
     /// # Errors
-    /// [`LogError::Write`] with what the system said.
-    pub fn save(&self, path: &Path) -> Result<(), LogError> {
-        let write = || {
-            let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            let mut file = temporary_in(directory)?;
-            let mut buffer = BufWriter::new(file.as_file_mut());
-            write_line(&mut buffer, &FirstLine { anel_run: VERSION, header: &self.header })?;
-            for record in self.records() {
-                write_line(&mut buffer, record)?;
-            }
-            buffer.flush()?;
-            drop(buffer);
-            // A disk that fills may say so only here.
-            file.as_file().sync_all()?;
-            file.persist(path)?;
-            Ok(())
-        };
-        write().map_err(|source| LogError::Write { path: path.to_owned(), source })
+    /// Those of [`write_whole`].
+    pub fn save(&self, path: &Path) -> Result<(), OutputError> {
+        write_whole(path, |file| {
+            write_line(file, &FirstLine { anel_run: VERSION, header: &self.header })?;
+            self.records().iter().try_for_each(|record| write_line(file, record))
+        })
     }
 
     /// Reads a log that [`RunLog::save`] has written.
@@ -136,18 +115,6 @@ fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
     to.write_all(b"\n")
 }
 
-/// A temporary file that removes itself when dropped, readable by others as far as the user's umask allows.
-fn temporary_in(directory: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".anel-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::Link;
@@ -158,6 +125,7 @@ mod tests {
     use crate::time::Time;
     use proptest::prelude::*;
     use std::time::Duration;
+    use tempfile::NamedTempFile;
 
     /// Of the headers below.
     const NODES: u16 = 4;
