@@ -72,7 +72,9 @@ fn results(ranges: &[Range<Atom>]) -> Action {
 proptest! {
     /// §7: the picture is divided exactly among the machines; *ours:* some bands are empty if there are too few atoms.
     #[test]
-    fn r1_bands_are_consecutive_and_differ_by_at_most_one_atom(nodes in 1..50u16, pixels in 1..5000u32, atom in 1..100u32) {
+    fn r1_bands_are_consecutive_and_differ_by_at_most_one_atom(
+        nodes in 1..50u16, pixels in 1..5000u32, atom in 1..100u32,
+    ) {
         let division = Division::new(pixels, atom);
         let (_, bands) = started(nodes, division);
         prop_assert_eq!(bands.len(), usize::from(nodes));

@@ -10,6 +10,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::driver::auto_pace;
 use crate::export::to_pov;
 use crate::gui;
 use crate::picture::{Size, check_writable};
@@ -63,7 +64,9 @@ fn window(argument: &str, log: Option<PathBuf>) -> Result<(), Failure> {
     let out = free_name(&scene.name);
     let Err(why) = gui::open(gui::Launch { scene: scene.clone(), log: log.clone() }) else { return Ok(()) };
     eprintln!("anel: no window can be opened ({why}); the same run goes on without one.");
-    let (tracer, header) = gui::demonstration(&scene);
+    let (tracer, mut header) = gui::demonstration(&scene);
+    // Nobody watches: no need to go slowly.
+    header.pace = auto_pace(&header.speeds, header.cores);
     render::run_and_save(&tracer, &header, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 

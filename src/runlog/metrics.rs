@@ -219,7 +219,8 @@ mod tests {
 
     #[test]
     fn messages_are_told_apart() {
-        let expected = Messages { offers: 2, hops: 1, transfers: 1, atoms_moved: 4, results: 1, total: 8, bytes: 80 };
+        let expected =
+            Messages { requests: 0, offers: 2, hops: 1, transfers: 1, atoms_moved: 4, results: 1, total: 8, bytes: 80 };
         assert_eq!(messages(&run()), expected);
     }
 }

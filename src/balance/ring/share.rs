@@ -50,7 +50,9 @@ mod tests {
         }
 
         #[test]
-        fn less_than_a_part_is_not_worth_it(waiting in 0..1000u32, own in 0..100u32, offerer in 0..100u32, part in 1..50u32) {
+        fn less_than_a_part_is_not_worth_it(
+            waiting in 0..1000u32, own in 0..100u32, offerer in 0..100u32, part in 1..50u32,
+        ) {
             let whole = share(waiting, own, offerer, 1);
             prop_assert_eq!(share(waiting, own, offerer, part), if whole >= part { whole } else { 0 });
         }

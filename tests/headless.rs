@@ -1,0 +1,110 @@
+//! Where no window can be opened, the same run goes on without one: one line says why, and the picture is named.
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+/// Starts the viewer in an empty directory with these variables set or (where empty) not set, and expects it to do its
+/// run without a window. Returns what it said.
+fn runs_without_a_window(variables: &[(&str, &str)]) -> String {
+    let directory = TempDir::new().expect("a temporary directory");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_anel"));
+    command.current_dir(directory.path()).arg("csg-primer");
+    for (name, value) in variables {
+        if value.is_empty() {
+            command.env_remove(name)
+        } else {
+            command.env(name, value)
+        };
+    }
+    let output = command.output().expect("the program can be started");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    assert_eq!(said.matches("no window can be opened").count(), 1, "{said}");
+    assert!(!said.contains("panicked") && !said.contains("RUST_BACKTRACE"), "{said}");
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "csg-primer.png");
+    let picture = image::open(directory.path().join("csg-primer.png")).expect("a picture");
+    assert_eq!((picture.width(), picture.height()), (640, 480));
+    said
+}
+
+#[test]
+fn without_a_display() {
+    runs_without_a_window(&[("DISPLAY", ""), ("WAYLAND_DISPLAY", ""), ("WAYLAND_SOCKET", "")]);
+}
+
+#[test]
+fn with_a_display_that_does_not_answer() {
+    runs_without_a_window(&[("DISPLAY", ":4242"), ("WAYLAND_DISPLAY", ""), ("WAYLAND_SOCKET", "")]);
+}
+
+/// A virtual screen that is gone when this is dropped.
+#[cfg(target_os = "linux")]
+struct Screen {
+    server: Child,
+    name: String,
+}
+
+#[cfg(target_os = "linux")]
+impl Screen {
+    /// Nothing (and a loud word) where there is no Xvfb; a failure where there has to be one.
+    fn open(arguments: &[&str]) -> Option<Self> {
+        let found = Command::new("Xvfb").arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
+        if !found {
+            assert!(std::env::var_os("CI").is_none(), "Xvfb is missing");
+            eprintln!("SKIPPED: this test needs Xvfb, which is not installed");
+            return None;
+        }
+        // The server finds a free number by itself and writes it down.
+        let file = tempfile::NamedTempFile::new().expect("a temporary file");
+        let server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "800x600x24"])
+            .args(arguments)
+            .stdout(file.reopen().expect("the same file"))
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb can be started");
+        for _ in 0..200 {
+            let number = fs::read_to_string(file.path()).unwrap_or_default();
+            if number.ends_with('\n') {
+                return Some(Self { server, name: format!(":{}", number.trim()) });
+            }
+            sleep(Duration::from_millis(50));
+        }
+        panic!("Xvfb did not start within ten seconds");
+    }
+}
+
+#[cfg(target_os = "linux")]
+impl Drop for Screen {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_opengl() {
+    let Some(screen) = Screen::open(&["-extension", "GLX"]) else { return };
+    runs_without_a_window(&[
+        ("DISPLAY", &screen.name),
+        ("WAYLAND_DISPLAY", ""),
+        ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere.json"),
+    ]);
+}
+
+/// A dependency panics when this library is missing. An empty file in its place is as good as none.
+#[test]
+#[cfg(target_os = "linux")]
+fn without_an_x_library() {
+    let Some(screen) = Screen::open(&[]) else { return };
+    let libraries = TempDir::new().expect("a temporary directory");
+    fs::write(libraries.path().join("libxkbcommon-x11.so.0"), "").expect("a file");
+    fs::write(libraries.path().join("libxkbcommon-x11.so"), "").expect("a file");
+    let path = libraries.path().to_string_lossy();
+    runs_without_a_window(&[("DISPLAY", &screen.name), ("WAYLAND_DISPLAY", ""), ("LD_LIBRARY_PATH", &path)]);
+}
