@@ -55,7 +55,7 @@ pub enum Done {
 }
 
 impl Session {
-    /// Starts the first run: [`demonstration`].
+    /// Starts the first run: [`demonstration()`].
     pub fn start(launch: &Launch, ground: Rgb) -> Self {
         let (tracer, header) = demonstration(&launch.scene);
         Self::begin(tracer, header, launch.log.clone(), ground)
