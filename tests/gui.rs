@@ -92,6 +92,22 @@ fn pause_stops_the_clock_and_the_work() {
 }
 
 #[test]
+fn a_speed_set_during_a_pause_counts_when_the_run_goes_on() {
+    let mut harness = open(SIZE);
+    until(&mut harness, "a traced atom", |harness| done(harness) > 5);
+    harness.key_press(Key::Space);
+    until(&mut harness, "a pause", |harness| harness.state().session().is_paused());
+    let slider = harness.get_by_label("Speed of node 8").rect();
+    harness.drag_at(slider.center());
+    harness.step();
+    harness.drop_at(slider.center());
+    harness.run_steps(3);
+    assert_eq!(harness.state().session().speed(7), 0.5);
+    harness.get_by_label("Go on").click();
+    until(&mut harness, "a record", |harness| speeds_set(harness).last() == Some(&(7, 0.5)));
+}
+
+#[test]
 fn restart_begins_anew_with_the_speeds_as_they_are() {
     let mut harness = open(SIZE);
     harness.step();

@@ -31,7 +31,8 @@ pub fn show(ui: &mut Ui, session: &mut Session) {
         for (i, row) in rows.iter().enumerate() {
             let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * ROW);
             let places = Columns::new(Rect::from_min_size(corner, vec2(grid.width, ROW)));
-            if let Some(speed) = show_row(ui, &places, row, session.colours()[i], look) {
+            let speed = session.speed(row.node);
+            if let Some(speed) = show_row(ui, &places, row, speed, session.colours()[i], look) {
                 session.set_speed(row.node, speed);
             }
         }
@@ -75,6 +76,8 @@ struct Columns {
     bar: Rect,
     done: f32,
     left: f32,
+    /// The same as `left` if it is not shown.
+    idle: f32,
     /// The left end of the last word.
     activity: f32,
 }
@@ -84,14 +87,17 @@ impl Columns {
         let within = |left: f32, width: f32, height: f32| {
             Rect::from_min_size(pos2(row.left() + left, row.center().y - height / 2.0), vec2(width, height))
         };
-        let slider = within(4.5 * GRID, 15.0 * GRID, 2.5 * GRID);
+        let narrow = row.width() < 430.0;
+        let slider = within(4.5 * GRID, if narrow { 11.0 } else { 15.0 } * GRID, 2.5 * GRID);
         let speed = slider.right() + 7.0 * GRID;
         let activity = row.right() - 10.0 * GRID;
-        let left = activity - 2.0 * GRID;
+        let idle = activity - 2.0 * GRID;
+        // How long it was idle is the first to go where there is little room.
+        let left = if row.width() < 520.0 { idle } else { idle - 7.0 * GRID };
         let done = left - 7.0 * GRID;
         let bar = speed + 2.0 * GRID;
         let bar = within(bar - row.left(), (done - 7.5 * GRID - bar).max(0.0), GRID);
-        Self { row, slider, speed, bar, done, left, activity }
+        Self { row, slider, speed, bar, done, left, idle, activity }
     }
 }
 
@@ -107,11 +113,14 @@ fn head(ui: &Ui, places: &Columns, look: Look) {
     }
     words(places.done, Align2::RIGHT_CENTER, "done");
     words(places.left, Align2::RIGHT_CENTER, "left");
+    if places.idle > places.left {
+        words(places.idle, Align2::RIGHT_CENTER, "idle");
+    }
     words(places.activity, Align2::LEFT_CENTER, "now");
 }
 
 /// Shows a row and returns the node's new speed if its slider was moved.
-fn show_row(ui: &mut Ui, places: &Columns, row: &Row, own: Rgb, look: Look) -> Option<f64> {
+fn show_row(ui: &mut Ui, places: &Columns, row: &Row, speed: f64, own: Rgb, look: Look) -> Option<f64> {
     let name = node_name(row.node);
     let (y, colour) = (places.row.center().y, theme::colour(own));
     let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::hover());
@@ -128,10 +137,13 @@ fn show_row(ui: &mut Ui, places: &Columns, row: &Row, own: Rgb, look: Look) -> O
     let number = |x: f32, text: String, colour: Color32| {
         painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, theme::regular(theme::BODY), colour);
     };
-    number(places.speed, format!("{:.0} %", row.speed * 100.0), look.text);
+    number(places.speed, format!("{:.0} %", speed * 100.0), look.text);
     number(places.done, count(row.done), look.text);
     number(places.left, count(row.left), if row.left > 0 { look.text } else { look.quiet });
-    let calm = matches!(row.activity, Activity::Idle | Activity::Retired | Activity::Waiting);
+    if places.idle > places.left {
+        number(places.idle, format!("{:.0} %", row.idle * 100.0), look.text);
+    }
+    let calm = matches!(row.activity, Activity::Idle | Activity::Retired | Activity::Waiting | Activity::Done);
     let ink = if calm { look.quiet } else { look.text };
     painter.text(pos2(places.activity, y), Align2::LEFT_CENTER, doing, theme::regular(theme::BODY), ink);
     if places.bar.width() > 5.0 * GRID {
@@ -140,7 +152,7 @@ fn show_row(ui: &mut Ui, places: &Columns, row: &Row, own: Rgb, look: Look) -> O
         painter.rect_filled(upto(row.done_bar), 4.0, colour);
     }
 
-    let mut percent = (row.speed * 100.0).round();
+    let mut percent = (speed * 100.0).round();
     let place = UiBuilder::new().max_rect(places.slider).id_salt(("speed", row.node));
     let slider = |ui: &mut Ui| {
         widgets::slider(ui, &mut percent, places.slider.width(), colour, &format!("Speed of node {name}"))

@@ -21,6 +21,8 @@ pub struct Session {
     tracer: Arc<Tracer>,
     log_path: Option<PathBuf>,
     colours: Vec<Rgb>,
+    /// As the user wants them; the records follow when the run goes on.
+    speeds: Vec<f64>,
     run: Run,
     phase: Phase,
     paused: bool,
@@ -53,7 +55,7 @@ pub enum Done {
 }
 
 impl Session {
-    /// Starts the first run: [`demonstration`].
+    /// Starts the first run: [`demonstration()`].
     pub fn start(launch: &Launch, ground: Rgb) -> Self {
         let (tracer, header) = demonstration(&launch.scene);
         Self::begin(tracer, header, launch.log.clone(), ground)
@@ -63,7 +65,7 @@ impl Session {
     pub fn restart(&mut self) {
         self.keep_log();
         let mut header = self.log.header.clone();
-        header.speeds = self.state.nodes().iter().map(|node| node.speed).collect();
+        header.speeds.clone_from(&self.speeds);
         let fresh = Self::begin(Arc::clone(&self.tracer), header, self.log_path.clone(), self.canvas.ground());
         let jobs = std::mem::replace(self, fresh).jobs;
         // What still goes on in the background may finish.
@@ -128,9 +130,15 @@ impl Session {
         self.state.finished().unwrap_or_else(|| self.now())
     }
 
-    /// Changes a node's speed (0 to 1) at once.
+    /// Changes a node's speed (0 to 1) at once; while the run stands still, as soon as it goes on.
     pub fn set_speed(&mut self, node: NodeId, speed: f64) {
+        self.speeds[usize::from(node)] = speed;
         self.run.set_speed(node, speed);
+    }
+
+    /// The speed that a node has or is about to have.
+    pub fn speed(&self, node: NodeId) -> f64 {
+        self.speeds[usize::from(node)]
     }
 
     /// Lets the run go on or stand still.
@@ -223,6 +231,7 @@ impl Session {
         let colours: Vec<_> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
         Self {
             run: Run::start(Arc::clone(&tracer), &header),
+            speeds: header.speeds.clone(),
             phase: Phase::Running,
             paused: false,
             state: RunState::new(&header),

@@ -52,18 +52,18 @@ pub fn show(ui: &mut Ui, session: &Session) -> Option<Click> {
 /// From right to left.
 fn buttons(ui: &mut Ui, session: &Session, words: bool) -> Option<Click> {
     let mut clicked = None;
-    let mut press = |icon, name, words, primary, click| {
-        if button(ui, Some(icon), name, words, primary).clicked() {
+    let mut press = |icon, name, words, primary, click, hint: &str| {
+        if button(ui, Some(icon), name, words, primary).on_hover_text(hint).clicked() {
             clicked = Some(click);
         }
     };
-    press(Icon::Contrast, "Dark or light", false, false, Click::Theme);
-    press(Icon::Save, "Save PNG", words, false, Click::Save);
+    press(Icon::Contrast, "Dark or light", false, false, Click::Theme, "Dark or light");
+    press(Icon::Save, "Save PNG", words, false, Click::Save, "Save the render (S)");
     let over = *session.phase() != Phase::Running;
-    press(Icon::Restart, "Restart", words, over, Click::Restart);
+    press(Icon::Restart, "Restart", words, over, Click::Restart, "From the beginning, with these speeds (R)");
     if !over {
         let (icon, name) = if session.is_paused() { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
-        press(icon, name, words, true, Click::Pause);
+        press(icon, name, words, true, Click::Pause, "Stand still or go on (space)");
     }
     clicked
 }

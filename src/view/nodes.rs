@@ -10,8 +10,6 @@ use crate::time::Time;
 pub struct Row {
     /// Which node.
     pub node: NodeId,
-    /// Its speed as a fraction of the reference machine.
-    pub speed: f64,
     /// Atoms that it has traced.
     pub done: u32,
     /// Atoms that it still has.
@@ -43,7 +41,6 @@ pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
     let most = state.nodes().iter().map(|node| node.done + node.left()).max().unwrap_or(0).max(1) as f32;
     let row = |(node, of): (NodeId, &NodeState)| Row {
         node,
-        speed: of.speed,
         done: of.done,
         left: of.left(),
         done_bar: of.done as f32 / most,

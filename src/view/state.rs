@@ -129,15 +129,6 @@ impl RunState {
         self.finished
     }
 
-    /// Whether atoms on their way to `node` are drawn at `now`.
-    pub fn receives(&self, node: NodeId, now: Time) -> bool {
-        self.flights.iter().any(|flight| {
-            flight.to == Party::Node(node)
-                && matches!(flight.cargo, Cargo::Transfer(_))
-                && flight.shown().contains(&now)
-        })
-    }
-
     /// What `node` is seen doing at `now`.
     pub fn activity(&self, node: NodeId, now: Time) -> Activity {
         let state = &self.nodes[usize::from(node)];
@@ -164,6 +155,15 @@ impl RunState {
     /// The atoms that look different since this was last asked.
     pub fn take_touched(&mut self) -> Vec<Range<Atom>> {
         std::mem::take(&mut self.touched)
+    }
+
+    /// Whether atoms on their way to `node` are drawn at `now`.
+    fn receives(&self, node: NodeId, now: Time) -> bool {
+        self.flights.iter().any(|flight| {
+            flight.to == Party::Node(node)
+                && matches!(flight.cargo, Cargo::Transfer(_))
+                && flight.shown().contains(&now)
+        })
     }
 
     fn sent(&mut self, id: u64, flight: Flight) {
