@@ -67,10 +67,12 @@ impl Screen {
             .stderr(Stdio::null())
             .spawn()
             .expect("Xvfb can be started");
+        let mut screen = Self { server, name: String::new() };
         for _ in 0..200 {
             let number = fs::read_to_string(file.path()).unwrap_or_default();
             if number.ends_with('\n') {
-                return Some(Self { server, name: format!(":{}", number.trim()) });
+                screen.name = format!(":{}", number.trim());
+                return Some(screen);
             }
             sleep(Duration::from_millis(50));
         }

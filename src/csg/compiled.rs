@@ -1,7 +1,7 @@
 //! A scene's solids, compiled: what can never be seen is gone, and every composition knows its bounds.
 
 use super::merge::{Operation, merge};
-use super::shape::Span;
+use super::span::Span;
 use super::{Event, Leaf, Solid, Surface};
 use crate::geometry::{Aabb, Ray};
 

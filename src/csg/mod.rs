@@ -7,6 +7,7 @@ mod primitive;
 mod quadratic;
 mod shape;
 mod solid;
+mod span;
 
 pub use compiled::{Hit, Stack, Start, Tree};
 pub use merge::Event;

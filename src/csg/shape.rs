@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::Primitive;
 use super::quadratic::Inside;
+use super::span::{BOTTOM, CURVED, Spans};
 use crate::geometry::{Aabb, Ray};
 
 /// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
@@ -11,29 +12,8 @@ use crate::geometry::{Aabb, Ray};
 pub struct Surface {
     /// The leaf's number.
     pub leaf: u32,
-    /// The leaf's face; [`CURVED`] is its curved one, the others are flat.
+    /// The leaf's face: 0 is the curved one, where there is one; the others are flat.
     pub face: u8,
-}
-
-/// The curved face of a ball, cylinder, cone or quadric.
-pub(super) const CURVED: u8 = 0;
-/// The lower cap of a cylinder or cone; the upper one follows.
-const BOTTOM: u8 = 1;
-
-/// A ray's stay inside a leaf: it enters through one face and leaves through another.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    pub from: f64,
-    pub from_face: u8,
-    pub to: f64,
-    pub to_face: u8,
-}
-
-/// A leaf's spans in order: at most two, since a leaf's equation is at most quadratic.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Spans {
-    pub first: Option<Span>,
-    pub second: Option<Span>,
 }
 
 /// A placed primitive.
@@ -277,86 +257,6 @@ impl Own {
     fn carry_back(&self, normal: DVec3) -> DVec3 {
         // The zero vector is the apex of a cone, where no normal is right.
         (self.own_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
-    }
-}
-
-impl Spans {
-    /// One face bounds the whole leaf.
-    #[inline(always)]
-    fn curved(inside: Inside) -> Self {
-        let span = |from: f64, to: f64| (from < to).then_some(Span { from, from_face: CURVED, to, to_face: CURVED });
-        match inside {
-            Inside::Never => Self::default(),
-            Inside::Always => Self { first: span(f64::NEG_INFINITY, f64::INFINITY), second: None },
-            Inside::Between(from, to) => Self { first: span(from, to), second: None },
-            Inside::Beyond(first, last) => {
-                Self { first: span(f64::NEG_INFINITY, first), second: span(last, f64::INFINITY) }
-            }
-        }
-    }
-
-    /// What of `inside` lies between the caps at y = −1 and y = 1. The leaf is convex, so this is one span: where
-    /// rounding at an apex leaves two, the longer.
-    fn capped(inside: Inside, y: f64, speed: f64, start: Option<u8>) -> Self {
-        let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
-        if !span.cut([-1.0, 1.0], y, speed, BOTTOM, start) {
-            return Self::default();
-        }
-        let clip = |from: f64, to: f64| {
-            let mut clipped = span;
-            if from > clipped.from {
-                (clipped.from, clipped.from_face) = (from, CURVED);
-            }
-            if to < clipped.to {
-                (clipped.to, clipped.to_face) = (to, CURVED);
-            }
-            (clipped.from < clipped.to).then_some(clipped)
-        };
-        let first = match inside {
-            Inside::Never => None,
-            Inside::Always => clip(f64::NEG_INFINITY, f64::INFINITY),
-            Inside::Between(from, to) => clip(from, to),
-            Inside::Beyond(first, last) => match (clip(f64::NEG_INFINITY, first), clip(last, f64::INFINITY)) {
-                (Some(a), Some(b)) => Some(if a.to - a.from < b.to - b.from { b } else { a }),
-                (a, b) => a.or(b),
-            },
-        };
-        Self { first, second: None }
-    }
-
-    /// A box in the coordinates of `o` and `d`.
-    #[inline]
-    fn slabs(o: DVec3, d: DVec3, min: [f64; 3], max: [f64; 3], start: Option<u8>) -> Self {
-        let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
-        for axis in 0..3 {
-            if !span.cut([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
-                return Self::default();
-            }
-        }
-        Self { first: Some(span), second: None }
-    }
-}
-
-impl Span {
-    /// Keeps what lies between two parallel faces at `places`, numbered `face` and `face + 1`; false if that is
-    /// nothing.
-    #[inline(always)]
-    fn cut(&mut self, places: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
-        if speed == 0.0 {
-            return places[0] < position && position < places[1];
-        }
-        let distance = |side: u8| {
-            if start == Some(face + side) { 0.0 } else { (places[usize::from(side)] - position) / speed }
-        };
-        let (near, far) = if speed > 0.0 { (0, 1) } else { (1, 0) };
-        let (from, to) = (distance(near), distance(far));
-        if from > self.from {
-            (self.from, self.from_face) = (from, face + near);
-        }
-        if to < self.to {
-            (self.to, self.to_face) = (to, face + far);
-        }
-        self.from < self.to
     }
 }
 

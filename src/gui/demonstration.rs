@@ -14,8 +14,8 @@ use crate::tracer::{Quality, Tracer};
 const SPEEDS: [f64; 8] = [1.0, 1.0, 1.0, 1.0, 0.1, 1.0, 1.0, 1.0];
 
 /// How long the probed work is to last. The run itself takes about 20 s, long enough to see it and short enough to
-/// see it again: machines that wait after every atom find their caches cold, which costs about a quarter.
-const LASTS: Duration = Duration::from_secs(16);
+/// see it again: not all machines are busy to the end, and those that wait after every atom find their caches cold.
+const LASTS: Duration = Duration::from_secs(18);
 
 /// A run of `scene` that a class can follow: eight machines, one of them slow, 40 ms a hop, about 20 seconds. A sample
 /// of the picture is traced at once, to choose the pace.

@@ -16,6 +16,7 @@ mod words_panel;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::scene::Opened;
@@ -55,24 +56,37 @@ pub fn open(launch: Launch) -> Result<(), String> {
         }
     };
     panic::set_hook(Box::new(|_| {}));
-    let created = restore.clone();
+    let (created, restore_once_created) = (Arc::new(AtomicBool::new(false)), restore.clone());
+    let is_created = Arc::clone(&created);
     let ended = panic::catch_unwind(AssertUnwindSafe(|| {
         let create: eframe::AppCreator<'_> = Box::new(move |creation| {
-            created();
+            created.store(true, Ordering::Relaxed);
+            restore_once_created();
             Ok(Box::new(App::new(&creation.egui_ctx, &launch)))
         });
         eframe::run_native("anel", options, create)
     }));
     restore();
-    let why = match ended {
-        Ok(Ok(())) => return Ok(()),
-        Ok(Err(error)) => error.to_string(),
-        Err(reason) => {
-            let said = reason.downcast_ref::<&str>().map(|said| (*said).to_owned());
-            said.or_else(|| reason.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into())
+    match ended {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(reason(&error)),
+        Err(panic) if is_created.load(Ordering::Relaxed) => panic::resume_unwind(panic),
+        Err(panic) => {
+            let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
+            let said = said.or_else(|| panic.downcast_ref::<String>().cloned());
+            Err(without_place(&said.unwrap_or_else(|| "no reason given".into())))
         }
-    };
-    Err(without_place(&why))
+    }
+}
+
+/// Why there is no window, in a few words.
+fn reason(error: &eframe::Error) -> String {
+    let said = error.to_string();
+    // What follows are the properties that were asked for, a screenful.
+    match said.split_once("matching the template") {
+        Some(_) => "OpenGL is missing or does not work".into(),
+        None => without_place(&said),
+    }
 }
 
 /// What an error says without the place in some crate's source where it arose: `… at FILE.rs:LINE: WHAT`.

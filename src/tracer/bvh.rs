@@ -18,7 +18,7 @@ struct Node {
     count: u32,
 }
 
-/// Below this depth the tree is halved by count, so that [`STACK`] always suffices.
+/// Below this depth the tree is halved by count, so that [`Pending`] always suffices.
 const MAX_UNBALANCED: u32 = 32;
 /// Boxes still to be visited, and where the ray enters them: 32 unbalanced levels, and 32 that halve at most 2³²
 /// solids. Kept from ray to ray, since clearing it would cost more than a box.
