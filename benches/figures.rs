@@ -1,0 +1,116 @@
+//! The figures that the project is held to, each a median of five runs with rivals in turn: `cargo bench`.
+//!
+//! They say what this computer does while it does nothing else; none of them is asserted.
+
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const RUNS: usize = 5;
+const SIZE: &str = "1280x960";
+
+fn main() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let out = directory.path().join("out.png").to_string_lossy().into_owned();
+    let render = |scene: &str, rest: &[&str]| render(scene, &out, rest);
+
+    println!("paced at 0.2 of a core, {SIZE}, ten-objects: efficiency (ideal / makespan), overhead over serial CPU");
+    paced("four equal nodes", &["--nodes", "4"], &render);
+    for place in 0..5 {
+        // The article's slow machine: 580 s against 6099 s alone (Figures 6 and 7).
+        let mut speeds = vec!["1"; 4];
+        speeds.insert(place, "0.0950975");
+        paced(&format!("and a slow fifth at place {}", place + 1), &["--speeds", &speeds.join(",")], &render);
+    }
+
+    println!("\nfull speed, ten-objects, 1 node against 2 in turn: makespans (s) and their ratio");
+    let full = |nodes: &str| {
+        number(&render("ten-objects", &["--nodes", nodes, "--pace", "full", "--samples", "2"]), "makespan_s")
+    };
+    let pairs: Vec<_> = (0..RUNS).map(|_| (full("1"), full("2"))).collect();
+    let ratio = median(pairs.iter().map(|(one, two)| one / two));
+    let (one, two) = (median(pairs.iter().map(|pair| pair.0)), median(pairs.iter().map(|pair| pair.1)));
+    println!("  1 node {one:.3}, 2 nodes {two:.3}: {ratio:.3} times");
+
+    println!("\none thread, no antialiasing, {SIZE}: million rays of all kinds a second, and POV-Ray 3.7 in turn");
+    for scene in ["ten-objects", "csg-primer", "glass", "machine-part", "corner"] {
+        against_povray(scene, directory.path(), &render);
+    }
+}
+
+/// Runs the program and returns what it says about the run.
+fn render(scene: &str, out: &str, rest: &[&str]) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_anel"))
+        .args(["render", scene, "--out", out, "--size", SIZE, "--json"])
+        .args(rest)
+        .output()
+        .expect("the program can be started");
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
+    let rest = [nodes, &["--pace", "0.2"]].concat();
+    let runs: Vec<_> = (0..RUNS).map(|_| render("ten-objects", &rest)).collect();
+    let of = |field: &str| median(runs.iter().map(|run| number(run, field)));
+    let least = runs.iter().map(|run| number(run, "efficiency")).fold(1.0, f64::min);
+    println!("  {what:<28} {:.4} (least {least:.4}), overhead {:.3}", of("efficiency"), of("overhead"));
+}
+
+fn against_povray(scene: &str, directory: &std::path::Path, render: &impl Fn(&str, &[&str]) -> Value) {
+    let pov = directory.join(format!("{scene}.pov"));
+    let export = ["export", scene, "--size", SIZE, "--pov"];
+    let exported = Command::new(env!("CARGO_BIN_EXE_anel")).args(export).arg(&pov).status();
+    assert!(exported.is_ok_and(|status| status.success()), "the scene can be exported");
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for _ in 0..RUNS {
+        let run = render(scene, &["--strategy", "serial"]);
+        let rays: f64 =
+            ["primary", "shadow", "reflected", "refracted"].map(|kind| number(&run["rays"], kind)).iter().sum();
+        ours.push((rays, number(&run, "makespan_s")));
+        let size = SIZE.split_once('x').expect("a size");
+        let povray = Command::new("povray")
+            .args([&format!("+I{}", pov.display()), &format!("+W{}", size.0), &format!("+H{}", size.1)])
+            .args(["+WT1", "-D", "-A", &format!("+O{}", directory.join("pov.png").display())])
+            .output();
+        if let Ok(output) = povray {
+            theirs.push(povray_figures(&String::from_utf8_lossy(&output.stderr)));
+        }
+    }
+    let rate = |runs: &[(f64, f64)]| median(runs.iter().map(|(rays, seconds)| rays / seconds / 1e6));
+    let seconds = |runs: &[(f64, f64)]| median(runs.iter().map(|(_, seconds)| *seconds));
+    print!("  {scene:<14} {:6.2} ({:.3} s)", rate(&ours), seconds(&ours));
+    if theirs.is_empty() {
+        println!("; povray is not installed");
+    } else {
+        let rates = median(ours.iter().zip(&theirs).map(|(a, b)| (a.0 / a.1) / (b.0 / b.1)));
+        let times = median(ours.iter().zip(&theirs).map(|(a, b)| b.1 / a.1));
+        println!(
+            "; POV-Ray {:.2} ({:.3} s): {rates:.2} times the rays a second, {times:.2} times as fast",
+            rate(&theirs),
+            seconds(&theirs)
+        );
+    }
+}
+
+/// Rays of all kinds and seconds, from what POV-Ray says at the end.
+fn povray_figures(said: &str) -> (f64, f64) {
+    let after = |label: &str| {
+        let rest = said.split_once(label).map_or("", |(_, rest)| rest);
+        rest.trim_start().split(|c: char| !c.is_ascii_digit() && c != '.').next().and_then(|n| n.parse::<f64>().ok())
+    };
+    let trace_time = said.split_once("Trace Time:").map_or("", |(_, rest)| rest);
+    let seconds = trace_time.split_once('(').and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
+    let rays = after("Rays:").unwrap_or(f64::NAN) + after("Shadow Ray Tests:").unwrap_or(0.0);
+    (rays, seconds.unwrap_or(f64::NAN))
+}
+
+fn number(value: &Value, field: &str) -> f64 {
+    value[field].as_f64().unwrap_or(f64::NAN)
+}
+
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}
