@@ -24,14 +24,15 @@ impl Ray {
     /// `direction` must have length 1.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         const LARGEST: f64 = 1e300;
-        let inverse = direction.recip().clamp(DVec3::splat(-LARGEST), DVec3::splat(LARGEST));
-        Self { origin, direction, inverse, scale: origin.abs().max_element() }
+        let inverse = direction.map(|component| lesser(greater(1.0 / component, -LARGEST), LARGEST));
+        let size = origin.abs();
+        Self { origin, direction, inverse, scale: greater(greater(size.x, size.y), size.z) }
     }
 
     /// The ray that goes on from the point at distance `t` of this one.
     pub fn onward(&self, t: f64, direction: DVec3) -> Self {
         let mut ray = Self::new(self.at(t), direction);
-        ray.scale = ray.scale.max(self.scale).max(t);
+        ray.scale = greater(greater(ray.scale, self.scale), t);
         ray
     }
 
@@ -119,13 +120,13 @@ impl Aabb {
 
 /// `f64::min` without its care for NaN: one instruction.
 #[inline(always)]
-fn lesser(a: f64, b: f64) -> f64 {
+pub fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
 /// `f64::max` without its care for NaN: one instruction.
 #[inline(always)]
-fn greater(a: f64, b: f64) -> f64 {
+pub fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 

@@ -3,7 +3,7 @@
 use super::merge::{Operation, merge};
 use super::span::Span;
 use super::{Event, Leaf, Solid, Surface};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::{Aabb, Ray, greater, lesser};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
 #[derive(Debug, Default)]
@@ -158,10 +158,15 @@ impl Tree {
         };
         match &self.nodes[root as usize].kind {
             Kind::Leaf(leaf) => {
-                for [enter, leave] in self.leaf_spans(*leaf, ray, start) {
-                    if !meet(enter, true) || !meet(leave, false) {
-                        return;
-                    }
+                let [first, second] = self.leaf_spans(*leaf, ray, start);
+                let mut go_on = true;
+                if let Some([enter, leave]) = first {
+                    go_on = meet(enter, true) && meet(leave, false);
+                }
+                if let Some([enter, leave]) = second.filter(|_| go_on)
+                    && meet(enter, true)
+                {
+                    meet(leave, false);
                 }
             }
             Kind::Convex(leaves) => {
@@ -186,18 +191,39 @@ impl Tree {
     }
 
     /// Pushes the events of a node. Spans that lie outside `window` may be left out.
+    #[inline(always)]
     fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
         let Node { bounds, kind } = &self.nodes[node as usize];
-        if bounds.entry(ray, window[0], window[1]).is_none() {
-            return;
+        if bounds.entry(ray, window[0], window[1]).is_some() {
+            self.events_within_bounds(kind, ray, start, window, stack);
         }
+    }
+
+    /// As [`Tree::events`], for a ray that is known to meet the node's bounds.
+    #[inline(always)]
+    fn events_within_bounds(
+        &self,
+        kind: &Kind,
+        ray: &Ray,
+        start: Option<Surface>,
+        window: [f64; 2],
+        stack: &mut Stack,
+    ) {
         let mut push = |[enter, leave]: [Event; 2]| {
             if leave.t >= window[0] && enter.t <= window[1] {
                 stack.extend([enter, leave]);
             }
         };
         match kind {
-            Kind::Leaf(leaf) => self.leaf_spans(*leaf, ray, start).for_each(push),
+            Kind::Leaf(leaf) => {
+                let [first, second] = self.leaf_spans(*leaf, ray, start);
+                if let Some(span) = first {
+                    push(span);
+                }
+                if let Some(span) = second {
+                    push(span);
+                }
+            }
             Kind::Convex(leaves) => {
                 if let Some(span) = self.convex_span(leaves, ray, start) {
                     push(span);
@@ -221,27 +247,32 @@ impl Tree {
         let first = stack.len();
         for (index, &child) in children.iter().enumerate() {
             let second = stack.len();
-            self.events(child, ray, start, window, stack);
-            if index > 0 {
-                merge(operation, stack, first, second, ray);
+            if index == 0 && operation == Operation::Difference {
+                // The bounds of a difference are those of its first operand.
+                self.events_within_bounds(&self.nodes[child as usize].kind, ray, start, window, stack);
+            } else {
+                self.events(child, ray, start, window, stack);
+                if index > 0 {
+                    merge(operation, stack, first, second, ray);
+                }
             }
             if operation != Operation::Union {
                 // Nothing outside the first operand's spans can matter any more.
                 let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
                 if enter.t.is_finite() {
-                    window[0] = window[0].max(enter.t - 2.0 * ray.tolerance(enter.t));
+                    window[0] = greater(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
                 }
                 if leave.t.is_finite() {
-                    window[1] = window[1].min(leave.t + 2.0 * ray.tolerance(leave.t));
+                    window[1] = lesser(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> impl Iterator<Item = [Event; 2]> {
+    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> [Option<[Event; 2]>; 2] {
         let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
-        [spans.first, spans.second].into_iter().flatten().map(move |span| span_events(leaf, span))
+        [spans.first, spans.second].map(|span| span.map(|span| span_events(leaf, span)))
     }
 
     /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the

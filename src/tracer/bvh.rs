@@ -1,20 +1,28 @@
 //! A hierarchy of bounding boxes over solids.
 
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::{Aabb, Ray, greater, lesser};
 
-/// A binary tree of boxes in depth-first order: a node's first child follows it.
+/// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
 #[derive(Debug, Default)]
 pub(super) struct Bvh {
+    top: Option<(Aabb, Child)>,
     nodes: Vec<Node>,
     roots: Vec<u32>,
 }
 
-#[derive(Debug)]
+/// Two boxes side by side: by axis, then by child.
+#[derive(Debug, Default)]
 struct Node {
-    bounds: Aabb,
-    /// An inner node: where its second child is. A leaf: its first root.
+    min: [[f64; 2]; 3],
+    max: [[f64; 2]; 3],
+    children: [Child; 2],
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Child {
+    /// An inner node: its number. A leaf: its first root.
     to: u32,
-    /// How many roots a leaf has; 0 in an inner node.
+    /// How many roots a leaf has; 0 for an inner node.
     count: u32,
 }
 
@@ -23,11 +31,11 @@ const MAX_UNBALANCED: u32 = 32;
 /// Boxes still to be visited, and where the ray enters them: 32 unbalanced levels, and 32 that halve at most 2³²
 /// solids. Kept from ray to ray, since clearing it would cost more than a box.
 #[derive(Debug)]
-pub(super) struct Pending([(f64, u32); 64]);
+pub(super) struct Pending([(f64, Child); 64]);
 
 impl Default for Pending {
     fn default() -> Self {
-        Self([(0.0, 0); 64])
+        Self([(0.0, Child::default()); 64])
     }
 }
 
@@ -35,7 +43,7 @@ impl Bvh {
     pub fn new(mut solids: Vec<(u32, Aabb)>) -> Self {
         let mut bvh = Self::default();
         if !solids.is_empty() {
-            bvh.build(&mut solids, 0);
+            bvh.top = Some(bvh.build(&mut solids, 0));
         }
         bvh
     }
@@ -54,36 +62,30 @@ impl Bvh {
         Pending(stack): &mut Pending,
         mut visit: impl FnMut(u32, f64) -> f64,
     ) {
-        let Some(top) = self.nodes.first().and_then(|node| node.bounds.entry(ray, 0.0, t_max)) else { return };
+        let Some((bounds, mut at)) = self.top else { return };
+        let Some(mut entry) = bounds.entry(ray, 0.0, t_max) else { return };
         let mut depth = 0;
-        let (mut entry, mut at) = (top, 0);
         loop {
-            let node = &self.nodes[at as usize];
             if entry <= t_max {
-                if node.count > 0 {
-                    for &root in &self.roots[node.to as usize..(node.to + node.count) as usize] {
+                if at.count > 0 {
+                    for &root in &self.roots[at.to as usize..(at.to + at.count) as usize] {
                         t_max = visit(root, t_max);
                     }
                     if t_max < 0.0 {
                         return;
                     }
                 } else {
-                    let (first, second) = (at + 1, node.to);
-                    let meet = |child: u32| self.nodes[child as usize].bounds.entry(ray, 0.0, t_max);
-                    let next = match (meet(first), meet(second)) {
-                        (Some(a), Some(b)) => {
-                            let (near, far) =
-                                if a <= b { ((a, first), (b, second)) } else { ((b, second), (a, first)) };
-                            stack[depth] = far;
-                            depth += 1;
-                            Some(near)
-                        }
-                        (Some(a), None) => Some((a, first)),
-                        (None, Some(b)) => Some((b, second)),
-                        (None, None) => None,
-                    };
-                    if let Some(next) = next {
-                        (entry, at) = next;
+                    let node = &self.nodes[at.to as usize];
+                    let [first, second] = node.entries(ray, t_max);
+                    let [a, b] = node.children;
+                    let (near, far) =
+                        if first <= second { ((first, a), (second, b)) } else { ((second, b), (first, a)) };
+                    if far.0 < f64::INFINITY {
+                        stack[depth] = far;
+                        depth += 1;
+                    }
+                    if near.0 < f64::INFINITY {
+                        (entry, at) = near;
                         continue;
                     }
                 }
@@ -97,20 +99,45 @@ impl Bvh {
     }
 
     /// Splits where the surface area heuristic expects least work (MacDonald and Booth 1990).
-    fn build(&mut self, solids: &mut [(u32, Aabb)], depth: u32) {
+    fn build(&mut self, solids: &mut [(u32, Aabb)], depth: u32) -> (Aabb, Child) {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let node = self.nodes.len();
-        self.nodes.push(Node { bounds, to: self.roots.len() as u32, count: solids.len() as u32 });
         let Some((axis, split)) = best_split(solids, &bounds, depth) else {
+            let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
             self.roots.extend(solids.iter().map(|(root, _)| root));
-            return;
+            return (bounds, leaf);
         };
         sort_along(solids, axis);
+        let number = self.nodes.len();
+        self.nodes.push(Node::default());
         let (first, second) = solids.split_at_mut(split);
-        self.build(first, depth + 1);
-        self.nodes[node].to = self.nodes.len() as u32;
-        self.nodes[node].count = 0;
-        self.build(second, depth + 1);
+        let parts = [self.build(first, depth + 1), self.build(second, depth + 1)];
+        let node = &mut self.nodes[number];
+        for (side, (bounds, child)) in parts.into_iter().enumerate() {
+            for axis in 0..3 {
+                (node.min[axis][side], node.max[axis][side]) = (bounds.min[axis], bounds.max[axis]);
+            }
+            node.children[side] = child;
+        }
+        (bounds, Child { to: number as u32, count: 0 })
+    }
+}
+
+impl Node {
+    /// Where `ray` enters each child's box before `t_max`; infinite where it does not. As [`Aabb::entry`], but for
+    /// two boxes at once: written so that the compiler can use one instruction for both.
+    #[inline(always)]
+    fn entries(&self, ray: &Ray, t_max: f64) -> [f64; 2] {
+        let (mut near, mut far) = ([0.0; 2], [t_max; 2]);
+        for axis in 0..3 {
+            let (origin, inverse) = (ray.origin[axis], ray.inverse[axis]);
+            let distance = |places: [f64; 2]| places.map(|place| (place - origin) * inverse);
+            let (a, b) = (distance(self.min[axis]), distance(self.max[axis]));
+            for side in 0..2 {
+                near[side] = greater(lesser(a[side], b[side]), near[side]);
+                far[side] = lesser(greater(a[side], b[side]), far[side]);
+            }
+        }
+        [0, 1].map(|side| if near[side] <= far[side] { near[side] } else { f64::INFINITY })
     }
 }
 

@@ -54,14 +54,17 @@ impl World {
         memory: &mut Memory,
     ) -> f64 {
         let Memory { spans, boxes } = memory;
-        if let Some(root) = *suspect
+        let suspected = *suspect;
+        if let Some(root) = suspected
             && self.tree.nearest(root, ray, Some(start), t_max, spans).is_some()
         {
             return 0.0;
         }
         let mut arriving = 1.0;
         let mut test = |root: u32, t_max: f64| {
-            if self.transmits[root as usize] {
+            if suspected == Some(root) {
+                // It has just been cleared.
+            } else if self.transmits[root as usize] {
                 self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                     arriving *= self.finish(hit.surface).kt;
                     arriving > 0.0
