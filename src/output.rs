@@ -19,7 +19,7 @@ pub enum OutputError {
         why: String,
     },
     /// Writing failed, for instance because the disk is full; the partial file has been removed.
-    #[error("writing {path} failed, nothing was kept: {source}")]
+    #[error("writing {path} failed, nothing of it was kept: {source}")]
     Write {
         /// Where it was to go.
         path: PathBuf,
@@ -31,49 +31,80 @@ pub enum OutputError {
 /// Makes sure that a file can be written to `path`, before the work of making what goes into it.
 ///
 /// # Errors
-/// [`OutputError::Path`], if `path` is a directory or a device, or its directory is missing or read-only.
+/// [`OutputError::Path`], if `path` is a directory or a device, its name is impossible, or its directory is missing or
+/// read-only.
 pub fn check_writable(path: &Path) -> Result<(), OutputError> {
-    let refuse = |why: String| Err(OutputError::Path { path: path.to_owned(), why });
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => return refuse("it is a directory; name a file in it".into()),
-        // Renaming over a device would replace it.
-        Ok(found) if !found.is_file() => return refuse("it is not a regular file".into()),
-        Ok(found) if found.permissions().readonly() => return refuse("it is read-only".into()),
-        _ => {}
-    }
-    match temporary_beside(path) {
-        Ok(_) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
-        Err(error) => refuse(error.to_string()),
-    }
+    let refuse = |why: String| OutputError::Path { path: path.to_owned(), why };
+    let target = target(path).map_err(refuse)?;
+    temporary_beside(&target).map(drop).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
+        kind => refuse(kind.to_string()),
+    })
 }
 
 /// Writes what `fill` writes to `path`. The file appears whole under its name or not at all; one that was there before
 /// stays until then.
 ///
 /// # Errors
-/// [`OutputError::Write`] with what the system said.
+/// [`OutputError::Path`] as [`check_writable`]; [`OutputError::Write`] with what the system said.
 pub fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
+    let target = target(path).map_err(|why| OutputError::Path { path: path.to_owned(), why })?;
     let write = || {
-        let mut file = temporary_beside(path)?;
+        let mut file = temporary_beside(&target)?;
         let mut buffer = BufWriter::new(file.as_file_mut());
         fill(&mut buffer)?;
         buffer.flush()?;
         drop(buffer);
         // A disk that fills may say so only here.
         file.as_file().sync_all()?;
-        file.persist(path)?;
+        file.persist(&target)?;
         Ok(())
     };
     write().map_err(|source| OutputError::Write { path: path.to_owned(), source })
 }
 
+/// Whether two paths name the same file, as far as can be told before both exist.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        let whole = fs::canonicalize(path);
+        whole.or_else(|_| {
+            Ok::<_, io::Error>(fs::canonicalize(directory_of(path))?.join(path.file_name().unwrap_or_default()))
+        })
+    };
+    matches!((place(a), place(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Where a file of that name is to be put: behind a link, the file that it leads to. Or why there can be none.
+fn target(path: &Path) -> Result<PathBuf, String> {
+    /// Of a name, in bytes, on every usual file system.
+    const LONGEST: usize = 255;
+    let ends_as_directory = path.to_string_lossy().ends_with(std::path::is_separator);
+    let Some(name) = path.file_name().filter(|_| !ends_as_directory) else {
+        return Err("it does not name a file".into());
+    };
+    if name.len() > LONGEST {
+        return Err(format!("its name is longer than {LONGEST} bytes"));
+    }
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err("it is a directory; name a file in it".into()),
+        // Renaming over a device would replace it.
+        Ok(found) if !found.is_file() => Err("it is not a regular file".into()),
+        Ok(found) if found.permissions().readonly() => Err("it is read-only".into()),
+        Ok(_) => fs::canonicalize(path).map_err(|error| error.kind().to_string()),
+        Err(_) if path.is_symlink() => Err("it is a link that leads nowhere".into()),
+        Err(_) => Ok(path.to_owned()),
+    }
+}
+
+fn directory_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// A temporary file in the directory of `path`, so that it can be renamed to it; it removes itself when dropped.
 fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".anel-").suffix(".part");
     #[cfg(unix)]
@@ -82,5 +113,40 @@ fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
         // Readable by others as far as the user's umask allows, not the private mode of temporary files.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(directory)
+    builder.tempfile_in(directory_of(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tempfile::TempDir;
+
+    #[test]
+    #[cfg(unix)]
+    fn a_device_is_never_replaced_and_a_link_is_followed() {
+        let directory = TempDir::new().unwrap();
+        let at = |name: &str| directory.path().join(name);
+        let write = |path: &Path| write_whole(path, |file| file.write_all(b"new"));
+        std::os::unix::fs::symlink("/dev/null", at("device")).unwrap();
+        assert!(matches!(write(&at("device")), Err(OutputError::Path { .. })));
+        fs::write(at("file"), "old").unwrap();
+        std::os::unix::fs::symlink(at("file"), at("link")).unwrap();
+        write(&at("link")).unwrap();
+        assert!(at("link").is_symlink());
+        assert_eq!(fs::read_to_string(at("file")).unwrap(), "new");
+        std::os::unix::fs::symlink(at("nothing"), at("dangling")).unwrap();
+        assert!(matches!(check_writable(&at("dangling")), Err(OutputError::Path { .. })));
+    }
+
+    #[test]
+    fn the_same_file_is_known_by_any_path() {
+        let directory = TempDir::new().unwrap();
+        fs::create_dir(directory.path().join("inner")).unwrap();
+        let straight = directory.path().join("file");
+        let round = directory.path().join("inner").join("..").join("file");
+        assert!(is_same_file(&straight, &round));
+        fs::write(&straight, "").unwrap();
+        assert!(is_same_file(&straight, &round));
+        assert!(!is_same_file(&straight, &directory.path().join("other")));
+    }
 }

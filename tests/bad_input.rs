@@ -144,6 +144,11 @@ fn what_is_no_scene_file_is_refused() {
     assert!(refused(at, &["render", "folder.ron", "--out", "out.png"]).contains("directory"));
     fs::write(at.join("latin.ron"), b"(camera: (\n// caf\xe9\n").expect("a file");
     assert!(refused(at, &["render", "latin.ron", "--out", "out.png"]).contains("line 2: the file is not text"));
+    // Opening a pipe would wait for somebody to write into it.
+    #[cfg(unix)]
+    if Command::new("mkfifo").arg(at.join("pipe.ron")).status().is_ok_and(|status| status.success()) {
+        assert!(refused(at, &["render", "pipe.ron", "--out", "out.png"]).contains("not a regular file"));
+    }
     // A gigabyte, which nobody should read to the end.
     let large = fs::File::create(at.join("large.ron")).expect("a file");
     large.set_len(1 << 30).expect("a sparse file");
@@ -163,12 +168,14 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
         (&["--size", "1000000x1000000"], "too large"),
         (&["--size", "99999999999x1"], "not a size"),
         (&["--size", "large"], "not a size"),
+        (&["--size", "-1x5"], "not a size"),
+        (&["--size", "11000x11000", "--atom", "1"], "too many"),
         (&["--nodes", "0"], "0 is not in 1..=1024"),
         (&["--nodes", "10000"], "10000 is not in 1..=1024"),
-        (&["--speeds", "0"], "above 0"),
-        (&["--speeds", "1,-1"], "above 0"),
-        (&["--speeds", "1,NaN"], "above 0"),
-        (&["--speeds", "1,1.5"], "at most 1"),
+        (&["--speeds", "0"], "from 0.0001 to 1"),
+        (&["--speeds", "-1,1"], "from 0.0001 to 1"),
+        (&["--speeds", "1,NaN"], "from 0.0001 to 1"),
+        (&["--speeds", "1,1e-300"], "from 0.0001 to 1"),
         (&["--speeds", "1,1", "--nodes", "3"], "3 nodes but 2 speeds"),
         (&["--speeds", ""], "speed"),
         (&["--strategy", "magic"], "ring"),
@@ -181,6 +188,8 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
         (&["--bandwidth", "0"], "bandwidth"),
         (&["--out", "missing/out.png"], "does not exist"),
         (&["--out", "folder"], "is a directory"),
+        (&["--out", "new/"], "does not name a file"),
+        (&["--log", "./folder/../out.png"], "would be replaced"),
         (&["--out", "/dev/null"], "not a regular file"),
         (&["--log", "missing/run.log"], "does not exist"),
         (&["--sise", "1x1"], "--sise"),
@@ -194,6 +203,42 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
         let error = refused(at, &all);
         assert_eq!(error.trim_end().lines().count(), 1, "more than a sentence: {error}");
         assert!(error.contains(names), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn no_output_replaces_the_scene() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let at = directory.path();
+    fs::write(at.join("my.ron"), GOOD).expect("a file");
+    for arguments in [
+        &["render", "my.ron", "--out", "my.ron"][..],
+        &["render", "my.ron", "--out", "out.png", "--log", "./my.ron"],
+        &["export", "my.ron", "--pov", "my.ron"],
+        &["my.ron", "--log", "my.ron"],
+    ] {
+        assert!(refused(at, arguments).contains("would be replaced"), "{arguments:?}");
+        assert_eq!(fs::read_to_string(at.join("my.ron")).expect("the scene"), GOOD);
+    }
+}
+
+/// Nobody may be left to read: that is no reason to panic.
+#[test]
+#[cfg(unix)]
+fn closed_and_full_outputs_are_no_reason_to_panic() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let shell = |rest: &str| {
+        let command = format!("'{}' render glass --out out.png --size 32x24 {rest}", env!("CARGO_BIN_EXE_anel"));
+        let output = Command::new("bash").current_dir(directory.path()).args(["-c", &command]).output();
+        let output = output.expect("a shell can be started");
+        assert!(!String::from_utf8_lossy(&output.stderr).contains("panicked"), "{rest}");
+        output.status.code()
+    };
+    assert_eq!(shell("--json | true; exit ${PIPESTATUS[0]}"), Some(0));
+    assert_eq!(shell("2>&1 >/dev/null | true; exit ${PIPESTATUS[0]}"), Some(0));
+    if Path::new("/dev/full").exists() {
+        assert_eq!(shell("--json > /dev/full"), Some(1));
+        assert_eq!(shell("2> /dev/full"), Some(0));
     }
 }
 
@@ -221,7 +266,7 @@ fn a_disk_that_fills_leaves_no_half_file() {
         let output = output.expect("a shell can be started");
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(1), "{error}");
-        assert!(error.contains("nothing was kept"), "{error}");
+        assert!(error.contains("nothing of it was kept"), "{error}");
     };
     render("--size 320x240 --out out.png");
     let kept = fs::read_to_string(directory.path().join("out.png")).expect("the older picture");

@@ -47,7 +47,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "FILE.png")]
     pub out: PathBuf,
     /// Pixels across and down
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480")]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", allow_hyphen_values = true)]
     pub size: Size,
     /// Samples a pixel, n × n
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
@@ -59,7 +59,7 @@ pub(super) struct RenderArgs {
     #[arg(long, default_value = "ring")]
     pub strategy: Strategy,
     /// A speed for each node, 1 being the reference machine [default: all 1]
-    #[arg(long, value_name = "1,1,0.1", value_delimiter = ',', value_parser = speed)]
+    #[arg(long, value_name = "1,1,0.1", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
     pub speeds: Vec<f64>,
     /// What part of a core the reference machine gets: auto, full, or a number up to 1
     #[arg(long, default_value = "auto", value_parser = pace)]
@@ -126,16 +126,20 @@ impl RenderArgs {
 }
 
 fn speed(text: &str) -> Result<f64, String> {
-    number(text, |speed| speed > 0.0 && speed <= 1.0, "a speed is above 0 and at most 1")
+    number(text, is_rate, "a speed is from 0.0001 to 1")
 }
 
 fn pace(text: &str) -> Result<Pace, String> {
     match text {
         "auto" => Ok(Pace::Auto),
         "full" => Ok(Pace::Of(1.0)),
-        _ => number(text, |pace| pace > 0.0 && pace <= 1.0, "a pace is `auto`, `full`, or above 0 and at most 1")
-            .map(Pace::Of),
+        _ => number(text, is_rate, "a pace is `auto`, `full`, or a number from 0.0001 to 1").map(Pace::Of),
     }
+}
+
+/// A slower machine would seem to stand still for ever.
+fn is_rate(rate: f64) -> bool {
+    (1e-4..=1.0).contains(&rate)
 }
 
 fn bandwidth(text: &str) -> Result<f64, String> {

@@ -4,7 +4,7 @@ mod args;
 mod render;
 mod report;
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -13,7 +13,7 @@ use clap::Parser;
 use crate::driver::auto_pace;
 use crate::export::to_pov;
 use crate::gui;
-use crate::output::{check_writable, write_whole};
+use crate::output::{check_writable, is_same_file, write_whole};
 use crate::picture::Size;
 use crate::scene::Opened;
 use crate::tracer::Quality;
@@ -41,8 +41,39 @@ pub fn main() -> ExitCode {
         Err(Failure::Refused(sentence)) => (2, sentence),
         Err(Failure::Failed(sentence)) => (1, sentence),
     };
-    eprintln!("anel: {sentence}");
+    tell(&sentence);
     ExitCode::from(code)
+}
+
+/// Says something on standard error. Where that is closed there is nobody left to tell.
+fn tell(sentence: &str) {
+    let _ = writeln!(io::stderr(), "anel: {sentence}");
+}
+
+/// Prints a result on standard output.
+fn print(result: &str) -> Result<(), Failure> {
+    match writeln!(io::stdout(), "{result}") {
+        // Whoever reads the output has read enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Failure::Failed(format!("standard output cannot be written: {error}"))),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Refuses files that cannot be written, and such as would replace the scene or each other.
+fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
+    for (index, output) in outputs.iter().enumerate() {
+        check_writable(output).map_err(|error| Failure::Refused(error.to_string()))?;
+        let taken = [Path::new(scene)].into_iter().chain(outputs[..index].iter().copied());
+        if let Some(other) = taken.into_iter().find(|other| is_same_file(output, other)) {
+            return Err(Failure::Refused(format!(
+                "{} would be replaced by {}; choose another name",
+                other.display(),
+                output.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// What is wrong with the arguments, in one sentence; help and version are printed as they are.
@@ -53,18 +84,19 @@ fn usage(error: clap::Error) -> Failure {
     let text = error.to_string();
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
-    Failure::Refused(format!("{} (`anel --help` tells more)", sentence.trim_start_matches("error: ")))
+    let command = std::env::args().nth(1).filter(|first| first == "render" || first == "export");
+    let command = command.map(|command| format!("{command} ")).unwrap_or_default();
+    Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
 }
 
 /// Opens the viewer; where that is not possible, does the same run without it.
 fn window(argument: &str, log: Option<PathBuf>) -> Result<(), Failure> {
     let scene = open(argument)?;
-    if let Some(log) = &log {
-        check_writable(log).map_err(|error| Failure::Refused(error.to_string()))?;
-    }
-    let out = free_name(&scene.name);
+    check_outputs(argument, log.as_deref().as_slice())?;
     let Err(why) = gui::open(gui::Launch { scene: scene.clone(), log: log.clone() }) else { return Ok(()) };
-    eprintln!("anel: no window can be opened ({why}); the same run goes on without one.");
+    tell(&format!("no window can be opened ({why}); the same run goes on without one."));
+    let out = free_name(&scene.name);
+    check_outputs(argument, &[&out])?;
     let (tracer, mut header) = gui::demonstration(&scene);
     // Nobody watches: no need to go slowly.
     header.pace = auto_pace(&header.speeds, header.cores);
@@ -73,7 +105,7 @@ fn window(argument: &str, log: Option<PathBuf>) -> Result<(), Failure> {
 
 fn export(argument: &str, pov: &Path, size: Size) -> Result<(), Failure> {
     let opened = open(argument)?;
-    check_writable(pov).map_err(|error| Failure::Refused(error.to_string()))?;
+    check_outputs(argument, &[pov])?;
     let text = to_pov(&opened.scene, size, &Quality::default());
     write_whole(pov, |file| file.write_all(text.as_bytes())).map_err(|error| Failure::Failed(error.to_string()))
 }

@@ -1,6 +1,7 @@
 //! A run without a window.
 
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -8,13 +9,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::RenderArgs;
 use super::report::Report;
-use super::{Failure, open};
+use super::{Failure, check_outputs, open, print};
 use crate::driver::{Run, Update, cores, probe};
-use crate::output::check_writable;
 use crate::picture::{Division, Frame, write_png};
 use crate::record::What;
 use crate::runlog::{Header, Link, RunLog, metrics};
 use crate::tracer::{Quality, RayCounts, Tracer};
+
+/// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
+const MAX_ATOMS: u32 = 1 << 24;
 
 /// Where a run's results go.
 pub(super) struct Outputs<'a> {
@@ -34,8 +37,16 @@ struct Outcome {
 pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let opened = open(&args.scene)?;
     let speeds = args.node_speeds().map_err(Failure::Refused)?;
-    for path in [Some(&args.out), args.log.as_ref()].into_iter().flatten() {
-        check_writable(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    let outputs: Vec<&Path> =
+        [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    check_outputs(&args.scene, &outputs)?;
+    let division = Division::new(args.size.pixels(), args.atom);
+    if division.atoms() > MAX_ATOMS {
+        return Err(Failure::Refused(format!(
+            "{} atoms of {} pixels are too many; at most {MAX_ATOMS} are possible (--atom makes them larger)",
+            division.atoms(),
+            args.atom
+        )));
     }
     let cores = cores();
     let header = Header {
@@ -43,7 +54,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
         scene_bytes: opened.bytes,
         size: args.size,
         samples: args.samples,
-        division: Division::new(args.size.pixels(), args.atom),
+        division,
         strategy: args.strategy,
         pace: args.pace_of(&speeds, cores),
         speeds,
@@ -66,12 +77,11 @@ pub(super) fn run_and_save(tracer: &Arc<Tracer>, header: &Header, to: &Outputs<'
     }
     let report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead(tracer, &outcome.log), tracer);
     if to.json {
-        println!("{}", report.json());
-    } else {
-        eprint!("{report}");
-        println!("{}", to.out.display());
+        return print(&report.json());
     }
-    Ok(())
+    // The picture is what was asked for; where standard error is closed the figures are not missed.
+    let _ = write!(io::stderr(), "{report}");
+    print(&to.out.display().to_string())
 }
 
 #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]

@@ -78,7 +78,8 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { scene, width, height, strategy, nodes, .. } = self;
-        writeln!(f, "{scene}, {width}x{height}, {strategy}, {nodes} nodes")?;
+        let plural = |count: u64, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        writeln!(f, "{scene}, {width}x{height}, {strategy}, {}", plural(*nodes as u64, "node"))?;
         writeln!(
             f,
             "  makespan {:.3} s, ideal {:.3} s: efficiency {:.3}; the nodes ended within {:.3} s",
@@ -88,7 +89,9 @@ impl fmt::Display for Report {
             writeln!(f, "  tracing took {:.3} s of CPU time, {overhead:.3} times that of one thread", self.work_s)?;
         }
         let Messages { offers, hops, transfers, atoms_moved, .. } = self.messages;
-        writeln!(f, "  {offers} offers, {hops} hops, {transfers} transfers of {atoms_moved} atoms")?;
+        let (offers, hops) = (plural(offers, "offer"), plural(hops, "hop"));
+        let (transfers, moved) = (plural(transfers, "transfer"), plural(atoms_moved, "atom"));
+        writeln!(f, "  {offers}, {hops}, {transfers} of {moved}")?;
         let shares: Vec<_> = self.atoms_by_node.iter().map(u32::to_string).collect();
         writeln!(f, "  atoms by node: {}", shares.join(" "))
     }

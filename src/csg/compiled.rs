@@ -30,6 +30,27 @@ pub struct Start {
     pub root: u32,
     /// Its face.
     pub surface: Surface,
+    /// Whether the solid is left there, as seen along the ray that came.
+    pub leaves: bool,
+    /// Whether this ray turns back to where that one came from.
+    pub turned: bool,
+}
+
+/// Where in the scene's own order a crossing stands among those at the same place.
+///
+/// Boundaries of solids that touch lie at one place, and rounding puts them in any order along a ray. If a ray took
+/// them as they came it would cross some twice and some never, so they have one order: what is entered comes before
+/// what is left, and then what stands first in the scene. A ray that turns back there passes them in reverse.
+pub fn rank(root: u32, enters: bool, turned: bool) -> (bool, u32) {
+    (enters == turned, root)
+}
+
+impl Start {
+    /// Whether the ray has yet to cross the boundary of another solid at the same place.
+    fn has_before_it(&self, root: u32, enters: bool) -> bool {
+        let (here, other) = ((self.leaves, self.root), rank(root, enters, self.turned));
+        if self.turned { other < here } else { other > here }
+    }
 }
 
 /// Scratch memory for the spans of one ray.
@@ -148,10 +169,11 @@ impl Tree {
         mut visit: impl FnMut(Hit) -> bool,
     ) {
         let slack = ray.tolerance(0.0);
-        // A ray that starts on this solid does not meet it there again. On any other solid it may: what touches the
-        // solid it starts on is entered at 0, on whichever side of 0 rounding puts that.
+        // A ray that starts on this solid does not meet it there again. On any other solid it may: of what touches
+        // the solid that it starts on, it meets at 0 what it has not passed, on whichever side of 0 rounding puts it.
         let on_this = start.is_some_and(|start| start.root == root);
-        let counts = |t: f64, enters: bool| t < t_max && t > if enters && !on_this { -slack } else { slack };
+        let is_met_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.has_before_it(root, enters));
+        let counts = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_met_at_0(enters)));
         let start = start.filter(|_| on_this).map(|start| start.surface);
         let mut meet = |event: Event, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })

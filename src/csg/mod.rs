@@ -9,7 +9,7 @@ mod shape;
 mod solid;
 mod span;
 
-pub use compiled::{Hit, Stack, Start, Tree};
+pub use compiled::{Hit, Stack, Start, Tree, rank};
 pub use merge::Event;
 pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};

@@ -1,7 +1,7 @@
 //! The run's clock: the only place in the driver that reads the computer's.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use crate::time::Time;
@@ -17,8 +17,16 @@ pub(super) struct Clock {
     lost: AtomicU64,
     /// The time at which the clock stands still, or [`RUNNING`].
     frozen: AtomicU64,
-    paused: Mutex<bool>,
+    state: Mutex<State>,
     resumed: Condvar,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Running,
+    Paused,
+    /// The run is over: nobody may be made to wait any more.
+    Ended,
 }
 
 impl Clock {
@@ -29,7 +37,7 @@ impl Clock {
             start: Instant::now(),
             lost: AtomicU64::new(0),
             frozen: AtomicU64::new(RUNNING),
-            paused: Mutex::new(false),
+            state: Mutex::new(State::Running),
             resumed: Condvar::new(),
         }
     }
@@ -50,25 +58,23 @@ impl Clock {
         }
     }
 
-    /// Makes the clock stand still, unless it does.
+    /// Makes the clock stand still, unless it does or the run is over.
     pub fn pause(&self) {
-        let mut paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
-        if !*paused {
+        let mut state = self.lock();
+        if *state == State::Running {
             self.frozen.store(self.now().0, Ordering::SeqCst);
-            *paused = true;
+            *state = State::Paused;
         }
     }
 
-    /// Lets the clock go on from where it stands, unless it does.
+    /// Lets the clock go on.
     pub fn resume(&self) {
-        let mut paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
-        if *paused {
-            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
-            self.lost.store(self.elapsed() - self.frozen.load(Ordering::SeqCst), Ordering::SeqCst);
-            self.frozen.store(RUNNING, Ordering::SeqCst);
-            *paused = false;
-            self.resumed.notify_all();
-        }
+        self.leave_pause(State::Running);
+    }
+
+    /// Lets the clock go on for good: it cannot be paused any more.
+    pub fn end(&self) {
+        self.leave_pause(State::Ended);
     }
 
     /// Whether the clock stands still.
@@ -78,9 +84,26 @@ impl Clock {
 
     /// Blocks until the clock runs.
     pub fn wait_until_resumed(&self) {
-        let paused = self.paused.lock().unwrap_or_else(PoisonError::into_inner);
-        // The lock has nothing to protect but the waiting, so that a panic elsewhere does no harm to it.
-        let _running = self.resumed.wait_while(paused, |paused| *paused);
+        let _running = self.resumed.wait_while(self.lock(), |state| *state == State::Paused);
+    }
+
+    fn leave_pause(&self, next: State) {
+        let mut state = self.lock();
+        if *state == State::Paused {
+            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
+            let frozen = self.frozen.load(Ordering::SeqCst);
+            self.lost.store(self.elapsed() - frozen, Ordering::SeqCst);
+            self.frozen.store(RUNNING, Ordering::SeqCst);
+        }
+        if *state != State::Ended {
+            *state = next;
+        }
+        self.resumed.notify_all();
+    }
+
+    /// The lock has nothing to protect but the waiting, so that a panic elsewhere does no harm to it.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Nanoseconds since the start, pauses included: enough for 584 years.
@@ -108,5 +131,16 @@ mod tests {
         // The 30 ms of the pause have passed on the computer's clock only.
         let both = Time(clock.elapsed());
         assert!(both.since(resumed) >= Duration::from_millis(30));
+    }
+
+    #[test]
+    fn a_run_that_is_over_cannot_be_paused() {
+        let clock = Clock::start();
+        clock.pause();
+        clock.end();
+        clock.pause();
+        assert!(!clock.is_paused());
+        // Would not return otherwise.
+        clock.wait_until_resumed();
     }
 }

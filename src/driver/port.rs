@@ -71,7 +71,7 @@ impl Shared {
     /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
     pub fn stop(&self) {
         self.stopped.store(true, Ordering::SeqCst);
-        self.clock.resume();
+        self.clock.end();
         (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
     }
 

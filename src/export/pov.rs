@@ -57,8 +57,10 @@ pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {
 
 fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVec3) {
     let Material { colour, ka, kd, ks, kt, n, ior } = *material;
-    let kept = 1.0 - kt;
-    let (ka, kd) = if kept > 0.0 { (ka / kept, kd / kept) } else { (0.0, 0.0) };
+    // At 1 nothing would be left of the pigment to make up for.
+    let kt = if ka + kd > 0.0 { kt.min(1.0 - 1e-6) } else { kt };
+    let kept = (1.0 - kt).max(1e-6);
+    let (ka, kd) = (ka / kept, kd / kept);
     put(
         text,
         format_args!(
@@ -71,25 +73,47 @@ fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVe
     );
 }
 
+/// A body has one interior in POV-Ray, so the material is written at the outermost composition all of which has it.
 fn put_solid(text: &mut String, solid: &Solid) {
+    put_parts(text, solid, common_tag(solid));
+    if let Some(tag) = common_tag(solid) {
+        put(text, format_args!("material {{ M{tag} }}\n"));
+    }
+    text.push_str("}\n");
+}
+
+/// The solid without its closing brace; `outer` is the material that what it stands in will have.
+fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
     let (operation, solids) = match solid {
-        Solid::Placed { primitive, scene_from_own, tag } => {
-            put(text, format_args!("{} {} material {{ M{tag} }} }}\n", body(primitive), matrix(scene_from_own)));
-            return;
+        Solid::Placed { primitive, scene_from_own, .. } => {
+            return put(text, format_args!("{} {}\n", body(primitive), matrix(scene_from_own)));
         }
         Solid::Union(solids) => ("union", solids),
         Solid::Intersection(solids) => ("intersection", solids),
         Solid::Difference(solids) => ("difference", solids),
     };
-    match &solids[..] {
+    if let [only] = &solids[..] {
         // POV-Ray warns of compositions of one.
-        [only] => put_solid(text, only),
-        _ => {
-            put(text, format_args!("{operation} {{\n"));
-            for solid in solids {
-                put_solid(text, solid);
-            }
+        return put_parts(text, only, outer);
+    }
+    put(text, format_args!("{operation} {{\n"));
+    for solid in solids {
+        if outer.is_some() {
+            put_parts(text, solid, outer);
             text.push_str("}\n");
+        } else {
+            put_solid(text, solid);
+        }
+    }
+}
+
+/// The tag of all primitives of a solid, if they have the same.
+fn common_tag(solid: &Solid) -> Option<u32> {
+    match solid {
+        Solid::Placed { tag, .. } => Some(*tag),
+        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+            let (first, others) = solids.split_first()?;
+            common_tag(first).filter(|&tag| others.iter().all(|solid| common_tag(solid) == Some(tag)))
         }
     }
 }

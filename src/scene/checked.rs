@@ -61,10 +61,16 @@ fn each<'de, D: Deserializer<'de>>(from: D, valid: impl Fn(f64) -> bool, what: &
     if vector.to_array().into_iter().all(valid) {
         Ok(vector)
     } else {
-        Err(D::Error::custom(format_args!("must be {what}, not {vector}")))
+        Err(D::Error::custom(format_args!("must be {what}, not ({})", vector.to_array().map(shown).join(", "))))
     }
 }
 
 fn check<E: Error>(number: f64, valid: impl Fn(f64) -> bool, what: &str) -> Result<f64, E> {
-    if valid(number) { Ok(number) } else { Err(E::custom(format_args!("must be {what}, not {number}"))) }
+    if valid(number) { Ok(number) } else { Err(E::custom(format_args!("must be {what}, not {}", shown(number)))) }
+}
+
+/// A number as it can stand in a sentence.
+fn shown(number: f64) -> String {
+    let plain = number == 0.0 || !number.is_finite() || (1e-6..1e15).contains(&number.abs());
+    if plain { number.to_string() } else { format!("{number:e}") }
 }

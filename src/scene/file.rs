@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -70,6 +70,8 @@ impl Scene {
     /// The first thing that is wrong, with its line, its column and its field.
     pub fn parse(text: &str) -> Result<Self, SceneError> {
         let error = |place, message| SceneError { file: None, place, message };
+        // Some editors begin a file with this mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
             return Err(error(None, "the file is empty; a scene needs at least a camera and objects".into()));
         }
@@ -80,8 +82,14 @@ impl Scene {
         let file: SceneFile = serde_path_to_error::deserialize(&mut reader).map_err(|wrong| {
             let path = wrong.path().to_string();
             let spanned = reader.span_error(wrong.into_inner());
-            let field = if path == "." { String::new() } else { format!("{path}: ") };
-            error(at(spanned.span.end), format!("{field}{}", spanned.code))
+            let place = at(spanned.span.end);
+            if spanned.code == ron::Error::ExceededRecursionLimit {
+                return error(place, "solids stand in solids too deep; give the inner ones names".into());
+            }
+            // A field that was not read to its end has no name yet.
+            let path = path.trim_end_matches(['?', '.']);
+            let field = if path.is_empty() { String::new() } else { format!("{path}: ") };
+            error(place, format!("{field}{}", spanned.code))
         })?;
         reader.end().map_err(|wrong| {
             let spanned = reader.span_error(wrong);
@@ -94,7 +102,7 @@ impl Scene {
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
-            write!(f, "{file}: ")?;
+            write!(f, "{}: ", file.escape_debug())?;
         }
         if let Some((line, column)) = self.place {
             write!(f, "line {line}, column {column}: ")?;
@@ -317,19 +325,23 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
 
 /// The text of a scene file; errors are sentences.
 fn read(path: &Path) -> Result<String, String> {
-    let found = File::open(path).and_then(|file| file.metadata().map(|data| (file, data)));
-    let (file, data) = found.map_err(|error| match error.kind() {
+    // Looked at before it is opened, since opening a pipe waits for somebody to write.
+    let data = fs::metadata(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => {
             let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
             format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
         }
-        _ => format!("the file cannot be opened: {error}"),
+        _ => format!("the file cannot be found: {error}"),
     })?;
     if data.is_dir() {
         return Err("this is a directory, not a scene file".into());
     }
+    if !data.is_file() {
+        return Err("this is not a regular file".into());
+    }
+    let file = File::open(path).map_err(|error| format!("the file cannot be opened: {error}"))?;
     let mut bytes = Vec::new();
-    // The length is not always known beforehand, for instance of a pipe.
+    // A file may grow while it is read.
     file.take(Opened::MAX_BYTES + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| format!("the file cannot be read: {error}"))?;

@@ -31,8 +31,13 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
     let mut names =
         Names { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
     let mut solids = Vec::new();
-    for object in &file.objects {
-        solids.push(names.place(object, DAffine3::IDENTITY, 0)?);
+    for (index, object) in file.objects.iter().enumerate() {
+        let solid = names.place(object, DAffine3::IDENTITY, 0);
+        // Of what has no name, at least the place in the list is told.
+        solids.push(solid.map_err(|wrong| match wrong.name {
+            None => NameError { message: format!("objects[{index}]: {}", wrong.message), ..wrong },
+            Some(_) => wrong,
+        })?);
     }
     // What no object uses must make sense all the same.
     for (name, solid) in &file.solids.0 {
@@ -99,7 +104,8 @@ impl<'a> Names<'a> {
     fn used(&mut self, name: &'a str, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
         let solid = self.solids.get(name).ok_or_else(|| unknown("solid", name, self.solids.keys()))?;
         if let Some(from) = self.path.iter().position(|&user| user == name) {
-            let circle = [&self.path[from..], &[name]].concat().join(" → ");
+            let circle: Vec<_> = self.path[from..].iter().chain([&name]).map(|name| shown(name)).collect();
+            let circle = circle.join(" → ");
             return Err(NameError { name: Some(name.into()), message: format!("a solid uses itself: {circle}") });
         }
         self.used.insert(name);
@@ -176,7 +182,21 @@ fn along(from: DVec3, to: DVec3, radius: f64) -> DAffine3 {
 }
 
 fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k String>) -> NameError {
-    let known: Vec<_> = known.map(String::as_str).collect();
-    let known = if known.is_empty() { "none is defined".into() } else { format!("known are {}", known.join(", ")) };
-    NameError { name: Some(name.into()), message: format!("there is no {what} `{name}`; {known}") }
+    const SHOWN: usize = 12;
+    let mut known: Vec<_> = known.map(|name| shown(name)).collect();
+    let more = if known.len() > SHOWN { " and others" } else { "" };
+    known.truncate(SHOWN);
+    let known =
+        if known.is_empty() { "none is defined".into() } else { format!("known are {}{more}", known.join(", ")) };
+    NameError { name: Some(name.into()), message: format!("there is no {what} `{}`; {known}", shown(name)) }
+}
+
+/// A name as it can stand in a sentence: on one line, and not too long.
+fn shown(name: &str) -> String {
+    const LONGEST: usize = 40;
+    let mut text: String = name.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    if name.chars().nth(LONGEST).is_some() {
+        text.push('…');
+    }
+    text
 }

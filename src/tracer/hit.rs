@@ -2,7 +2,7 @@
 
 use super::bvh::Pending;
 use super::world::World;
-use crate::csg::{Hit, Stack, Start};
+use crate::csg::{Hit, Stack, Start, rank};
 use crate::geometry::Ray;
 
 /// What finding a hit needs of memory, kept from ray to ray.
@@ -12,23 +12,33 @@ pub(super) struct Memory {
     boxes: Pending,
 }
 
+/// Whether a ray is on its way back at the distance `t`: it turned where it starts and is still there.
+pub(super) fn has_turned_at(start: Option<Start>, ray: &Ray, t: f64) -> bool {
+    start.is_some_and(|start| start.turned) && t <= ray.tolerance(0.0)
+}
+
 impl World {
     /// The nearest boundary on `ray`, and the root that it bounds.
     #[inline]
     pub fn nearest(&self, ray: &Ray, start: Option<Start>, memory: &mut Memory) -> Option<(u32, Hit)> {
         let Memory { spans, boxes } = memory;
         let mut nearest: Option<(u32, Hit)> = None;
-        // Of solids that touch, the one that stands first in the scene is seen, whatever rounding says: so no two
-        // of them mingle where their faces coincide.
         let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
                 let slack = ray.tolerance(hit.t);
-                match nearest {
-                    Some((other, best)) if hit.t >= best.t - slack && other < root => t_max,
-                    _ => {
-                        nearest = Some((root, hit));
-                        hit.t + slack
+                let is_nearer = nearest.is_none_or(|(other, best)| {
+                    if (hit.t - best.t).abs() > slack {
+                        return hit.t < best.t;
                     }
+                    let turned = has_turned_at(start, ray, hit.t);
+                    let (this, other) = (rank(root, hit.enters, turned), rank(other, best.enters, turned));
+                    if turned { this > other } else { this < other }
+                });
+                if is_nearer {
+                    nearest = Some((root, hit));
+                    hit.t + slack
+                } else {
+                    t_max
                 }
             }
             None => t_max,

@@ -4,10 +4,10 @@
 
 use glam::DVec3;
 
-use super::hit::Memory;
+use super::hit::{Memory, has_turned_at};
 use super::world::Finish;
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, Start};
+use crate::csg::{Hit, Start, rank};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
@@ -31,6 +31,13 @@ struct Place<'a> {
     finish: &'a Finish,
 }
 
+impl Place<'_> {
+    /// For rays that stay on the side from which the place was met: to a light, or reflected.
+    fn turned(&self) -> Start {
+        Start { turned: !self.start.turned, ..self.start }
+    }
+}
+
 /// How a ray stands in the tree of rays.
 #[derive(Clone, Copy)]
 struct Branch {
@@ -52,7 +59,7 @@ impl Tracer {
         let Some((root, hit)) = self.world.nearest(ray, start, &mut scratch.memory) else {
             return self.world.background;
         };
-        let place = self.place(ray, root, &hit);
+        let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t));
         let finish = place.finish;
         let mut colour = finish.ambient;
         if finish.lit {
@@ -70,7 +77,7 @@ impl Tracer {
             scratch.rays.reflected += 1;
             let direction = reflect(ray.direction, place.normal);
             let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.start), next, scratch) * reflection;
+            colour += self.colour(&onward, Some(place.turned()), next, scratch) * reflection;
         }
         if let Some(direction) = refracted
             && let Some(next) = self.follow(branch, finish.kt)
@@ -82,11 +89,11 @@ impl Tracer {
         colour
     }
 
-    fn place(&self, ray: &Ray, root: u32, hit: &Hit) -> Place<'_> {
+    fn place(&self, ray: &Ray, root: u32, hit: &Hit, turned: bool) -> Place<'_> {
         let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         Place {
-            start: Start { root, surface: hit.surface },
+            start: Start { root, surface: hit.surface, leaves: rank(root, hit.enters, turned).0, turned },
             enters: hit.enters,
             t: hit.t,
             normal,
@@ -101,7 +108,8 @@ impl Tracer {
             Light::Point { position, colour } => {
                 let way = position - point;
                 let distance = way.length();
-                (way / distance, distance, colour)
+                // A lamp may lie in a face, which then does not stand in its light.
+                (way / distance, distance - ray.tolerance(distance), colour)
             }
             Light::Directional { direction, colour } => (-direction, f64::INFINITY, colour),
         };
@@ -113,7 +121,7 @@ impl Tracer {
         scratch.rays.shadow += 1;
         let Scratch { memory, suspects, .. } = scratch;
         let onward = ray.onward(place.t, direction);
-        let arriving = self.world.light_arriving(&onward, place.start, distance, &mut suspects[index], memory);
+        let arriving = self.world.light_arriving(&onward, place.turned(), distance, &mut suspects[index], memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }
