@@ -95,9 +95,10 @@ impl Aabb {
 
     /// A box that surely holds what this one should hold, in spite of rounding.
     pub fn padded(self) -> Self {
-        let pad = (self.min.abs().max(self.max.abs()) + (self.max - self.min)) * 1e-9;
-        let pad = DVec3::select(pad.is_finite_mask(), pad, DVec3::ZERO);
-        Self { min: self.min - pad, max: self.max + pad }
+        let finite = |v: DVec3| DVec3::select(v.is_finite_mask(), v, DVec3::ZERO);
+        let size = finite(self.max - self.min);
+        let pad = |side: DVec3| (finite(side).abs() + size) * 1e-9;
+        Self { min: self.min - pad(self.min), max: self.max + pad(self.max) }
     }
 
     /// The least box that holds the image of the cube −1…1 under `map`.

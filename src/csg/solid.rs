@@ -25,7 +25,7 @@ pub enum Solid {
 }
 
 impl Solid {
-    /// Whether `point` is in the solid or on its boundary, as far as rounding can tell.
+    /// Whether `point` is in the solid; for points on its boundary the answer may be either.
     pub fn holds(&self, point: DVec3) -> bool {
         match self {
             Self::Placed { primitive, scene_from_own, .. } => {
