@@ -64,10 +64,12 @@ impl World {
         memory: &mut Memory,
     ) -> f64 {
         let Memory { spans, boxes } = memory;
-        let suspected = *suspect;
+        // Where a ray gets past it, those beside will too.
+        let suspected = suspect.take();
         if let Some(root) = suspected
             && self.tree.nearest(root, ray, Some(start), t_max, spans).is_some()
         {
+            *suspect = suspected;
             return 0.0;
         }
         let mut arriving = 1.0;
