@@ -55,7 +55,9 @@ impl Narrator {
         let Some(machine) = state.nodes().get(usize::from(node)) else { return };
         let dragged = self.told.as_ref().filter(|told| at < told.at + FRESH).and_then(|told| told.speed);
         let before = dragged.filter(|(other, _)| *other == node).map_or(machine.speed_before, |(_, before)| before);
-        let sentence = speed_words(node_name(node), before, speed);
+        let mut others = (0..).zip(state.nodes()).filter(|(other, _)| *other != node);
+        let helped = others.any(|(_, other)| other.speed > 0.0);
+        let sentence = speed_words(node_name(node), before, speed, helped);
         self.told = Some(Told { at, weight: SPEED, sentence, speed: Some((node, before)) });
     }
 
@@ -84,6 +86,12 @@ pub fn count(number: u32) -> String {
         text.push(digit);
     }
     text
+}
+
+/// How many of `whole` are `part`, in whole per cent, the same everywhere: all of it only when nothing is missing.
+pub fn percent(part: u32, whole: u32) -> String {
+    let rounded = (200 * u64::from(part) + u64::from(whole)) / (2 * u64::from(whole)).max(1);
+    format!("{} %", if part < whole { rounded.min(99) } else { rounded })
 }
 
 /// What a node is doing, in a word.
@@ -131,12 +139,13 @@ fn tell(record: &Record, state: &RunState) -> Option<(u8, String)> {
     Some(told)
 }
 
-/// What a new speed means.
-fn speed_words(name: u32, before: f64, speed: f64) -> String {
-    let runs = format!("Machine {name} now runs at {:.0} %", speed * 100.0);
+/// What a new speed means; `helped` if any other machine runs.
+fn speed_words(name: u32, before: f64, speed: f64, helped: bool) -> String {
+    let runs = if speed == 0.0 { "is stopped".into() } else { format!("now runs at {:.0} %", speed * 100.0) };
+    let runs = format!("Machine {name} {runs}");
     match speed.total_cmp(&before) {
-        Ordering::Less if speed == 0.0 => format!("Machine {name} is stopped: the others will make up for it"),
-        Ordering::Less => format!("{runs}: the others will make up for it"),
+        Ordering::Less if helped => format!("{runs}: the others will make up for it"),
+        Ordering::Less => runs,
         Ordering::Equal => runs,
         Ordering::Greater => format!("{runs}: it can take more work"),
     }
@@ -306,6 +315,14 @@ mod tests {
         assert!(stands(&[(90, 0.0), (0, 1.0)]).contains("keeps 90 atoms: nobody asks for them any more"));
         assert!(stands(&[(2, 0.0), (2, 0.0), (0, 1.0)]).starts_with("2 machines stand still at 0 % and keep 4 atoms"));
         assert!(stands(&[(5, 0.0), (5, 0.0)]).starts_with("All machines stand still at 0 %"));
+    }
+
+    #[test]
+    fn only_the_whole_is_a_hundred_per_cent() {
+        let said =
+            [(0, 6144), (3901, 6144), (6143, 6144), (6144, 6144), (0, 0)].map(|(part, whole)| percent(part, whole));
+        assert_eq!(said, ["0 %", "63 %", "99 %", "100 %", "0 %"]);
+        assert_eq!([percent(1, 8), percent(635, 1000)], ["13 %", "64 %"]);
     }
 
     #[test]
