@@ -65,7 +65,7 @@ impl SaveBar {
         self.suggest(session);
         ui.horizontal(|ui| {
             ui.label(RichText::new("Save the render as").font(theme::regular(theme::BODY)).color(look.quiet));
-            let width = (ui.available_width() - 33.0 * GRID).max(20.0 * GRID);
+            let width = (ui.available_width() - 30.0 * GRID).max(20.0 * GRID);
             let field = TextEdit::singleline(&mut self.path).desired_width(width).margin(egui::vec2(GRID, 0.75 * GRID));
             let field = ui.add(field);
             field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Path of the PNG"));

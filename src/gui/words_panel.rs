@@ -16,11 +16,11 @@ pub fn show(ui: &mut Ui, session: &Session) {
         (_, Some(outcome)) => result(session.state(), outcome.makespan, outcome.efficiency),
         _ => session.narrator().sentence(session.state(), session.now()),
     };
-    // Rather small than cut; what is too long even so ends in an ellipsis.
+    // Rather small than cut; what is too long even so has two lines.
     let width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
     let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| width(size) <= ui.available_width());
     let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::BODY))).color(look.text);
-    ui.add(egui::Label::new(text).truncate());
+    ui.add(egui::Label::new(text).wrap());
     bar(ui, session, look);
 }
 

@@ -41,7 +41,7 @@ impl Plan {
         // there is little.
         let room = height.min(width);
         let (small, tiny) = (room < SMALL, room < TINY);
-        let text = (room / USUAL).clamp(1.0, 1.6);
+        let text = (room / USUAL).clamp(1.0, 1.4);
         let (beside, above) = match (tiny, small) {
             (true, _) => (10.0, 10.0),
             (_, true) => (66.0, 30.0),

@@ -185,8 +185,8 @@ fn stuck(state: &RunState, stopped: &[(NodeId, &NodeState)]) -> String {
         [(node, machine)] => {
             let (name, left) = (node_name(*node), machine.left());
             let still = format!("Machine {name} stands still at 0 %");
-            let others = (0..).zip(state.nodes()).filter(|(other, _)| other != node);
-            let nobody_asks = others.map(|(_, other)| other.retired).all(|retired| retired);
+            let mut others = (0..).zip(state.nodes()).filter(|(other, _)| other != node);
+            let nobody_asks = others.all(|(_, other)| other.retired);
             match left {
                 1 => format!(
                     "{still} and keeps its last atom: nobody can take it out of its pipe. Raise its speed to finish."
