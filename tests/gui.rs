@@ -274,7 +274,7 @@ fn the_zoom_has_limits() {
 
 #[test]
 fn every_size_shows_everything() {
-    for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [683.0, 427.0]] {
+    for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let mut harness = open(size);
         harness.run_steps(3);
         let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);
@@ -285,6 +285,37 @@ fn every_size_shows_everything() {
         for name in ["Picture", "Ring", "Who has traced how much"] {
             let rect = harness.get_by_label(name).rect();
             assert!(window.contains_rect(rect) && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
+    for size in [[1024.0, 640.0], [800.0, 500.0]] {
+        let mut harness = open(size);
+        harness.step();
+        harness.key_press(Key::S);
+        harness.run_steps(3);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        harness.key_press(Key::Delete);
+        harness.run_steps(2);
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        let rect = |name: &str| harness.get_by_label(name).rect();
+        let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);
+        let words = harness.get_by_label_contains("There is no path").rect();
+        for name in ["Picture", "Ring"] {
+            assert!(rect(name).top() >= words.bottom() && rect(name).area() > 1000.0, "{name} at {size:?}");
+            assert!(rect(name).bottom() <= rect("Who has traced how much").top(), "{name} at {size:?}");
+        }
+        assert!(rect("Picture").right() < rect("Ring").left());
+        for name in ["Save", "Choose…", "Close"] {
+            assert!(window.contains_rect(rect(name)), "{name} at {size:?}");
+        }
+        for node in 1..=8 {
+            let row = rect(&format!("Node {node}"));
+            assert!(window.contains_rect(row), "node {node} at {size:?}: {row:?}");
+            assert!(row.contains_rect(rect(&format!("Speed of node {node}")).shrink(2.0)));
         }
     }
 }

@@ -39,19 +39,19 @@ pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
         };
         offerers[lane].1 = flight;
         let Party::Node(from) = flight.from else { continue };
-        let radius = plan.rail + lane_offset(lane);
+        let radius = plan.rail + lane_offset(plan, lane);
         let sweep = -plan.step() * flight.progress(now);
         let strength = if lane < FOLLOWED { 0.9 } else { HINT };
         marks.push(Mark::Line {
             points: Plan::arc(plan.centre, radius, plan.angle(from), sweep),
-            width: 4.0,
+            width: lane_width(plan),
             ink: Hue::Node(who).faint(strength * seen_at(state, flight, now)),
         });
     }
     for (lane, (who, flight)) in offerers.into_iter().enumerate().take(FOLLOWED) {
         let Party::Node(from) = flight.from else { continue };
         let angle = plan.angle(from) - plan.step() * flight.progress(now);
-        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(lane)), seen_at(state, flight, now));
+        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(plan, lane)), seen_at(state, flight, now));
         let radius = (plan.node * 0.42).clamp(7.0, 13.0);
         marks.push(Mark::Disc { centre, radius: radius + 2.0, ink: Hue::Ground.faint(alpha) });
         marks.push(Mark::Disc { centre, radius, ink: Hue::Node(who).faint(alpha) });
@@ -71,10 +71,14 @@ fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
 }
 
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
-fn lane_offset(lane: usize) -> f32 {
+fn lane_offset(plan: &Plan, lane: usize) -> f32 {
     let lane = lane % 8;
-    let out = lane.div_ceil(2) as f32 * 4.0;
+    let out = lane.div_ceil(2) as f32 * lane_width(plan);
     if lane % 2 == 1 { out } else { -out }
+}
+
+fn lane_width(plan: &Plan) -> f32 {
+    (plan.rail * 0.025).clamp(1.5, 4.0)
 }
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
