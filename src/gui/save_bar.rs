@@ -44,12 +44,12 @@ impl SaveBar {
 
     /// Takes in what a job in the background has come to.
     pub fn take_in(&mut self, done: Done) {
+        self.wants_focus |= matches!(done, Done::Chosen(_));
         self.said = Some(match done {
             Done::Saved(Ok(said)) => Said::Note(said),
             Done::Saved(Err(why)) => Said::Trouble(why),
             Done::Chosen(Some(path)) => {
                 self.path = path.display().to_string();
-                self.wants_focus = true;
                 Said::Note("Press Save to write it there".into())
             }
             Done::Chosen(None) => Said::Trouble(
