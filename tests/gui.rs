@@ -161,9 +161,120 @@ fn save_says_why_it_failed() {
     until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("nothing was kept").is_some());
 }
 
+fn typed(harness: &Harness<'_, App>) -> String {
+    harness.get_by_label("Path of the PNG").value().unwrap_or_default()
+}
+
+/// How long until the window would draw itself anew.
+fn rests(harness: &Harness<'_, App>) -> Duration {
+    harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
+}
+
+#[test]
+fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
+    let mut harness = open(SIZE);
+    until(&mut harness, "traced atoms", |harness| done(harness) > 20);
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    type_path(&mut harness, "/no/such/place/picture.png");
+    harness.key_press(Key::Enter);
+    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("nothing was kept").is_some());
+    // The keyboard still belongs to the path.
+    assert!(harness.get_by_label("Path of the PNG").is_focused());
+    harness.event(egui::Event::Text("r s".into()));
+    let then = done(&harness);
+    for key in [Key::R, Key::Space, Key::S] {
+        harness.key_press(key);
+        harness.run_steps(2);
+    }
+    assert!(typed(&harness).ends_with("picture.pngr s"), "{}", typed(&harness));
+    assert!(done(&harness) >= then && !harness.state().session().is_paused());
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Path of the PNG").is_none());
+    harness.key_press(Key::Space);
+    until(&mut harness, "a pause", |harness| harness.state().session().is_paused());
+}
+
+#[test]
+fn a_file_is_replaced_only_when_asked_twice() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("there.png");
+    std::fs::write(&path, "dear").expect("a file");
+    let mut harness = open(SIZE);
+    harness.step();
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    type_path(&mut harness, path.to_str().expect("a plain path"));
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    harness.get_by_label("there.png exists; press Save again to replace it");
+    // Another path in between: the question is asked anew.
+    harness.event(egui::Event::Text("x".into()));
+    harness.step();
+    assert!(harness.query_by_label_contains("exists").is_none());
+    harness.key_press(Key::Backspace);
+    harness.step();
+    harness.get_by_label("Save").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("press Save again");
+    assert_eq!(std::fs::read(&path).expect("the file"), b"dear");
+    harness.get_by_label("Save").click();
+    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("Saved to").is_some());
+    assert!(image::open(&path).is_ok());
+}
+
+#[test]
+fn an_empty_path_is_told_in_words() {
+    let mut harness = open(SIZE);
+    harness.step();
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.key_press(Key::Delete);
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    harness.get_by_label_contains("There is no path");
+}
+
+#[test]
+fn all_machines_at_rest_draw_little_and_a_pause_nothing() {
+    let mut harness = open(SIZE);
+    until(&mut harness, "traced atoms", |harness| done(harness) > 20);
+    assert!(rests(&harness) <= Duration::from_millis(40));
+    for node in 1..=8 {
+        let slider = harness.get_by_label(&format!("Speed of node {node}")).rect();
+        harness.drag_at(slider.left_center());
+        harness.step();
+        harness.drop_at(slider.left_center());
+        harness.step();
+    }
+    until(&mut harness, "rest", |harness| rests(harness) >= Duration::from_millis(200));
+    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("All machines stand still").is_some());
+    harness.key_press(Key::Space);
+    until(&mut harness, "a window at rest", |harness| rests(harness) > Duration::from_secs(1));
+}
+
+#[test]
+fn the_zoom_has_limits() {
+    let mut harness = open(SIZE);
+    for (key, limit) in [(Key::Plus, 2.0), (Key::Minus, 0.6)] {
+        for _ in 0..20 {
+            harness.key_press_modifiers(egui::Modifiers::COMMAND, key);
+            harness.step();
+            assert!((0.6..=2.0).contains(&harness.ctx.zoom_factor()));
+        }
+        assert_eq!(harness.ctx.zoom_factor(), limit);
+    }
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Num0);
+    harness.run_steps(2);
+    assert_eq!(harness.ctx.zoom_factor(), 1.0);
+}
+
 #[test]
 fn every_size_shows_everything() {
-    for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [683.0, 427.0]] {
+    for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let mut harness = open(size);
         harness.run_steps(3);
         let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);
@@ -174,6 +285,37 @@ fn every_size_shows_everything() {
         for name in ["Picture", "Ring", "Who has traced how much"] {
             let rect = harness.get_by_label(name).rect();
             assert!(window.contains_rect(rect) && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
+    for size in [[1024.0, 640.0], [800.0, 500.0]] {
+        let mut harness = open(size);
+        harness.step();
+        harness.key_press(Key::S);
+        harness.run_steps(3);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        harness.key_press(Key::Delete);
+        harness.run_steps(2);
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        let rect = |name: &str| harness.get_by_label(name).rect();
+        let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);
+        let words = harness.get_by_label_contains("There is no path").rect();
+        for name in ["Picture", "Ring"] {
+            assert!(rect(name).top() >= words.bottom() && rect(name).area() > 1000.0, "{name} at {size:?}");
+            assert!(rect(name).bottom() <= rect("Who has traced how much").top(), "{name} at {size:?}");
+        }
+        assert!(rect("Picture").right() < rect("Ring").left());
+        for name in ["Save", "Choose…", "Close"] {
+            assert!(window.contains_rect(rect(name)), "{name} at {size:?}");
+        }
+        for node in 1..=8 {
+            let row = rect(&format!("Node {node}"));
+            assert!(window.contains_rect(row), "node {node} at {size:?}: {row:?}");
+            assert!(row.contains_rect(rect(&format!("Speed of node {node}")).shrink(2.0)));
         }
     }
 }

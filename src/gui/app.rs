@@ -9,7 +9,7 @@ use super::save_bar::SaveBar;
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::top_bar::Click;
-use super::{Launch, nodes_panel, places, ring_panel, top_bar, words_panel};
+use super::{Launch, nodes_panel, places, ring_panel, top_bar, words_panel, zoom};
 
 /// The window's content.
 pub struct App {
@@ -23,6 +23,7 @@ impl App {
     pub fn new(ctx: &egui::Context, launch: &Launch) -> Self {
         theme::install(ctx);
         places::install(ctx);
+        zoom::install(ctx);
         let ground = theme::rgb(Look::of(ctx).ground);
         Self { session: Session::start(launch, ground), picture: PicturePanel::default(), save_bar: SaveBar::default() }
     }
@@ -36,8 +37,9 @@ impl App {
         if ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Q)) {
             ui.ctx().send_viewport_cmd(ViewportCommand::Close);
         }
-        // Whoever types a path means letters.
-        if ui.ctx().egui_wants_keyboard_input() {
+        zoom::keys(ui.ctx());
+        // Whoever is about to type a path means letters, wherever the focus is just then.
+        if self.save_bar.is_open() || ui.ctx().egui_wants_keyboard_input() {
             return;
         }
         let pressed = |key| ui.input(|input| input.key_pressed(key) && input.modifiers.is_none());
@@ -67,14 +69,15 @@ impl App {
     /// Motion only while something moves: at rest nothing is drawn anew.
     fn schedule_repaint(&self, ctx: &egui::Context) {
         const FRAME: Duration = Duration::from_millis(33);
+        // For the clock, and in order to learn when something moves again.
+        const LOOK_IN: Duration = Duration::from_millis(250);
         let session = &self.session;
-        let moves = match session.phase() {
-            Phase::Running => !session.is_paused(),
-            Phase::Finished => session.state().flights().iter().any(|flight| flight.gone() > session.now()),
-            Phase::Failed(_) => false,
-        };
-        if moves {
-            ctx.request_repaint_after(FRAME);
+        let moves = session.state().moves(session.now());
+        match session.phase() {
+            Phase::Running if session.is_paused() => {}
+            Phase::Running => ctx.request_repaint_after(if moves { FRAME } else { LOOK_IN }),
+            Phase::Finished if moves => ctx.request_repaint_after(FRAME),
+            Phase::Finished | Phase::Failed(_) => {}
         }
     }
 }

@@ -13,6 +13,7 @@ mod theme;
 mod top_bar;
 mod widgets;
 mod words_panel;
+mod zoom;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -34,6 +35,9 @@ pub struct Launch {
     pub log: Option<PathBuf>,
 }
 
+/// The smallest window in which everything has its place, in points.
+const LEAST: [f32; 2] = [800.0, 500.0];
+
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
@@ -43,8 +47,9 @@ pub fn open(launch: Launch) -> Result<(), String> {
         .with_title("anel")
         .with_app_id("anel")
         .with_inner_size([1280.0, 800.0])
-        .with_min_inner_size([640.0, 400.0]);
-    let options = eframe::NativeOptions { viewport, renderer: RENDERER, ..Default::default() };
+        .with_min_inner_size(LEAST);
+    let window_builder: Option<eframe::WindowBuilderHook> = Some(Box::new(not_too_small));
+    let options = eframe::NativeOptions { viewport, renderer: RENDERER, window_builder, ..Default::default() };
     // A missing library makes the windowing crates panic. That is no fault of this program: it is told in one
     // sentence. Once the window is there, panics are reported as usual.
     let usual = Arc::new(Mutex::new(Some(panic::take_hook())));
@@ -79,6 +84,14 @@ pub fn open(launch: Launch) -> Result<(), String> {
     }
 }
 
+/// A window opens with the size that it had last; a size in which nothing could be seen must not come back.
+fn not_too_small(viewport: egui::ViewportBuilder) -> egui::ViewportBuilder {
+    match viewport.inner_size {
+        Some(size) => viewport.with_inner_size(size.max(LEAST.into())),
+        None => viewport,
+    }
+}
+
 /// Why there is no window, in a few words.
 fn reason(error: &eframe::Error) -> String {
     let said = error.to_string();
@@ -104,6 +117,14 @@ const RENDERER: eframe::Renderer = eframe::Renderer::Wgpu;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_absurd_size_does_not_come_back() {
+        let opened = |size: [f32; 2]| not_too_small(egui::ViewportBuilder::default().with_inner_size(size)).inner_size;
+        assert_eq!(opened([64.0, 64.0]), Some(LEAST.into()));
+        assert_eq!(opened([64.0, 700.0]), Some(egui::vec2(LEAST[0], 700.0)));
+        assert_eq!(opened([1300.0, 900.0]), Some(egui::vec2(1300.0, 900.0)));
+    }
 
     #[test]
     fn errors_are_told_without_their_place_in_a_crate() {

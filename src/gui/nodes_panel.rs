@@ -52,7 +52,7 @@ impl Grid {
 
     fn new(rows: usize, room: f32) -> Self {
         // Two columns are worth some squeezing, more are not.
-        let columns = if room < 800.0 { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
+        let columns = if room < 740.0 { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
         let lines = rows.div_ceil(columns).max(1);
         let columns = rows.div_ceil(lines).max(1);
         Self { columns, lines, width: (room + Self::GAP) / columns as f32 - Self::GAP }
@@ -74,6 +74,7 @@ struct Columns {
     /// The right ends of the numbers.
     speed: f32,
     bar: Rect,
+    /// The same as `left` if it is not shown.
     done: f32,
     left: f32,
     /// The same as `left` if it is not shown.
@@ -94,7 +95,8 @@ impl Columns {
         let idle = activity - 2.0 * GRID;
         // How long it was idle is the first to go where there is little room.
         let left = if row.width() < 520.0 { idle } else { idle - 7.0 * GRID };
-        let done = left - 7.0 * GRID;
+        // How much it has done is the next: the bar above the rows tells it too.
+        let done = if row.width() < 400.0 { left } else { left - 7.0 * GRID };
         let bar = speed + 2.0 * GRID;
         let bar = within(bar - row.left(), (done - 7.5 * GRID - bar).max(0.0), GRID);
         Self { row, slider, speed, bar, done, left, idle, activity }
@@ -111,7 +113,9 @@ fn head(ui: &Ui, places: &Columns, look: Look) {
     if places.bar.width() > 5.0 * GRID {
         words(places.bar.left(), Align2::LEFT_CENTER, "atoms");
     }
-    words(places.done, Align2::RIGHT_CENTER, "done");
+    if places.done < places.left {
+        words(places.done, Align2::RIGHT_CENTER, "done");
+    }
     words(places.left, Align2::RIGHT_CENTER, "left");
     if places.idle > places.left {
         words(places.idle, Align2::RIGHT_CENTER, "idle");
@@ -138,7 +142,9 @@ fn show_row(ui: &mut Ui, places: &Columns, row: &Row, speed: f64, own: Rgb, look
         painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, theme::regular(theme::BODY), colour);
     };
     number(places.speed, format!("{:.0} %", speed * 100.0), look.text);
-    number(places.done, count(row.done), look.text);
+    if places.done < places.left {
+        number(places.done, count(row.done), look.text);
+    }
     number(places.left, count(row.left), if row.left > 0 { look.text } else { look.quiet });
     if places.idle > places.left {
         number(places.idle, format!("{:.0} %", row.idle * 100.0), look.text);

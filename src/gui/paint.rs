@@ -71,11 +71,10 @@ pub fn paint(painter: &Painter, origin: Pos2, marks: &[Mark], inks: &Inks<'_>) {
 }
 
 fn font(size: TextSize) -> FontId {
+    // Few different sizes, or every pixel of a resize would fill the font atlas anew.
     match size {
-        TextSize::Small => theme::regular(theme::SMALL),
-        TextSize::Body => theme::strong(theme::BODY),
-        TextSize::Large => theme::strong(theme::LARGE),
-        // Few different sizes, or every pixel of a resize would fill the font atlas anew.
+        TextSize::Small(times) => theme::regular((theme::SMALL * times).round()),
+        TextSize::Body(times) => theme::strong((theme::BODY * times).round()),
         TextSize::Fit(size) => theme::strong((size / 2.0).round().max(3.0) * 2.0),
     }
 }

@@ -6,7 +6,7 @@ use super::session::Session;
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::Rgb;
-use crate::view::Canvas;
+use crate::view::{Canvas, percent};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
@@ -36,8 +36,8 @@ impl PicturePanel {
         let slack = (room - size * scale).max(egui::Vec2::ZERO);
         let place = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * scale);
         let response = ui.allocate_rect(place, Sense::hover());
-        let done = session.state().done() as f32 / session.state().atoms().max(1) as f32;
-        widgets::describe(&response, "Picture", || format!("{:.0} % done", done * 100.0));
+        let done = percent(session.state().done(), session.state().atoms());
+        widgets::describe(&response, "Picture", || format!("{done} done"));
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture.id(), place, whole, Color32::WHITE);
@@ -48,7 +48,12 @@ impl PicturePanel {
 
     fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look) {
         let (middle, font) = (row.center().y + GRID / 2.0, theme::regular(theme::SMALL));
+        let fits = row.width() > 30.0 * GRID;
         let words = |x: f32, anchor, text: &str, strength: f64| {
+            // Under a small picture the slider has no room for words; its hint says them.
+            if !fits {
+                return -1.5 * GRID;
+            }
             let colour = look.quiet.lerp_to_gamma(look.text, strength as f32 / 100.0);
             ui.painter().text(pos2(x, middle), anchor, text, font.clone(), colour).width()
         };
@@ -57,7 +62,8 @@ impl PicturePanel {
         let width = (row.width() - left - right).max(4.0 * GRID);
         let place = Rect::from_min_size(pos2(row.left() + left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            widgets::slider(ui, &mut self.blend, width, look.accent, "Render or owners");
+            widgets::slider(ui, &mut self.blend, width, look.accent, "Render or owners")
+                .on_hover_text("From the render to who traced it");
         });
     }
 

@@ -40,7 +40,8 @@ pub fn show(ui: &mut Ui, session: &Session) -> Option<Click> {
             ui.add_space(2.0 * GRID);
             // What is left over between name and time.
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(Label::new(quiet(what(session), look.quiet)).truncate());
+                let what = what(ui, session);
+                ui.add(Label::new(quiet(what, look.quiet)).truncate());
             });
             clicked
         })
@@ -68,17 +69,18 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool) -> Option<Click> {
     clicked
 }
 
-/// What runs, in a few words.
-fn what(session: &Session) -> String {
+/// What runs, in as many words as fit.
+fn what(ui: &Ui, session: &Session) -> String {
     let header = session.header();
-    format!(
-        "{} · {} machines in a ring · {} × {} pixels in {} atoms",
-        header.scene,
-        header.speeds.len(),
-        header.size.width(),
-        header.size.height(),
-        count(header.division.atoms())
-    )
+    let scene = header.scene.clone();
+    let machines = format!("{scene} · {} machines in a ring", header.speeds.len());
+    let (width, height) = (header.size.width(), header.size.height());
+    let all = format!("{machines} · {width} × {height} pixels in {} atoms", count(header.division.atoms()));
+    let fits = |text: &String| {
+        let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::BODY), Color32::PLACEHOLDER);
+        galley.size().x <= ui.available_width()
+    };
+    [all, machines].into_iter().find(fits).unwrap_or(scene)
 }
 
 fn quiet(text: String, colour: Color32) -> RichText {

@@ -6,7 +6,7 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::text_on;
-use crate::view::{Share, node_name, result, shares};
+use crate::view::{Share, node_name, percent, result, shares};
 
 /// Shows both.
 pub fn show(ui: &mut Ui, session: &Session) {
@@ -16,17 +16,20 @@ pub fn show(ui: &mut Ui, session: &Session) {
         (_, Some(outcome)) => result(session.state(), outcome.makespan, outcome.efficiency),
         _ => session.narrator().sentence(session.state(), session.now()),
     };
-    let text = RichText::new(sentence).font(theme::strong(20.0)).color(look.text);
-    ui.add(egui::Label::new(text).truncate());
+    // Rather small than cut; what is too long even so has two lines.
+    let width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
+    let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| width(size) <= ui.available_width());
+    let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::BODY))).color(look.text);
+    ui.add(egui::Label::new(text).wrap());
     bar(ui, session, look);
 }
 
 /// All atoms in one row: each node's part in its colour, what is still to be done empty.
 fn bar(ui: &mut Ui, session: &Session, look: Look) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.0 * GRID), Sense::hover());
-    let shares = shares(session.state());
+    let (shares, all) = (shares(session.state()), session.state().atoms());
     widgets::describe(&response, "Who has traced how much", || {
-        let say = |share: &Share| format!("{} {:.0} %", node_name(share.node), (share.end - share.start) * 100.0);
+        let say = |share: &Share| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
     });
     ui.painter().rect_filled(rect, 4.0, look.raised);
@@ -45,14 +48,13 @@ fn bar(ui: &mut Ui, session: &Session, look: Look) {
         }
         let own = session.colours()[i];
         ui.painter().rect_filled(part, corners, theme::colour(own));
-        let percent = (share.end - share.start) * 100.0;
         let ink = theme::colour(text_on(own));
         if part.width() > 72.0 {
             let number = node_name(share.node).to_string();
             let left = pos2(part.left() + GRID, part.center().y);
             ui.painter().text(left, Align2::LEFT_CENTER, number, theme::strong(theme::BODY), ink);
             let right = pos2(part.right() - GRID, part.center().y);
-            let text = format!("{percent:.0} %");
+            let text = percent(share.atoms, all);
             ui.painter().text(right, Align2::RIGHT_CENTER, text, theme::regular(theme::BODY), ink);
         } else if part.width() > 20.0 {
             let number = node_name(share.node).to_string();

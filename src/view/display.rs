@@ -73,12 +73,10 @@ pub enum Anchor {
 /// How large text is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextSize {
-    /// For what stands beside something.
-    Small,
-    /// For what is read.
-    Body,
-    /// For what is seen from the back of the room.
-    Large,
+    /// For what stands beside something, so many times its usual size.
+    Small(f32),
+    /// For what is read, so many times its usual size.
+    Body(f32),
     /// In the units of the list: for text that has to fit a shape.
     Fit(f32),
 }

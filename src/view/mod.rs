@@ -23,4 +23,4 @@ pub use node::{Activity, NodeState};
 pub use nodes::{Row, Share, rows, shares};
 pub use ring::{Outcome, ring};
 pub use state::RunState;
-pub use words::{Narrator, activity_word, count, node_name, result};
+pub use words::{Narrator, activity_word, count, node_name, percent, result};

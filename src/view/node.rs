@@ -16,6 +16,8 @@ pub struct NodeState {
     pub atom: Option<Atom>,
     /// Its own offer came back.
     pub retired: bool,
+    /// Its speed before that was last set.
+    pub(super) speed_before: f64,
     // Signed, since the record of an atom may come before that of the band it belongs to.
     pub(super) left: i64,
     pub(super) has_band: bool,
@@ -52,6 +54,11 @@ impl NodeState {
         self.left.max(0) as u32
     }
 
+    /// Whether it has atoms and a speed to trace them at.
+    pub fn computes(&self) -> bool {
+        self.left() > 0 && self.speed > 0.0
+    }
+
     /// How long it has had nothing to trace, from the run's beginning until `now`.
     pub fn idle(&self, now: Time) -> Duration {
         self.idle + self.idle_since.map_or(Duration::ZERO, |since| now.since(since))
@@ -60,6 +67,7 @@ impl NodeState {
     pub(super) fn new(speed: f64) -> Self {
         Self {
             speed,
+            speed_before: speed,
             done: 0,
             atom: None,
             retired: false,

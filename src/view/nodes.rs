@@ -33,6 +33,8 @@ pub struct Share {
     pub start: f32,
     /// Where it ends.
     pub end: f32,
+    /// How many atoms it is.
+    pub atoms: u32,
 }
 
 /// A row for each node at `now`.
@@ -58,7 +60,7 @@ pub fn shares(state: &RunState) -> Vec<Share> {
     let mut share = |(node, of): (NodeId, &NodeState)| {
         let from = start;
         start += of.done;
-        Share { node, start: from as f32 / all, end: start as f32 / all }
+        Share { node, start: from as f32 / all, end: start as f32 / all, atoms: of.done }
     };
     (0..).zip(state.nodes()).map(&mut share).collect()
 }

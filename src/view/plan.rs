@@ -21,24 +21,38 @@ pub(super) struct Plan {
     pub(super) parent: f32,
     /// Whether there is little room for words.
     pub(super) small: bool,
+    /// Whether there is no room for words beside the nodes at all.
+    pub(super) tiny: bool,
+    /// How much larger than usual words are: in a large ring they grow with it.
+    pub(super) text: f32,
 }
 
 /// Below this height there is little room for words.
 const SMALL: f32 = 380.0;
+/// Below this one there is none.
+const TINY: f32 = 190.0;
+/// Up to this one words have their usual size.
+const USUAL: f32 = 500.0;
 
 impl Plan {
     /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
     pub(super) fn new(nodes: usize, [width, height]: Point) -> Self {
         // Beside the rail there is room for a label, above and below it for one of two lines, or of one line where
         // there is little.
-        let small = height < SMALL;
-        let (beside, above) = if small { (66.0, 30.0) } else { (88.0, 48.0) };
+        let room = height.min(width);
+        let (small, tiny) = (room < SMALL, room < TINY);
+        let text = (room / USUAL).clamp(1.0, 1.4);
+        let (beside, above) = match (tiny, small) {
+            (true, _) => (10.0, 10.0),
+            (_, true) => (66.0, 30.0),
+            _ => (88.0 * text, 48.0 * text),
+        };
         let rail = (height / 2.0 - above).min(width / 2.0 - beside).max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
         let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
         let seats = rail - node * 1.3 - 8.0;
-        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, small }
+        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, small, tiny, text }
     }
 
     /// A node's direction seen from the centre, clockwise from the right.
@@ -63,7 +77,7 @@ impl Plan {
 
     /// How large what is to be read is.
     pub(super) fn text_size(&self) -> TextSize {
-        if self.small { TextSize::Small } else { TextSize::Body }
+        if self.small { TextSize::Small(1.0) } else { TextSize::Body(self.text) }
     }
 
     /// A part of a circle round `centre`; clockwise if `sweep` is positive.

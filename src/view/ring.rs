@@ -11,7 +11,7 @@ use super::node::{Activity, NodeState};
 use super::plan::Plan;
 use super::state::RunState;
 use super::traffic;
-use super::words::{activity_word, count, node_name};
+use super::words::{activity_word, count, node_name, percent};
 use crate::balance::NodeId;
 use crate::time::Time;
 
@@ -38,7 +38,7 @@ pub fn ring(state: &RunState, outcome: Option<Outcome>, now: Time, size: Point) 
     for (node, of) in (0..).zip(state.nodes()) {
         let activity = state.activity(node, now);
         draw_node(&plan, node, of, activity, &mut marks);
-        if plan.nodes <= LABELLED {
+        if plan.nodes <= LABELLED && !plan.tiny {
             let words = words(state, of, activity);
             label(&plan, plan.angle(node), words, activity, &mut marks);
         }
@@ -116,9 +116,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
     let left = || format!("{} left", count(of.left()));
     let done = || format!("{} done", count(of.done));
     match activity {
-        _ if state.finished().is_some() => {
-            [done(), format!("{:.0} %", f64::from(of.done) / f64::from(state.atoms().max(1)) * 100.0)]
-        }
+        _ if state.finished().is_some() => [done(), percent(of.done, state.atoms())],
         Activity::Retired => [done(), "retired".into()],
         _ if of.left() == 0 => [activity_word(activity).into(), String::new()],
         Activity::Receiving => [left(), "receiving".into()],
@@ -129,7 +127,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
 
 /// Puts words outside the rail, on one line or two.
 fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activity, marks: &mut Vec<Mark>) {
-    let [x, y] = plan.at(angle, plan.rail + if plan.small { 16.0 } else { 22.0 });
+    let [x, y] = plan.at(angle, plan.rail + if plan.small { 16.0 } else { 22.0 * plan.text });
     // To the right of the ring a text begins at its place, to the left it ends there.
     let anchor = match angle.cos() {
         cos if cos > 0.2 => Anchor::Left,
@@ -137,37 +135,43 @@ fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activi
         _ => Anchor::Centre,
     };
     let two = !second.is_empty() && !plan.small;
-    let y = y + if plan.small { 0.0 } else { 10.0 * angle.sin() };
-    let spread = if two { 9.0 } else { 0.0 };
+    let y = y + if plan.small { 0.0 } else { 10.0 * plan.text * angle.sin() };
+    let spread = if two { 9.0 * plan.text } else { 0.0 };
     let ink = if activity == Activity::Retired { Hue::Quiet } else { Hue::Text }.full();
     let size = plan.text_size();
     marks.push(Mark::Label { at: [x, y - spread], anchor, text: first, size, ink });
     if two {
         let (at, ink) = ([x, y + spread], Hue::Quiet.full());
-        marks.push(Mark::Label { at, anchor, text: second, size: TextSize::Small, ink });
+        marks.push(Mark::Label { at, anchor, text: second, size: TextSize::Small(plan.text), ink });
     }
 }
 
 /// The parent, and how far the picture is; when it is done, the result.
 fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut Vec<Mark>) {
     let [x, y] = plan.centre;
-    let large = (plan.rail * 0.15).clamp(14.0, 40.0);
+    let large = (plan.rail * 0.15).clamp(10.0, 48.0);
     let mut text = |dy: f32, text: String, size: TextSize, hue: Hue| {
         marks.push(Mark::Label { at: [x, y + dy], anchor: Anchor::Centre, text, size, ink: hue.full() });
     };
+    let small = TextSize::Small(plan.text);
     if let Some(Outcome { makespan, efficiency }) = outcome {
         let large = large * 1.1;
-        text(-large * 1.3, format!("{:.1} s", makespan.as_secs_f64()), TextSize::Fit(large), Hue::Text);
-        text(-large * 0.45, "start to finish".into(), TextSize::Small, Hue::Quiet);
-        text(large * 0.65, format!("{:.0} %", efficiency * 100.0), TextSize::Fit(large), Hue::Text);
-        text(large * 1.5, "efficiency".into(), TextSize::Small, Hue::Quiet);
+        let (time, used) = (format!("{:.1} s", makespan.as_secs_f64()), format!("{:.0} %", efficiency * 100.0));
+        // What explains them has no room within a small ring; the sentence below says it too.
+        let lines = if plan.small { [-0.65, 0.65] } else { [-1.3, 0.65] };
+        text(large * lines[0], time, TextSize::Fit(large), Hue::Text);
+        text(large * lines[1], used, TextSize::Fit(large), Hue::Text);
+        if !plan.small {
+            text(-large * 0.45, "start to finish".into(), small, Hue::Quiet);
+            text(large * 1.5, "efficiency".into(), small, Hue::Quiet);
+        }
         return;
     }
     let done = state.done() as f32 / state.atoms().max(1) as f32;
     let lift = if plan.small { 0.0 } else { large * 0.25 };
-    text(-lift, format!("{:.0} %", (done * 100.0).floor()), TextSize::Fit(large), Hue::Text);
+    text(-lift, percent(state.done(), state.atoms()), TextSize::Fit(large), Hue::Text);
     if !plan.small {
-        text(large * 0.6, "parent".into(), TextSize::Small, Hue::Quiet);
+        text(large * 0.6, "parent".into(), small, Hue::Quiet);
     }
     let points = Plan::arc(plan.centre, plan.parent, 0.0, TAU);
     marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });

@@ -20,6 +20,8 @@ pub struct RunState {
     nodes: Vec<NodeState>,
     owners: Vec<Option<NodeId>>,
     holders: Vec<Option<NodeId>>,
+    /// Since when each atom is where it is: atoms may be handed on before the first hand's record comes.
+    held_since: Vec<Time>,
     flights: Vec<Flight>,
     pending: BTreeMap<u64, Flight>,
     early: BTreeSet<u64>,
@@ -36,6 +38,7 @@ impl RunState {
             nodes: header.speeds.iter().map(|&speed| NodeState::new(speed)).collect(),
             owners: vec![None; atoms],
             holders: vec![None; atoms],
+            held_since: vec![Time::ZERO; atoms],
             flights: Vec::new(),
             pending: BTreeMap::new(),
             early: BTreeSet::new(),
@@ -76,7 +79,7 @@ impl RunState {
             }
             What::SpeedSet { node, speed } => {
                 if let Some(state) = self.nodes.get_mut(usize::from(*node)) {
-                    state.speed = *speed;
+                    (state.speed_before, state.speed) = (state.speed, *speed);
                 }
             }
             What::Retired { node } => {
@@ -127,6 +130,26 @@ impl RunState {
     /// When the picture was complete.
     pub fn finished(&self) -> Option<Time> {
         self.finished
+    }
+
+    /// Whether anything moves at `now`: a message that is drawn, or a machine that computes.
+    pub fn moves(&self, now: Time) -> bool {
+        let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
+        flies || self.finished.is_none() && self.nodes.iter().any(NodeState::computes)
+    }
+
+    /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
+    /// result.
+    pub fn presence(&self, now: Time) -> f32 {
+        const FADE: Duration = Duration::from_millis(250);
+        let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
+        1.0 - (after.as_secs_f64() / FADE.as_secs_f64()).min(1.0) as f32
+    }
+
+    /// Whether atoms are on their way to a machine.
+    pub(super) fn has_atoms_under_way(&self) -> bool {
+        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Band(_) | Cargo::Transfer(_));
+        self.pending.values().any(carries)
     }
 
     /// What `node` is seen doing at `now`.
@@ -230,10 +253,15 @@ impl RunState {
         };
         state.give(atoms_in(&ranges), at);
         for range in ranges {
-            if let Some(holders) = self.holders.get_mut(range.start as usize..range.end as usize) {
-                holders.fill(Some(to));
-                self.touched.push(range);
+            let places = range.start as usize..range.end as usize;
+            let (Some(holders), Some(since)) = (self.holders.get_mut(places.clone()), self.held_since.get_mut(places))
+            else {
+                continue;
+            };
+            for (holder, since) in holders.iter_mut().zip(since).filter(|(_, since)| **since <= flight.arrives) {
+                (*holder, *since) = (Some(to), flight.arrives);
             }
+            self.touched.push(range);
         }
     }
 }
@@ -326,6 +354,29 @@ mod tests {
             idle.iter().all(|&idle| idle >= Duration::from_millis(40) && idle < Duration::from_secs(1)),
             "{idle:?}"
         );
+    }
+
+    #[test]
+    fn nothing_moves_while_all_machines_stand_still_nor_after_the_end() {
+        let header = sample::header(&[1.0, 1.0], 40);
+        let mut state = RunState::new(&header);
+        let records = sample::records(&header);
+        records.iter().take(30).for_each(|record| state.apply(record));
+        let later = state.head() + Duration::from_secs(5);
+        assert!(state.moves(later));
+        for node in 0..2 {
+            assert!(state.moves(later));
+            state.apply(&Record { at: state.head(), what: What::SpeedSet { node, speed: 0.0 } });
+        }
+        assert!(state.moves(state.head()), "something is still in flight");
+        assert!(!state.moves(later));
+        state.apply(&Record { at: later, what: What::SpeedSet { node: 1, speed: 0.3 } });
+        assert!(state.moves(later));
+
+        records.iter().skip(30).for_each(|record| state.apply(record));
+        let end = state.finished().expect("the run is complete");
+        assert!(state.presence(end) == 1.0 && state.presence(end + Duration::from_millis(400)) == 0.0);
+        assert!(!state.moves(end + Duration::from_millis(400)));
     }
 
     #[test]

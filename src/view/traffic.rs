@@ -14,10 +14,11 @@ pub(super) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
     for flight in state.flights() {
         if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
             && flight.shown().contains(&now)
+            && state.presence(now) > 0.0
         {
             let (start, end) = (plan.seats - plan.node * 1.3, plan.parent);
             let radius = start + (end - start) * flight.progress(now);
-            let ink = Hue::Node(from).full();
+            let ink = Hue::Node(from).faint(state.presence(now));
             marks.push(Mark::Disc { centre: plan.at(plan.angle(from), radius), radius: dot, ink });
         }
     }
@@ -26,7 +27,7 @@ pub(super) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
 /// Offers run along the rail; where an offer has been, its trail fades. Each has a lane of its own.
 pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     let mut offerers: Vec<(NodeId, &Flight)> = Vec::new();
-    let seen = |flight: &&Flight| flight.sent <= now && flight.presence(now) > 0.0;
+    let seen = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0;
     for flight in state.flights().iter().filter(seen) {
         let Cargo::Offer { who } = flight.cargo else { continue };
         let lane = match offerers.iter().position(|(other, _)| *other == who) {
@@ -38,19 +39,19 @@ pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
         };
         offerers[lane].1 = flight;
         let Party::Node(from) = flight.from else { continue };
-        let radius = plan.rail + lane_offset(lane);
+        let radius = plan.rail + lane_offset(plan, lane);
         let sweep = -plan.step() * flight.progress(now);
         let strength = if lane < FOLLOWED { 0.9 } else { HINT };
         marks.push(Mark::Line {
             points: Plan::arc(plan.centre, radius, plan.angle(from), sweep),
-            width: 4.0,
-            ink: Hue::Node(who).faint(strength * flight.presence(now)),
+            width: lane_width(plan),
+            ink: Hue::Node(who).faint(strength * seen_at(state, flight, now)),
         });
     }
     for (lane, (who, flight)) in offerers.into_iter().enumerate().take(FOLLOWED) {
         let Party::Node(from) = flight.from else { continue };
         let angle = plan.angle(from) - plan.step() * flight.progress(now);
-        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(lane)), flight.presence(now));
+        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(plan, lane)), seen_at(state, flight, now));
         let radius = (plan.node * 0.42).clamp(7.0, 13.0);
         marks.push(Mark::Disc { centre, radius: radius + 2.0, ink: Hue::Ground.faint(alpha) });
         marks.push(Mark::Disc { centre, radius, ink: Hue::Node(who).faint(alpha) });
@@ -64,16 +65,25 @@ pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
     }
 }
 
+/// How strongly a flight or its trail is seen.
+fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
+    flight.presence(now) * state.presence(now)
+}
+
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
-fn lane_offset(lane: usize) -> f32 {
+fn lane_offset(plan: &Plan, lane: usize) -> f32 {
     let lane = lane % 8;
-    let out = lane.div_ceil(2) as f32 * 4.0;
+    let out = lane.div_ceil(2) as f32 * lane_width(plan);
     if lane % 2 == 1 { out } else { -out }
+}
+
+fn lane_width(plan: &Plan) -> f32 {
+    (plan.rail * 0.025).clamp(1.5, 4.0)
 }
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
 pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    let moving = |flight: &&Flight| flight.sent <= now && flight.presence(now) > 0.0 && flight.cargo.atoms() > 0;
+    let moving = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0 && flight.cargo.atoms() > 0;
     let mut flights: Vec<_> = state.flights().iter().filter(moving).collect();
     // The largest are followed; the sort keeps the order of equals, so nothing flickers.
     flights.sort_by_key(|flight| std::cmp::Reverse(flight.cargo.atoms()));
@@ -88,7 +98,7 @@ pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
             _ => continue,
         };
         let strength = if transfers <= FOLLOWED { 1.0 } else { HINT };
-        parcel(plan, from, to, hue, (flight, strength), now, marks);
+        parcel(plan, from, to, hue, (flight, strength * state.presence(now)), now, marks);
     }
 }
 
@@ -113,7 +123,8 @@ fn parcel(
     let centre = curve(from, bend, to, here);
     let text = format!("×{}", count(flight.cargo.atoms()));
     let letters = text.chars().count() as f32;
-    let half = if plan.small { [5.0 + 3.8 * letters, 9.0] } else { [7.0 + 4.6 * letters, 12.0] };
+    let half =
+        if plan.small { [5.0 + 3.8 * letters, 9.0] } else { [7.0 + 4.6 * letters, 12.0].map(|side| side * plan.text) };
     marks.push(Mark::Parcel { centre, half: [half[0] + 2.0, half[1] + 2.0], ink: Hue::Ground.faint(alpha) });
     marks.push(Mark::Parcel { centre, half, ink: hue.faint(alpha) });
     let Hue::Node(node) = hue else { return };
