@@ -34,12 +34,7 @@ pub enum OutputError {
 /// [`OutputError::Path`], if `path` is a directory or a device, its name is impossible, or its directory is missing or
 /// read-only.
 pub fn check_writable(path: &Path) -> Result<(), OutputError> {
-    let refuse = |why: String| OutputError::Path { path: path.to_owned(), why };
-    let target = target(path).map_err(refuse)?;
-    temporary_beside(&target).map(drop).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
-        kind => refuse(kind.to_string()),
-    })
+    begin(path).map(drop)
 }
 
 /// Writes what `fill` writes to `path`. The file appears whole under its name or not at all; one that was there before
@@ -51,9 +46,8 @@ pub fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let target = target(path).map_err(|why| OutputError::Path { path: path.to_owned(), why })?;
+    let (mut file, target) = begin(path)?;
     let write = || {
-        let mut file = temporary_beside(&target)?;
         let mut buffer = BufWriter::new(file.as_file_mut());
         fill(&mut buffer)?;
         buffer.flush()?;
@@ -75,6 +69,18 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
         })
     };
     matches!((place(a), place(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// A temporary file beside the place where `path` is to be put, and that place.
+fn begin(path: &Path) -> Result<(NamedTempFile, PathBuf), OutputError> {
+    let refuse = |why: String| OutputError::Path { path: path.to_owned(), why };
+    let target = target(path).map_err(refuse)?;
+    let file = temporary_beside(&target).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
+        // Without the name of the temporary file, which means nothing to anybody.
+        kind => refuse(kind.to_string()),
+    })?;
+    Ok((file, target))
 }
 
 /// Where a file of that name is to be put: behind a link, the file that it leads to. Or why there can be none.

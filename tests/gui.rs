@@ -158,7 +158,7 @@ fn save_says_why_it_failed() {
     harness.run_steps(3);
     type_path(&mut harness, "/no/such/place/picture.png");
     harness.key_press(Key::Enter);
-    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("nothing was kept").is_some());
+    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("directory does not exist").is_some());
 }
 
 fn typed(harness: &Harness<'_, App>) -> String {
@@ -178,7 +178,7 @@ fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
     harness.run_steps(3);
     type_path(&mut harness, "/no/such/place/picture.png");
     harness.key_press(Key::Enter);
-    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("nothing was kept").is_some());
+    until(&mut harness, "a sentence", |harness| harness.query_by_label_contains("directory does not exist").is_some());
     // The keyboard still belongs to the path.
     assert!(harness.get_by_label("Path of the PNG").is_focused());
     harness.event(egui::Event::Text("r s".into()));

@@ -123,7 +123,7 @@ fn tell(record: &Record, state: &RunState) -> Option<(u8, String)> {
     let told = match &record.what {
         What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
             let (giver, offerer, atoms) = (node_name(*from), node_name(*to), atoms_in(ranges));
-            let atoms = if atoms == 1 { "its last spare atom".into() } else { atoms_words(atoms) };
+            let atoms = if atoms == 1 { "one atom".into() } else { atoms_words(atoms) };
             (3, format!("{offerer} has finished and offers help; {giver} is still busy: gives it {atoms}"))
         }
         What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
