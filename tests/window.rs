@@ -28,7 +28,7 @@ fn the_window_shows_the_run_and_obeys() {
     let display = Display::new();
     let mut window = Window::open(&display, directory.path(), &log);
 
-    display.xdotool(&["search", "--sync", "--onlyvisible", "--name", "^anel$"]);
+    display.wait_for_window();
     std::thread::sleep(Duration::from_secs(1));
 
     // Node 1 from full speed to about a third, in steps, as a hand does.
@@ -108,6 +108,19 @@ impl Display {
     fn xdotool(&self, arguments: &[&str]) {
         let done = Command::new("xdotool").args(arguments).env("DISPLAY", &self.name).stdout(Stdio::null()).status();
         assert!(done.is_ok_and(|status| status.success()), "xdotool {arguments:?}");
+    }
+
+    /// Waits until the window is there to be clicked; a window that never comes fails here instead of hanging.
+    fn wait_for_window(&self) {
+        for _ in 0..600 {
+            let search = ["search", "--onlyvisible", "--name", "^anel$"];
+            let found = Command::new("xdotool").args(search).env("DISPLAY", &self.name).stdout(Stdio::null()).status();
+            if found.is_ok_and(|status| status.success()) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        panic!("no window within a minute");
     }
 
     fn shot(&self, path: &Path) -> RgbImage {
