@@ -55,13 +55,9 @@ fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
     for update in run.updates() {
         match update {
             Update::Placed { atoms, pixels } => {
-                let mut rest = &pixels[..];
-                for range in atoms.into_iter().flatten().map(|atom| header.division.pixels(atom)) {
-                    let (atom, others) = rest.split_at(range.len());
-                    frame.place(range, atom);
-                    rest = others;
-                }
-                assert!(rest.is_empty());
+                let placed = header.division.placed(&atoms, &pixels);
+                let count: usize = placed.map(|(place, colours)| (frame.place(place, colours), colours.len()).1).sum();
+                assert_eq!(count, pixels.len());
             }
             Update::Records(_) | Update::Totals { .. } => {}
             Update::Finished => return frame,

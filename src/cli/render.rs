@@ -98,14 +98,10 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
         match run.updates().recv() {
             Ok(Update::Records(records)) => log.add(records),
             Ok(Update::Placed { atoms, pixels }) => {
-                let mut rest = &pixels[..];
-                for atom in atoms.into_iter().flatten() {
-                    let place = header.division.pixels(atom);
-                    let (now, later) = rest.split_at(place.len());
-                    frame.place(place, now);
-                    rest = later;
-                    bar.inc(1);
+                for (place, colours) in header.division.placed(&atoms, &pixels) {
+                    frame.place(place, colours);
                 }
+                bar.inc(atoms.iter().map(|range| range.len() as u64).sum());
             }
             Ok(Update::Totals { rays: more, .. }) => rays += more,
             Ok(Update::Finished) => break None,

@@ -85,14 +85,10 @@ impl Session {
                     self.log.add(records);
                 }
                 Update::Placed { atoms, pixels } => {
-                    let mut pixels = &pixels[..];
-                    for atoms in atoms {
-                        let (start, count) = (division.pixels(atoms.start).start, division.pixels_in(&atoms));
-                        let (these, rest) = pixels.split_at(count as usize);
-                        self.frame.place(start..start + count, these);
-                        self.canvas.place(atoms.clone(), these);
-                        self.canvas.paint(atoms, &self.state);
-                        pixels = rest;
+                    for (range, (place, colours)) in atoms.iter().zip(division.placed(&atoms, &pixels)) {
+                        self.frame.place(place, colours);
+                        self.canvas.place(range.clone(), colours);
+                        self.canvas.paint(range.clone(), &self.state);
                     }
                 }
                 Update::Totals { .. } => {}

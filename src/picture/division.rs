@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use super::Colour;
+
 /// An atom's number in scan order: the unit of work that is never divided.
 pub type Atom = u32;
 
@@ -45,6 +47,25 @@ impl Division {
         if range.is_empty() { 0 } else { self.pixels(range.end - 1).end - self.pixels(range.start).start }
     }
 
+    /// Takes apart what was traced together: for each range of `atoms`, in their order, the places of its pixels in the
+    /// picture and their colours.
+    ///
+    /// # Panics
+    /// If there are fewer `colours` than the atoms have pixels.
+    pub fn placed<'a>(
+        self,
+        atoms: &'a [Range<Atom>],
+        colours: &'a [Colour],
+    ) -> impl Iterator<Item = (Range<u32>, &'a [Colour])> {
+        let mut rest = colours;
+        atoms.iter().map(move |atoms| {
+            let start = self.pixels(atoms.start).start;
+            let (these, others) = rest.split_at(self.pixels_in(atoms) as usize);
+            rest = others;
+            (start..start + these.len() as u32, these)
+        })
+    }
+
     /// The first share of each of `nodes` nodes: consecutive bands whose sizes differ by at most one atom,
     /// the longer ones first. With more nodes than atoms the last bands are empty.
     pub fn bands(self, nodes: usize) -> impl Iterator<Item = Range<Atom>> {
@@ -66,6 +87,14 @@ mod tests {
         assert_eq!([0, 1, 2].map(|atom| division.pixels(atom)), [0..50, 50..100, 100..130]);
         assert_eq!(division.pixels_in(&(1..3)), 80);
         assert_eq!(division.pixels_in(&(3..3)), 0);
+    }
+
+    #[test]
+    fn what_was_traced_together_goes_to_its_places() {
+        let colours: Vec<_> = (0..80u8).map(|shade| [f32::from(shade); 3]).collect();
+        let atoms = [2..3, 0..1];
+        let placed: Vec<_> = Division::new(130, 50).placed(&atoms, &colours).collect();
+        assert_eq!(placed, [(100..130, &colours[..30]), (0..50, &colours[30..])]);
     }
 
     #[test]
