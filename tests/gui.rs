@@ -46,6 +46,16 @@ fn type_path(harness: &mut Harness<'_, App>, path: &str) {
     assert_eq!(harness.get_by_label("Path of the PNG").value().as_deref(), Some(path));
 }
 
+/// Opens the save row, empties its path and asks to save.
+fn save_to_no_path(harness: &mut Harness<'_, App>) {
+    harness.key_press(Key::S);
+    harness.run_steps(3);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.key_press(Key::Delete);
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+}
+
 #[test]
 fn a_run_starts_at_once() {
     let mut harness = open(SIZE);
@@ -228,12 +238,7 @@ fn a_file_is_replaced_only_when_asked_twice() {
 fn an_empty_path_is_told_in_words() {
     let mut harness = open(SIZE);
     harness.step();
-    harness.key_press(Key::S);
-    harness.run_steps(3);
-    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
-    harness.key_press(Key::Delete);
-    harness.run_steps(2);
-    harness.key_press(Key::Enter);
+    save_to_no_path(&mut harness);
     harness.run_steps(2);
     harness.get_by_label_contains("There is no path");
 }
@@ -294,12 +299,7 @@ fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
     for size in [[1024.0, 640.0], [800.0, 500.0]] {
         let mut harness = open(size);
         harness.step();
-        harness.key_press(Key::S);
-        harness.run_steps(3);
-        harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
-        harness.key_press(Key::Delete);
-        harness.run_steps(2);
-        harness.key_press(Key::Enter);
+        save_to_no_path(&mut harness);
         harness.run_steps(3);
         let rect = |name: &str| harness.get_by_label(name).rect();
         let window = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);

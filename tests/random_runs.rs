@@ -241,7 +241,7 @@ fn take(update: Update, log: &mut RunLog, placed: &mut Vec<Range<Atom>>) -> bool
             assert!(expected.eq(pixels.iter().map(|pixel| pixel[1] as u32)), "pixels of other atoms");
             placed.extend(atoms);
         }
-        Update::Totals { .. } => {}
+        Update::Rays(_) => {}
         Update::Finished => return true,
         Update::Failed(why) => panic!("{why}"),
     }

@@ -59,7 +59,7 @@ fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
                 let count: usize = placed.map(|(place, colours)| (frame.place(place, colours), colours.len()).1).sum();
                 assert_eq!(count, pixels.len());
             }
-            Update::Records(_) | Update::Totals { .. } => {}
+            Update::Records(_) | Update::Rays(_) => {}
             Update::Finished => return frame,
             Update::Failed(why) => panic!("{why}"),
         }

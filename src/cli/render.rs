@@ -103,7 +103,7 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
                 }
                 bar.inc(atoms.iter().map(|range| range.len() as u64).sum());
             }
-            Ok(Update::Totals { rays: more, .. }) => rays += more,
+            Ok(Update::Rays(more)) => rays += more,
             Ok(Update::Finished) => break None,
             Ok(Update::Failed(why)) => break Some(why),
             Err(_) => break Some("the run ended without a result".into()),

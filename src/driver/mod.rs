@@ -50,15 +50,8 @@ pub enum Update {
         /// Their pixels, one atom after the other.
         pixels: Vec<Colour>,
     },
-    /// A node's thread has ended and gives its sums.
-    Totals {
-        /// Which node.
-        node: NodeId,
-        /// Rays that its worker traced.
-        rays: RayCounts,
-        /// CPU time in the tracer.
-        work: Duration,
-    },
+    /// How many rays a node's worker has traced; its thread has ended.
+    Rays(RayCounts),
     /// All threads have ended and the picture is complete; the last update.
     Finished,
     /// The run cannot go on (a sentence says why); the last update.

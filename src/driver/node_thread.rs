@@ -42,7 +42,6 @@ pub(super) struct NodeThread<'run> {
     meter: Meter,
     /// Atoms by the index of their record.
     batch: Batch,
-    work: Duration,
     actions: Vec<Action>,
     finished: bool,
 }
@@ -74,7 +73,6 @@ impl<'run> NodeThread<'run> {
             scratch: Scratch::default(),
             meter: Meter::new(),
             batch: Batch::default(),
-            work: Duration::ZERO,
             actions: Vec::new(),
             finished: false,
         }
@@ -85,7 +83,7 @@ impl<'run> NodeThread<'run> {
         let _ = self.work_until_shutdown();
         self.split_batch();
         self.port.flush();
-        self.port.update(Update::Totals { node: self.id, rays: self.scratch.rays, work: self.work });
+        self.port.update(Update::Rays(self.scratch.rays));
     }
 
     fn work_until_shutdown(&mut self) -> Result<(), Stopped> {
@@ -108,9 +106,9 @@ impl<'run> NodeThread<'run> {
 
     fn step(&mut self) -> Result<Time, Stopped> {
         // Not `self.split_batch()`, since the port is taken.
-        let (batch, meter, work) = (&mut self.batch, &mut self.meter, &mut self.work);
+        let (batch, meter) = (&mut self.batch, &mut self.meter);
         self.port.step(|port| {
-            split(batch, meter, port, work);
+            split(batch, meter, port);
             port.flush();
         })
     }
@@ -201,7 +199,6 @@ impl<'run> NodeThread<'run> {
     fn finish_atom(&mut self, Hand { atom, cost, wall, .. }: Hand) {
         self.port.advance(self.machine.time());
         let index = self.port.record(What::AtomDone { node: self.id, atom, cost });
-        self.work += cost;
         if !wall.is_zero() {
             self.batch.push(index, wall);
             if self.batch.is_full() {
@@ -212,7 +209,7 @@ impl<'run> NodeThread<'run> {
     }
 
     fn split_batch(&mut self) {
-        split(&mut self.batch, &mut self.meter, &mut self.port, &mut self.work);
+        split(&mut self.batch, &mut self.meter, &mut self.port);
     }
 
     /// Hands the node an event and carries out what it asks for.
@@ -246,12 +243,11 @@ impl<'run> NodeThread<'run> {
 }
 
 /// Gives each atom of the batch its share of the CPU time since the last reading.
-fn split(batch: &mut Batch, meter: &mut Meter, port: &mut Port<'_>, work: &mut Duration) {
+fn split(batch: &mut Batch, meter: &mut Meter, port: &mut Port<'_>) {
     if batch.is_empty() {
         return;
     }
     for (index, share) in batch.split(meter.lap()) {
-        *work += share;
         if let What::AtomDone { cost, .. } = port.recorded(index) {
             *cost += share;
         }

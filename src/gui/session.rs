@@ -91,7 +91,7 @@ impl Session {
                         self.canvas.paint(range.clone(), &self.state);
                     }
                 }
-                Update::Totals { .. } => {}
+                Update::Rays(_) => {}
                 Update::Finished => {
                     self.phase = Phase::Finished;
                     self.outcome = outcome(&self.log);

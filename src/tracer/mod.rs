@@ -47,13 +47,6 @@ pub struct RayCounts {
     pub refracted: u64,
 }
 
-impl RayCounts {
-    /// Rays of all kinds.
-    pub fn total(self) -> u64 {
-        self.primary + self.shadow + self.reflected + self.refracted
-    }
-}
-
 impl AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
         self.primary += other.primary;
@@ -79,12 +72,7 @@ impl Tracer {
         Self { world: World::new(scene), camera, size, quality }
     }
 
-    /// The picture's size.
-    pub fn size(&self) -> Size {
-        self.size
-    }
-
-    /// What the compiled scene kept, in words.
+    /// What the compiled scene kept, in figures.
     pub fn compiled(&self) -> Compiled {
         self.world.compiled()
     }
