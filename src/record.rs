@@ -68,6 +68,21 @@ pub enum What {
         /// The new speed as a fraction of the reference machine; 0 stops its worker, not its messages.
         speed: f64,
     },
+    /// A node's worker was made to stand still while the run goes on; the node still answers messages.
+    Paused {
+        /// Which node.
+        node: NodeId,
+    },
+    /// The worker of a paused node goes on, at the node's speed.
+    Resumed {
+        /// Which node.
+        node: NodeId,
+    },
+    /// The latency of all links was changed, for the messages that leave from now on.
+    LatencySet {
+        /// How long a message travels.
+        latency: Duration,
+    },
     /// A node's own offer came back: it makes no more.
     Retired {
         /// Which node.

@@ -258,7 +258,7 @@ fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Divisio
 fn header(size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
     Header {
         scene: "random".into(),
-        scene_bytes: 100,
+        scene_text: "x".repeat(100),
         size,
         samples: 1,
         division: Division::new(size.pixels(), atom_pixels),

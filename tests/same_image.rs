@@ -70,7 +70,7 @@ fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
 fn header(strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
     Header {
         scene: "ten-objects".into(),
-        scene_bytes: 0,
+        scene_text: String::new(),
         size,
         samples: 1,
         division: Division::new(size.pixels(), atom_pixels),

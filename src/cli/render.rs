@@ -51,7 +51,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let cores = cores();
     let header = Header {
         scene: opened.name,
-        scene_bytes: opened.bytes,
+        scene_text: opened.text,
         size: args.size,
         samples: args.samples,
         division,

@@ -50,7 +50,7 @@ impl Shared {
             latency: AtomicU64::new(0),
             bandwidth: header.link.bandwidth,
             division: header.division,
-            scene_bytes: header.scene_bytes,
+            scene_bytes: header.scene_text.len() as u64,
         };
         shared.set_latency(header.link.latency);
         (shared, receivers)

@@ -31,7 +31,7 @@ pub fn demonstration(scene: &Opened) -> (Arc<Tracer>, Header) {
     let pace = work / (LASTS.as_secs_f64() * SPEEDS.iter().sum::<f64>());
     let header = Header {
         scene: scene.name.clone(),
-        scene_bytes: scene.bytes,
+        scene_text: scene.text.clone(),
         size,
         samples: quality.samples,
         division,

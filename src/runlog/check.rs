@@ -43,8 +43,8 @@ pub(super) fn record(header: &Header, record: &Record) -> Result<(), String> {
             ensure((0.0..=1.0).contains(speed), "a speed is not between 0 and 1")?;
             node(header, *id)
         }
-        What::Retired { node: id } => node(header, *id),
-        What::Finished => Ok(()),
+        What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
+        What::LatencySet { .. } | What::Finished => Ok(()),
     }
 }
 

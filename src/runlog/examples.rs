@@ -12,7 +12,7 @@ use crate::time::Time;
 pub fn header(speeds: &[f64]) -> Header {
     Header {
         scene: "test".into(),
-        scene_bytes: 100,
+        scene_text: "x".repeat(100),
         // Neither side is 0.
         size: Size::new(10, 10).unwrap(),
         samples: 1,

@@ -12,7 +12,7 @@ use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 
 /// The version of the format that this program writes, and the only one that it reads.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why a run file could not be read.
 #[derive(Debug, Error)]
@@ -156,6 +156,9 @@ mod tests {
             (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomStarted { node, atom }),
             (0..NODES, 0..ATOMS, any::<Duration>()).prop_map(|(node, atom, cost)| What::AtomDone { node, atom, cost }),
             (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| What::SpeedSet { node, speed }),
+            (0..NODES).prop_map(|node| What::Paused { node }),
+            (0..NODES).prop_map(|node| What::Resumed { node }),
+            any::<Duration>().prop_map(|latency| What::LatencySet { latency }),
             (0..NODES).prop_map(|node| What::Retired { node }),
             Just(What::Finished),
         ]
@@ -218,7 +221,7 @@ mod tests {
         assert_eq!(complaint(b"\x89PNG\xff"), "line 1: this is not a run file of anel");
         assert_eq!(
             with(1, r#"{"anel_run":7,"header":null}"#),
-            "line 1: the format's version is 7; this program reads version 1"
+            "line 1: the format's version is 7; this program reads version 2"
         );
         assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));
         assert_eq!(

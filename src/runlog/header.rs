@@ -12,8 +12,8 @@ use crate::picture::{Division, Size};
 pub struct Header {
     /// The scene's name, for people.
     pub scene: String,
-    /// Bytes of the scene's text, which each band carries along.
-    pub scene_bytes: u64,
+    /// The text of the scene's file, which each band carries along.
+    pub scene_text: String,
     /// Width and height of the picture.
     pub size: Size,
     /// The picture is made of n × n samples a pixel.

@@ -18,8 +18,8 @@ use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
 pub struct Opened {
     /// The file's name without its ending.
     pub name: String,
-    /// Bytes of its text.
-    pub bytes: u64,
+    /// The file's text.
+    pub text: String,
     /// What it says.
     pub scene: Scene,
 }
@@ -59,7 +59,7 @@ impl Opened {
     /// # Errors
     /// Those of [`Scene::parse`].
     pub fn from_text(name: &str, text: &str) -> Result<Self, SceneError> {
-        Ok(Self { name: name.into(), bytes: text.len() as u64, scene: Scene::parse(text)? })
+        Ok(Self { name: name.into(), text: text.into(), scene: Scene::parse(text)? })
     }
 }
 

@@ -14,7 +14,7 @@ pub fn header(speeds: &[f64], atoms: u32) -> Header {
     let size = Size::new(50, atoms).expect("a small picture");
     Header {
         scene: "sample".into(),
-        scene_bytes: 100,
+        scene_text: String::new(),
         size,
         samples: 1,
         division: Division::new(size.pixels(), 50),

@@ -87,6 +87,7 @@ impl RunState {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
+            What::Paused { .. } | What::Resumed { .. } | What::LatencySet { .. } => {}
             What::Finished => self.finished = Some(at),
         }
     }
@@ -290,8 +291,10 @@ mod tests {
             What::AtomStarted { node, .. }
             | What::AtomDone { node, .. }
             | What::SpeedSet { node, .. }
+            | What::Paused { node }
+            | What::Resumed { node }
             | What::Retired { node } => Party::Node(*node),
-            What::Finished => Party::Parent,
+            What::LatencySet { .. } | What::Finished => Party::Parent,
         }
     }
 
