@@ -150,7 +150,7 @@ impl<'a> Sample<'a> {
 
     fn send(&mut self, at: Time, from: Party, to: Party, message: Message) {
         let (id, arrives) = (self.ids, at + self.header.link.latency);
-        let bytes = message.bytes(self.header.division, self.header.scene_bytes);
+        let bytes = message.bytes(self.header.division, self.header.scene_text.len() as u64);
         self.note(at, What::Sent { id, from, to, message: message.clone(), bytes, arrives });
         self.schedule(arrives, Event::Arrival { id, to, message });
     }
