@@ -109,12 +109,15 @@ fn one_hundred_on_threads() {
         // All the cost in one corner.
         let run =
             Run::start_with(|pixels, _, out| trace(pixels, out, |pixel| if pixel < 50 { 2000 } else { 10 }), &header);
-        for _ in 0..random.below(4) {
+        let nodes = header.speeds.len() as u64;
+        for _ in 0..random.below(6) {
             std::thread::sleep(random.below(3) as u32 * MS);
-            run.set_speed(random.below(header.speeds.len() as u64) as NodeId, random.speed());
+            run.set_speed(random.below(nodes) as NodeId, random.speed());
+            run.set_paused(random.below(nodes) as NodeId, random.below(2) == 0);
             run.set_latency(random.below(5) as u32 * MS);
         }
-        finish(&run, &header);
+        (0..nodes as NodeId).for_each(|node| run.set_paused(node, false));
+        assert_stands_still(&finish(&run, &header));
     });
 }
 
@@ -135,9 +138,24 @@ fn a_paused_run_stands_still_and_goes_on() {
 
 #[test]
 fn a_stopped_machine_answers_messages_and_traces_nothing_until_it_goes_on() {
-    let header = header(Size::new(60, 50).unwrap(), 10, vec![1.0, 1.0, 1.0]);
+    stop_the_second(1.0, |run, stopped| run.set_speed(1, if stopped { 0.0 } else { 1.0 }));
+}
+
+#[test]
+fn so_does_a_paused_one_whatever_its_speed() {
+    for pace in [1.0, 0.5] {
+        stop_the_second(pace, |run, paused| {
+            run.set_paused(1, paused);
+            run.set_speed(1, 0.75);
+        });
+    }
+}
+
+/// Of three machines the second stands still until nobody else has work.
+fn stop_the_second(pace: f64, stop: fn(&Run, bool)) {
+    let header = Header { pace, ..header(Size::new(60, 50).unwrap(), 10, vec![1.0, 1.0, 1.0]) };
     let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 500), &header);
-    run.set_speed(1, 0.0);
+    stop(&run, true);
     let mut log = RunLog::new(header.clone());
     let mut placed = Vec::new();
     let retired =
@@ -146,20 +164,29 @@ fn a_stopped_machine_answers_messages_and_traces_nothing_until_it_goes_on() {
     while retired(&log) < 2 {
         take(run.updates().recv().unwrap(), &mut log, &mut placed);
     }
-    run.set_speed(1, 1.0);
+    stop(&run, false);
     while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
     assert_each_once(placed.into_iter(), header.division);
+    assert_stands_still(&log);
+}
 
-    let mut stopped = false;
-    for record in log.records() {
-        match record.what {
-            What::SpeedSet { node: 1, speed } => stopped = speed == 0.0,
-            What::AtomStarted { node: 1, atom } | What::AtomDone { node: 1, atom, .. } => {
-                assert!(!stopped, "atom {atom} was traced by a stopped machine");
-            }
-            _ => {}
-        }
+#[test]
+fn only_real_pauses_are_recorded() {
+    // The second node cannot be done before it has a speed.
+    let header = header(Size::new(100, 50).unwrap(), 10, vec![0.5, 0.0]);
+    let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
+    for (node, paused) in [(1, false), (1, true), (1, true), (7, true), (1, false), (1, false), (0, false)] {
+        run.set_paused(node, paused);
     }
+    run.set_speed(1, 0.5);
+    let log = finish(&run, &header);
+    let pauses: Vec<_> = log
+        .records()
+        .iter()
+        .map(|record| &record.what)
+        .filter(|what| matches!(what, What::Paused { .. } | What::Resumed { .. }))
+        .collect();
+    assert_eq!(pauses, [&What::Paused { node: 1 }, &What::Resumed { node: 1 }]);
 }
 
 #[test]
@@ -246,6 +273,27 @@ fn take(update: Update, log: &mut RunLog, placed: &mut Vec<Range<Atom>>) -> bool
         Update::Failed(why) => panic!("{why}"),
     }
     false
+}
+
+/// No worker does anything while its machine is paused or has speed 0, and only real changes of a pause are recorded.
+fn assert_stands_still(log: &RunLog) {
+    let mut speeds = log.header.speeds.clone();
+    let mut paused = vec![false; speeds.len()];
+    for record in log.records() {
+        match record.what {
+            What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
+            What::Paused { node } => assert!(!std::mem::replace(&mut paused[usize::from(node)], true)),
+            What::Resumed { node } => assert!(std::mem::replace(&mut paused[usize::from(node)], false)),
+            What::AtomStarted { node, atom } | What::AtomDone { node, atom, .. } => {
+                let node = usize::from(node);
+                assert!(
+                    speeds[node] > 0.0 && !paused[node],
+                    "atom {atom} was traced by node {node}, which stands still"
+                );
+            }
+            _ => {}
+        }
+    }
 }
 
 fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Division) {

@@ -27,7 +27,9 @@ pub fn auto_pace(speeds: &[f64], cores: usize) -> f64 {
 #[derive(Debug)]
 pub(super) struct Machine {
     pace: f64,
-    rate: f64,
+    /// As a fraction of the reference machine's; a pause does not change it.
+    speed: f64,
+    paused: bool,
     time: Time,
     /// Work of the piece in hand that is left at `time`, in CPU seconds.
     left: f64,
@@ -37,7 +39,7 @@ impl Machine {
     /// A machine without work at [`Time::ZERO`]. `speed` is a fraction of the reference machine's, which gets the
     /// fraction `pace` of a core.
     pub fn new(speed: f64, pace: f64) -> Self {
-        Self { pace, rate: rate(speed, pace), time: Time::ZERO, left: 0.0 }
+        Self { pace, speed, paused: false, time: Time::ZERO, left: 0.0 }
     }
 
     /// The machine's own time: up to here it has done what it had to.
@@ -47,12 +49,12 @@ impl Machine {
 
     /// Whether the machine is this computer itself: then it waits for nothing, and its times are real.
     pub fn is_full(&self) -> bool {
-        self.rate >= 1.0
+        self.rate() >= 1.0
     }
 
-    /// Whether its worker stands still.
+    /// Whether its worker stands still, because it is paused or has speed 0.
     pub fn is_stopped(&self) -> bool {
-        self.rate == 0.0
+        self.rate() == 0.0
     }
 
     /// When the machine can begin something that it could have had since `available`: at once if it is idle. The
@@ -72,7 +74,7 @@ impl Machine {
         if self.left == 0.0 {
             return Some(self.time);
         }
-        (!self.is_stopped()).then(|| self.time + Duration::from_nanos(Time::from_secs(self.left / self.rate).0))
+        (!self.is_stopped()).then(|| self.time + Duration::from_nanos(Time::from_secs(self.left / self.rate()).0))
     }
 
     /// The piece in hand is done at `at`.
@@ -81,19 +83,37 @@ impl Machine {
         self.left = 0.0;
     }
 
-    /// Changes the speed at `at`: what is left of the piece in hand goes on at the new one.
+    /// Changes the speed at `at`: what is left of the piece in hand goes on at the new one, once the machine is not
+    /// paused.
     pub fn set_speed(&mut self, speed: f64, at: Time) {
-        let done = at.since(self.time).as_secs_f64() * self.rate;
+        self.work_until(at);
+        self.speed = speed;
+    }
+
+    /// Whether the machine is paused, whatever its speed.
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// Makes the machine stand still at `at`, in the middle of a piece too, or go on at its speed.
+    pub fn set_paused(&mut self, paused: bool, at: Time) {
+        self.work_until(at);
+        self.paused = paused;
+    }
+
+    /// Moves the machine's time on to `at`, if that is later.
+    fn work_until(&mut self, at: Time) {
+        let done = at.since(self.time).as_secs_f64() * self.rate();
         self.left = (self.left - done).max(0.0);
         self.time = self.time.max(at);
-        self.rate = rate(speed, self.pace);
     }
-}
 
-fn rate(speed: f64, pace: f64) -> f64 {
-    let rate = speed * pace;
-    // NaN is not above 0 either: a machine that stands still.
-    if rate > 0.0 { rate.min(1.0) } else { 0.0 }
+    /// CPU seconds of this computer that the machine does in a second, from 0 to 1.
+    fn rate(&self) -> f64 {
+        let rate = if self.paused { 0.0 } else { self.speed * self.pace };
+        // NaN is not above 0 either: a machine that stands still.
+        if rate > 0.0 { rate.min(1.0) } else { 0.0 }
+    }
 }
 
 #[cfg(test)]
@@ -125,6 +145,18 @@ mod tests {
     }
 
     #[test]
+    fn a_pause_stands_still_at_any_speed() {
+        let mut machine = Machine::new(0.5, 1.0);
+        machine.begin(Time::ZERO, Duration::from_secs(1));
+        machine.set_paused(true, Time::from_secs(1.0));
+        assert_eq!((machine.is_stopped(), machine.is_full(), machine.due()), (true, false, None));
+        machine.set_speed(1.0, Time::from_secs(2.0));
+        assert_eq!((machine.is_stopped(), machine.is_full(), machine.due()), (true, false, None));
+        machine.set_paused(false, Time::from_secs(3.0));
+        assert_eq!((machine.is_full(), machine.due()), (true, secs(3.5)));
+    }
+
+    #[test]
     fn lateness_is_made_up_within_bounds() {
         let mut machine = Machine::new(0.5, 1.0);
         machine.finish(Time::from_secs(1.0));
@@ -142,19 +174,31 @@ mod tests {
     }
 
     proptest! {
-        /// However often the speed swings, the work done is the integral of the rate.
+        /// However often the speed swings and the machine is paused, the work done is the integral of the rate.
         #[test]
-        fn swinging_speeds_do_the_work_once(swings in prop::collection::vec((0.01f64..0.2, 0.0f64..1.0), 0..20)) {
+        fn swings_and_pauses_do_the_work_once(
+            swings in prop::collection::vec((0.01f64..0.2, prop::option::of(0.0f64..1.0), any::<bool>()), 0..20),
+        ) {
             let mut machine = Machine::new(0.3, 0.5);
             machine.begin(Time::ZERO, Duration::from_secs(10));
-            let (mut at, mut left, mut rate) = (0.0, 10.0, 0.15);
-            for (later, speed) in swings {
+            let (mut at, mut left, mut speed, mut paused) = (0.0, 10.0, 0.3, false);
+            for (later, new_speed, pause) in swings {
                 at += later;
-                left -= later * rate;
-                rate = speed * 0.5;
-                machine.set_speed(speed, Time::from_secs(at));
+                left -= if paused { 0.0 } else { later * speed * 0.5 };
+                match new_speed {
+                    Some(new_speed) => {
+                        speed = new_speed;
+                        machine.set_speed(speed, Time::from_secs(at));
+                    }
+                    None => {
+                        paused = pause;
+                        machine.set_paused(paused, Time::from_secs(at));
+                    }
+                }
+                prop_assert_eq!(machine.is_paused(), paused);
             }
             machine.set_speed(0.5, Time::from_secs(at));
+            machine.set_paused(false, Time::from_secs(at));
             let due = machine.due().unwrap().secs();
             prop_assert!((due - (at + left / 0.25)).abs() < 1e-6, "{due}");
         }

@@ -16,6 +16,7 @@ mod node_thread;
 mod parent_thread;
 mod port;
 mod probe;
+mod shared;
 
 pub use machine::{auto_pace, cores};
 pub use probe::{Probe, probe};
@@ -36,7 +37,8 @@ use crate::time::Time;
 use crate::tracer::{RayCounts, Scratch, Tracer};
 use node_thread::NodeThread;
 use parent_thread::ParentThread;
-use port::{Parcel, Port, Shared};
+use port::Port;
+use shared::{Command, Parcel, Shared};
 
 /// What a run tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses it once.
 #[derive(Debug)]
@@ -115,7 +117,14 @@ impl Run {
     pub fn set_speed(&self, node: NodeId, speed: f64) {
         // NaN is not above 0 either.
         let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
-        self.shared.set_speed(usize::from(node), speed);
+        self.shared.command(node, Command::Speed(speed));
+    }
+
+    /// Makes a node's worker stand still at once, in the middle of an atom too, or go on at the node's speed; the node
+    /// still answers messages. A speed that is set meanwhile counts when the worker goes on. A node that has ended does
+    /// not mind.
+    pub fn set_paused(&self, node: NodeId, paused: bool) {
+        self.shared.command(node, Command::Pause(paused));
     }
 
     /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one.

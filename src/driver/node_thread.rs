@@ -11,6 +11,7 @@ use std::time::Duration;
 use super::machine::Machine;
 use super::meter::{Batch, Meter};
 use super::port::{Incoming, Port, Stopped};
+use super::shared::Command;
 use super::{TracePixels, Update};
 use crate::balance::{Action, Event, Message, Node, NodeId};
 use crate::picture::{Atom, Colour, Division};
@@ -129,14 +130,25 @@ impl<'run> NodeThread<'run> {
         while let Some(incoming) = self.port.next(horizon(self)) {
             match incoming {
                 Incoming::Event(event, _) => self.hand_over(event),
-                Incoming::Speed(speed) => self.set_speed(speed),
+                Incoming::Command(command) => self.obey(command),
             }
         }
     }
 
-    fn set_speed(&mut self, speed: f64) {
-        self.machine.set_speed(speed, self.port.time());
-        self.port.record(What::SpeedSet { node: self.id, speed });
+    fn obey(&mut self, command: Command) {
+        let (node, at) = (self.id, self.port.time());
+        let what = match command {
+            Command::Speed(speed) => {
+                self.machine.set_speed(speed, at);
+                What::SpeedSet { node, speed }
+            }
+            Command::Pause(paused) if paused == self.machine.is_paused() => return,
+            Command::Pause(paused) => {
+                self.machine.set_paused(paused, at);
+                if paused { What::Paused { node } } else { What::Resumed { node } }
+            }
+        };
+        self.port.record(what);
         // At another speed costs are measured otherwise.
         self.split_batch();
         self.meter.lap();

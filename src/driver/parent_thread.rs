@@ -61,7 +61,7 @@ impl<'run> ParentThread<'run> {
                     }
                     self.hand_over(event);
                 }
-                Some(Incoming::Speed(_)) => unreachable!("the parent has no machine"),
+                Some(Incoming::Command(_)) => unreachable!("the parent has no machine"),
                 None => self.port.wait(None),
             }
         }

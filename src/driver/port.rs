@@ -2,16 +2,15 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
-use super::clock::Clock;
 use super::link::Link;
+use super::shared::{Command, Content, Parcel, Shared};
 use crate::balance::{Event, Message, Party};
-use crate::picture::{Colour, Division};
+use crate::picture::Colour;
 use crate::record::{Record, What};
 use crate::runlog::Header;
 use crate::time::Time;
@@ -23,103 +22,12 @@ const FLUSH: Duration = Duration::from_millis(15);
 #[derive(Debug)]
 pub(super) struct Stopped;
 
-/// What all parties of a run share.
-pub(super) struct Shared {
-    pub clock: Clock,
-    /// By node, and the parent's last.
-    inboxes: Vec<Sender<Parcel>>,
-    stopped: AtomicBool,
-    next_id: AtomicU64,
-    /// Of every link, in nanoseconds.
-    latency: AtomicU64,
-    bandwidth: Option<f64>,
-    division: Division,
-    scene_bytes: u64,
-}
-
-impl Shared {
-    /// What the parties share, and their inboxes: by node, and the parent's last.
-    pub fn new(header: &Header) -> (Self, Vec<Receiver<Parcel>>) {
-        // Unbounded, so that no party ever waits for another; `balance::ring` argues how little is in flight.
-        let (inboxes, receivers) = (0..=header.speeds.len()).map(|_| crossbeam_channel::unbounded()).unzip();
-        let shared = Self {
-            clock: Clock::start(),
-            inboxes,
-            stopped: AtomicBool::new(false),
-            next_id: AtomicU64::new(0),
-            latency: AtomicU64::new(0),
-            bandwidth: header.link.bandwidth,
-            division: header.division,
-            scene_bytes: header.scene_text.len() as u64,
-        };
-        shared.set_latency(header.link.latency);
-        (shared, receivers)
-    }
-
-    /// Sets the latency of every link for the messages that leave from now on.
-    pub fn set_latency(&self, latency: Duration) {
-        self.latency.store(u64::try_from(latency.as_nanos()).unwrap_or(u64::MAX), Ordering::Relaxed);
-    }
-
-    /// Sets a machine's speed; a node that has ended, or never was, does not mind.
-    pub fn set_speed(&self, node: usize, speed: f64) {
-        if node + 1 < self.inboxes.len() {
-            self.deliver(node, self.clock.now(), Content::Speed(speed));
-        }
-    }
-
-    /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
-    pub fn stop(&self) {
-        self.stopped.store(true, Ordering::SeqCst);
-        self.clock.end();
-        (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
-    }
-
-    /// Whether [`Shared::stop`] was called.
-    pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::SeqCst)
-    }
-
-    fn index(&self, party: Party) -> usize {
-        match party {
-            Party::Node(node) => usize::from(node),
-            Party::Parent => self.inboxes.len() - 1,
-        }
-    }
-
-    fn deliver(&self, to: usize, due: Time, content: Content) -> u64 {
-        let id = self.next_id.fetch_add(1, Ordering::Relaxed);
-        // A party that has ended no longer listens: what still comes its way is void.
-        let _ = self.inboxes[to].send(Parcel { due, id, content });
-        id
-    }
-}
-
-/// Something on its way to a party.
-pub(super) struct Parcel {
-    due: Time,
-    id: u64,
-    content: Content,
-}
-
-enum Content {
-    Message {
-        from: Party,
-        message: Message,
-        /// Of the atoms of [`Message::Results`], in their order.
-        pixels: Vec<Colour>,
-    },
-    Speed(f64),
-    /// Nothing but a reason to look whether the run was stopped.
-    Wake,
-}
-
 /// What happens to a party next.
 pub(super) enum Incoming {
     /// To be handed to the protocol, with the pixels of results.
     Event(Event, Vec<Colour>),
-    /// The machine's speed was changed.
-    Speed(f64),
+    /// What the user does to its machine.
+    Command(Command),
 }
 
 /// One party's port; it lives on the party's thread.
@@ -129,7 +37,7 @@ pub(super) struct Port<'run> {
     inbox: Receiver<Parcel>,
     /// What has come but is not due yet, the earliest on top.
     held: BinaryHeap<Reverse<Parcel>>,
-    /// By party, as `Shared::inboxes`.
+    /// By party, as [`Shared::index`] has them.
     links: Vec<Link>,
     timer: Option<Time>,
     handling: Duration,
@@ -155,7 +63,7 @@ impl<'run> Port<'run> {
             me,
             inbox,
             held: BinaryHeap::new(),
-            links: vec![Link::default(); shared.inboxes.len()],
+            links: vec![Link::default(); shared.parties()],
             timer: None,
             handling: if me == Party::Parent { header.handling } else { Duration::ZERO },
             // Emulated machines make up for threads that wake late. Where all are this computer itself, late is late.
@@ -192,9 +100,8 @@ impl<'run> Port<'run> {
     pub fn send(&mut self, to: Party, message: Message, pixels: Vec<Colour>) {
         let shared = self.shared;
         let bytes = message.bytes(shared.division, shared.scene_bytes);
-        let latency = Duration::from_nanos(shared.latency.load(Ordering::Relaxed));
         let receiver = shared.index(to);
-        let arrives = self.links[receiver].arrival(self.time, bytes, latency, shared.bandwidth);
+        let arrives = self.links[receiver].arrival(self.time, bytes, shared.latency(), shared.bandwidth);
         let content = Content::Message { from: self.me, message: message.clone(), pixels };
         let id = shared.deliver(receiver, arrives, content);
         self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
@@ -224,7 +131,7 @@ impl<'run> Port<'run> {
                 self.record(What::Received { id, by: self.me });
                 Some(Incoming::Event(Event::Message { from, message }, pixels))
             }
-            Content::Speed(speed) => Some(Incoming::Speed(speed)),
+            Content::Command(command) => Some(Incoming::Command(command)),
             Content::Wake => None,
         }
     }
@@ -282,27 +189,6 @@ impl<'run> Port<'run> {
     fn handled(&self) -> Option<Time> {
         let Reverse(next) = self.held.peek()?;
         Some(if self.handling.is_zero() { next.due } else { next.due.max(self.time) + self.handling })
-    }
-}
-
-impl PartialEq for Parcel {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Parcel {}
-
-impl PartialOrd for Parcel {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Parcel {
-    /// The earlier first; of those due at once, the one sent first.
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        (self.due, self.id).cmp(&(other.due, other.id))
     }
 }
 

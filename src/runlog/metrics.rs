@@ -23,27 +23,33 @@ pub fn work(records: &[Record]) -> Duration {
 
 /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
 /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`work`]. Speeds
-/// that change count from then on. `None` if the machines stand still before the work is done.
+/// that change count from then on, and a paused machine does nothing. `None` if the machines stand still before the
+/// work is done.
 pub fn ideal(header: &Header, records: &[Record]) -> Option<Duration> {
     let start = start(records)?;
-    let mut speeds = header.speeds.clone();
+    let mut machines: Vec<_> = header.speeds.iter().map(|&speed| Machine { speed, paused: false }).collect();
     let mut left = work(records).as_secs_f64();
     let mut since = start;
     for record in records {
-        if let What::SpeedSet { node, speed } = record.what {
-            let span = record.at.since(since).as_secs_f64();
-            let rate = rate(header, &speeds);
-            if left <= span * rate {
-                break;
-            }
-            left -= span * rate;
-            since = since.max(record.at);
-            if let Some(changed) = speeds.get_mut(usize::from(node)) {
-                *changed = speed;
-            }
+        let (node, speed, paused) = match record.what {
+            What::SpeedSet { node, speed } => (node, Some(speed), None),
+            What::Paused { node } => (node, None, Some(true)),
+            What::Resumed { node } => (node, None, Some(false)),
+            _ => continue,
+        };
+        let span = record.at.since(since).as_secs_f64();
+        let rate = rate(header, &machines);
+        if left <= span * rate {
+            break;
+        }
+        left -= span * rate;
+        since = since.max(record.at);
+        if let Some(machine) = machines.get_mut(usize::from(node)) {
+            machine.speed = speed.unwrap_or(machine.speed);
+            machine.paused = paused.unwrap_or(machine.paused);
         }
     }
-    let rest = Duration::try_from_secs_f64(left / rate(header, &speeds)).ok()?;
+    let rest = Duration::try_from_secs_f64(left / rate(header, &machines)).ok()?;
     Some(since.since(start) + rest)
 }
 
@@ -139,9 +145,15 @@ fn start(records: &[Record]) -> Option<Time> {
     records.iter().find(band).map(|record| record.at)
 }
 
+struct Machine {
+    speed: f64,
+    paused: bool,
+}
+
 /// CPU seconds of this computer that all machines together do in a second.
-fn rate(header: &Header, speeds: &[f64]) -> f64 {
-    (speeds.iter().sum::<f64>() * header.pace).min(header.cores as f64)
+fn rate(header: &Header, machines: &[Machine]) -> f64 {
+    let speeds = machines.iter().map(|machine| if machine.paused { 0.0 } else { machine.speed });
+    (speeds.sum::<f64>() * header.pace).min(header.cores as f64)
 }
 
 #[cfg(test)]
@@ -208,6 +220,20 @@ mod tests {
         assert_eq!(ideal(&header, &run), None, "nobody works any more");
         run.insert(6, at(8, What::SpeedSet { node: 0, speed: 0.5 }));
         assert_eq!(ideal(&header, &run), secs(7 + 26));
+    }
+
+    #[test]
+    fn a_paused_machine_counts_as_one_that_stands_still() {
+        let header = header(&[1.0, 1.0]);
+        let mut run = run();
+        // Two a second for 3 s, one a second for 5, and again two a second for the 9 that are left.
+        run.insert(2, at(4, What::Paused { node: 1 }));
+        assert_eq!(ideal(&header, &run), secs(17), "until the end");
+        run.insert(6, at(9, What::Resumed { node: 1 }));
+        assert_eq!(ideal(&header, &run), Some(Duration::from_millis(12_500)));
+        // A speed that is set meanwhile counts from then on.
+        run.insert(3, at(5, What::SpeedSet { node: 1, speed: 0.5 }));
+        assert_eq!(ideal(&header, &run), secs(8 + 6));
     }
 
     #[test]

@@ -1,0 +1,146 @@
+//! What all parties of a run share: the clock, the network, and each other's inboxes.
+
+use std::cmp::Ordering;
+use std::sync::atomic::{self, AtomicBool, AtomicU64};
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender};
+
+use super::clock::Clock;
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::{Colour, Division};
+use crate::runlog::Header;
+use crate::time::Time;
+
+/// What all parties of a run share.
+pub(super) struct Shared {
+    pub clock: Clock,
+    /// By node, and the parent's last.
+    inboxes: Vec<Sender<Parcel>>,
+    stopped: AtomicBool,
+    next_id: AtomicU64,
+    /// Of every link, in nanoseconds.
+    latency: AtomicU64,
+    pub bandwidth: Option<f64>,
+    pub division: Division,
+    pub scene_bytes: u64,
+}
+
+/// Something on its way to a party. The earlier is the smaller; of those due at once, the one sent first.
+pub(super) struct Parcel {
+    pub due: Time,
+    pub id: u64,
+    pub content: Content,
+}
+
+/// What is on its way.
+pub(super) enum Content {
+    Message {
+        from: Party,
+        message: Message,
+        /// Of the atoms of [`Message::Results`], in their order.
+        pixels: Vec<Colour>,
+    },
+    Command(Command),
+    /// Nothing but a reason to look whether the run was stopped.
+    Wake,
+}
+
+/// What the user does to a node's machine while the run goes on.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Command {
+    /// Gives it another speed.
+    Speed(f64),
+    /// Makes its worker stand still, or go on.
+    Pause(bool),
+}
+
+impl Shared {
+    /// What the parties share, and their inboxes: by node, and the parent's last.
+    pub fn new(header: &Header) -> (Self, Vec<Receiver<Parcel>>) {
+        // Unbounded, so that no party ever waits for another; `balance::ring` argues how little is in flight.
+        let (inboxes, receivers) = (0..=header.speeds.len()).map(|_| crossbeam_channel::unbounded()).unzip();
+        let shared = Self {
+            clock: Clock::start(),
+            inboxes,
+            stopped: AtomicBool::new(false),
+            next_id: AtomicU64::new(0),
+            latency: AtomicU64::new(0),
+            bandwidth: header.link.bandwidth,
+            division: header.division,
+            scene_bytes: header.scene_text.len() as u64,
+        };
+        shared.set_latency(header.link.latency);
+        (shared, receivers)
+    }
+
+    /// How many parties there are.
+    pub fn parties(&self) -> usize {
+        self.inboxes.len()
+    }
+
+    /// The place of a party among all: by node, and the parent last.
+    pub fn index(&self, party: Party) -> usize {
+        match party {
+            Party::Node(node) => usize::from(node),
+            Party::Parent => self.inboxes.len() - 1,
+        }
+    }
+
+    /// The latency of every link for the messages that leave now.
+    pub fn latency(&self) -> Duration {
+        Duration::from_nanos(self.latency.load(atomic::Ordering::Relaxed))
+    }
+
+    /// Sets the latency of every link for the messages that leave from now on.
+    pub fn set_latency(&self, latency: Duration) {
+        self.latency.store(u64::try_from(latency.as_nanos()).unwrap_or(u64::MAX), atomic::Ordering::Relaxed);
+    }
+
+    /// Gives a node a command now; one that has ended, or never was, does not mind.
+    pub fn command(&self, node: NodeId, command: Command) {
+        if usize::from(node) + 1 < self.inboxes.len() {
+            self.deliver(usize::from(node), self.clock.now(), Content::Command(command));
+        }
+    }
+
+    /// Puts something into the inbox of the party with this index; returns the id that it was given.
+    pub fn deliver(&self, to: usize, due: Time, content: Content) -> u64 {
+        let id = self.next_id.fetch_add(1, atomic::Ordering::Relaxed);
+        // A party that has ended no longer listens: what still comes its way is void.
+        let _ = self.inboxes[to].send(Parcel { due, id, content });
+        id
+    }
+
+    /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
+    pub fn stop(&self) {
+        self.stopped.store(true, atomic::Ordering::SeqCst);
+        self.clock.end();
+        (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
+    }
+
+    /// Whether [`Shared::stop`] was called.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(atomic::Ordering::SeqCst)
+    }
+}
+
+impl PartialEq for Parcel {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Parcel {}
+
+impl PartialOrd for Parcel {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Parcel {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.due, self.id).cmp(&(other.due, other.id))
+    }
+}
