@@ -110,14 +110,20 @@ fn one_hundred_on_threads() {
         let run =
             Run::start_with(|pixels, _, out| trace(pixels, out, |pixel| if pixel < 50 { 2000 } else { 10 }), &header);
         let nodes = header.speeds.len() as u64;
+        let mut set = vec![header.link.latency];
         for _ in 0..random.below(6) {
             std::thread::sleep(random.below(3) as u32 * MS);
             run.set_speed(random.below(nodes) as NodeId, random.speed());
             run.set_paused(random.below(nodes) as NodeId, random.below(2) == 0);
-            run.set_latency(random.below(5) as u32 * MS);
+            set.push(random.below(5) as u32 * MS);
+            run.set_latency(set[set.len() - 1]);
         }
+        set.dedup();
         (0..nodes as NodeId).for_each(|node| run.set_paused(node, false));
-        assert_stands_still(&finish(&run, &header));
+        let log = finish(&run, &header);
+        assert_stands_still(&log);
+        // What was set after the end is not in the records.
+        assert!(set[1..].starts_with(&latencies(&log)), "{set:?}");
     });
 }
 
@@ -171,13 +177,14 @@ fn stop_the_second(pace: f64, stop: fn(&Run, bool)) {
 }
 
 #[test]
-fn only_real_pauses_are_recorded() {
+fn only_real_pauses_and_latencies_are_recorded() {
     // The second node cannot be done before it has a speed.
     let header = header(Size::new(100, 50).unwrap(), 10, vec![0.5, 0.0]);
     let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
-    for (node, paused) in [(1, false), (1, true), (1, true), (7, true), (1, false), (1, false), (0, false)] {
+    for (node, paused) in [(1, false), (1, true), (1, true), (2, true), (1, false), (1, false), (0, false)] {
         run.set_paused(node, paused);
     }
+    [0, 3, 3, 0, 1].into_iter().for_each(|ms| run.set_latency(ms * MS));
     run.set_speed(1, 0.5);
     let log = finish(&run, &header);
     let pauses: Vec<_> = log
@@ -187,6 +194,7 @@ fn only_real_pauses_are_recorded() {
         .filter(|what| matches!(what, What::Paused { .. } | What::Resumed { .. }))
         .collect();
     assert_eq!(pauses, [&What::Paused { node: 1 }, &What::Resumed { node: 1 }]);
+    assert_eq!(latencies(&log), [3 * MS, Duration::ZERO, MS]);
 }
 
 #[test]
@@ -294,6 +302,12 @@ fn assert_stands_still(log: &RunLog) {
             _ => {}
         }
     }
+}
+
+/// Every latency that was set.
+fn latencies(log: &RunLog) -> Vec<Duration> {
+    let latency = |what: &What| if let What::LatencySet { latency } = what { Some(*latency) } else { None };
+    log.records().iter().filter_map(|record| latency(&record.what)).collect()
 }
 
 fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Division) {

@@ -127,7 +127,8 @@ impl Run {
         self.shared.command(node, Command::Pause(paused));
     }
 
-    /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one.
+    /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one. The
+    /// parent records a change, unless it has ended.
     pub fn set_latency(&self, latency: Duration) {
         self.shared.set_latency(latency);
     }

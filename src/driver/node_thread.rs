@@ -147,6 +147,7 @@ impl<'run> NodeThread<'run> {
                 self.machine.set_paused(paused, at);
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
+            Command::Latency(_) => unreachable!("the parent notes down the latency"),
         };
         self.port.record(what);
         // At another speed costs are measured otherwise.

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::Update;
 use super::port::{Incoming, Port, Stopped};
+use super::shared::Command;
 use crate::balance::{Action, Event, Message, NodeId, Parent};
 use crate::picture::{Atom, Colour};
 use crate::record::What;
@@ -61,7 +62,10 @@ impl<'run> ParentThread<'run> {
                     }
                     self.hand_over(event);
                 }
-                Some(Incoming::Command(_)) => unreachable!("the parent has no machine"),
+                Some(Incoming::Command(Command::Latency(latency))) => {
+                    self.port.record(What::LatencySet { latency });
+                }
+                Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
                 None => self.port.wait(None),
             }
         }

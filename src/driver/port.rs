@@ -184,11 +184,12 @@ impl<'run> Port<'run> {
         }
     }
 
-    /// When the party will have handled the next parcel held: it begins as soon as the parcel is due and the one
-    /// before is done with, and takes its handling time.
+    /// When the party will have handled the next parcel held: it begins with a message as soon as that is due and the
+    /// one before is done with, and takes its handling time. A command takes none.
     fn handled(&self) -> Option<Time> {
         let Reverse(next) = self.held.peek()?;
-        Some(if self.handling.is_zero() { next.due } else { next.due.max(self.time) + self.handling })
+        let takes_time = !self.handling.is_zero() && matches!(next.content, Content::Message { .. });
+        Some(if takes_time { next.due.max(self.time) + self.handling } else { next.due })
     }
 }
 
@@ -235,6 +236,22 @@ mod tests {
         let (zero, one) = (Party::Node(0), Party::Node(1));
         let got = results(&header(5 * MS, Duration::ZERO), &[7, 9, 9, 20]);
         assert_eq!(got, [None, Some((one, 8)), None, Some((zero, 13))]);
+    }
+
+    #[test]
+    fn a_command_takes_no_handling_time() {
+        let header = header(5 * MS, Duration::ZERO);
+        let (shared, mut inboxes) = Shared::new(&header);
+        let (updates, _listener) = crossbeam_channel::unbounded();
+        let mut parent = Port::new(Party::Parent, &header, &shared, inboxes.pop().unwrap(), updates);
+        // The clock stands still, so that the command is due then.
+        shared.clock.pause();
+        shared.set_latency(MS);
+        let now = shared.clock.now();
+        assert!(matches!(parent.next(now), Some(Incoming::Command(Command::Latency(MS)))));
+        assert_eq!(parent.time(), now);
+        shared.set_latency(MS);
+        assert!(parent.next(now + MS).is_none(), "nothing has changed");
     }
 
     #[test]

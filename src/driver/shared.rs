@@ -46,13 +46,15 @@ pub(super) enum Content {
     Wake,
 }
 
-/// What the user does to a node's machine while the run goes on.
+/// What the user does to a run while it goes on.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Command {
-    /// Gives it another speed.
+    /// Gives a node's machine another speed.
     Speed(f64),
-    /// Makes its worker stand still, or go on.
+    /// Makes a node's worker stand still, or go on.
     Pause(bool),
+    /// The latency is another now: the parent notes it down.
+    Latency(Duration),
 }
 
 impl Shared {
@@ -65,12 +67,11 @@ impl Shared {
             inboxes,
             stopped: AtomicBool::new(false),
             next_id: AtomicU64::new(0),
-            latency: AtomicU64::new(0),
+            latency: AtomicU64::new(nanoseconds(header.link.latency)),
             bandwidth: header.link.bandwidth,
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,
         };
-        shared.set_latency(header.link.latency);
         (shared, receivers)
     }
 
@@ -92,9 +93,13 @@ impl Shared {
         Duration::from_nanos(self.latency.load(atomic::Ordering::Relaxed))
     }
 
-    /// Sets the latency of every link for the messages that leave from now on.
+    /// Sets the latency of every link for the messages that leave from now on, and tells the parent of a change.
     pub fn set_latency(&self, latency: Duration) {
-        self.latency.store(u64::try_from(latency.as_nanos()).unwrap_or(u64::MAX), atomic::Ordering::Relaxed);
+        let nanoseconds = nanoseconds(latency);
+        if self.latency.swap(nanoseconds, atomic::Ordering::Relaxed) != nanoseconds {
+            let command = Content::Command(Command::Latency(latency));
+            self.deliver(self.index(Party::Parent), self.clock.now(), command);
+        }
     }
 
     /// Gives a node a command now; one that has ended, or never was, does not mind.
@@ -123,6 +128,11 @@ impl Shared {
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(atomic::Ordering::SeqCst)
     }
+}
+
+/// A length as whole nanoseconds, at most those of 584 years.
+fn nanoseconds(length: Duration) -> u64 {
+    u64::try_from(length.as_nanos()).unwrap_or(u64::MAX)
 }
 
 impl PartialEq for Parcel {
