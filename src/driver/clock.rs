@@ -1,6 +1,6 @@
 //! The run's clock: the only place in the driver that reads the computer's.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -17,16 +17,11 @@ pub(super) struct Clock {
     lost: AtomicU64,
     /// The time at which the clock stands still, or [`RUNNING`].
     frozen: AtomicU64,
-    state: Mutex<State>,
-    resumed: Condvar,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    Running,
-    Paused,
     /// The run is over: nobody may be made to wait any more.
-    Ended,
+    ended: AtomicBool,
+    /// Held while a pause begins or ends.
+    change: Mutex<()>,
+    resumed: Condvar,
 }
 
 impl Clock {
@@ -37,7 +32,8 @@ impl Clock {
             start: Instant::now(),
             lost: AtomicU64::new(0),
             frozen: AtomicU64::new(RUNNING),
-            state: Mutex::new(State::Running),
+            ended: AtomicBool::new(false),
+            change: Mutex::new(()),
             resumed: Condvar::new(),
         }
     }
@@ -60,21 +56,28 @@ impl Clock {
 
     /// Makes the clock stand still, unless it does or the run is over.
     pub fn pause(&self) {
-        let mut state = self.lock();
-        if *state == State::Running {
+        let _change = self.lock();
+        if !self.is_paused() && !self.has_ended() {
             self.frozen.store(self.now().0, Ordering::SeqCst);
-            *state = State::Paused;
         }
     }
 
     /// Lets the clock go on.
     pub fn resume(&self) {
-        self.leave_pause(State::Running);
+        let _change = self.lock();
+        if self.is_paused() {
+            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
+            let frozen = self.frozen.load(Ordering::SeqCst);
+            self.lost.store(self.elapsed() - frozen, Ordering::SeqCst);
+            self.frozen.store(RUNNING, Ordering::SeqCst);
+        }
+        self.resumed.notify_all();
     }
 
-    /// Lets the clock go on for good: it cannot be paused any more.
+    /// Lets the clock go on for good: the run is over, and it cannot be paused any more.
     pub fn end(&self) {
-        self.leave_pause(State::Ended);
+        self.ended.store(true, Ordering::SeqCst);
+        self.resume();
     }
 
     /// Whether the clock stands still.
@@ -82,28 +85,19 @@ impl Clock {
         self.frozen.load(Ordering::SeqCst) != RUNNING
     }
 
-    /// Blocks until the clock runs.
-    pub fn wait_until_resumed(&self) {
-        let _running = self.resumed.wait_while(self.lock(), |state| *state == State::Paused);
+    /// Whether the run is over: [`Clock::end`] was called.
+    pub fn has_ended(&self) -> bool {
+        self.ended.load(Ordering::SeqCst)
     }
 
-    fn leave_pause(&self, next: State) {
-        let mut state = self.lock();
-        if *state == State::Paused {
-            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
-            let frozen = self.frozen.load(Ordering::SeqCst);
-            self.lost.store(self.elapsed() - frozen, Ordering::SeqCst);
-            self.frozen.store(RUNNING, Ordering::SeqCst);
-        }
-        if *state != State::Ended {
-            *state = next;
-        }
-        self.resumed.notify_all();
+    /// Blocks until the clock runs.
+    pub fn wait_until_resumed(&self) {
+        let _running = self.resumed.wait_while(self.lock(), |()| self.is_paused());
     }
 
     /// The lock has nothing to protect but the waiting, so that a panic elsewhere does no harm to it.
-    fn lock(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, ()> {
+        self.change.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Nanoseconds since the start, pauses included: enough for 584 years.

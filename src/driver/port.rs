@@ -155,6 +155,10 @@ impl<'run> Port<'run> {
 
     /// Blocks until something comes in or is due, or until `until`, or until it is time to flush.
     pub fn wait(&mut self, until: Option<Time>) {
+        // What was sent to say so may be out of the inbox already.
+        if self.shared.is_stopped() {
+            return;
+        }
         let flush = (!self.records.is_empty()).then_some(self.flushed + FLUSH);
         let wake = [until, self.timer, self.handled(), flush].into_iter().flatten().min();
         let came = match wake {
@@ -266,5 +270,18 @@ mod tests {
         assert!(matches!(port.next(Time::ZERO + 9 * MS), Some(Incoming::Event(Event::Timer, _))));
         assert_eq!(port.time(), Time::ZERO + 3 * MS);
         assert!(port.next(Time::ZERO + 9 * MS).is_none());
+    }
+
+    #[test]
+    fn nobody_waits_in_a_run_that_was_stopped() {
+        let header = header(Duration::ZERO, Duration::ZERO);
+        let (shared, mut inboxes) = Shared::new(&header);
+        let (updates, _listener) = crossbeam_channel::unbounded();
+        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.remove(0), updates);
+        shared.stop();
+        // It takes what was sent to wake it out of the inbox, and nothing else would.
+        assert!(port.next(Time::ZERO).is_none());
+        port.wait(None);
+        assert!(port.step(|_| {}).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! What all parties of a run share: the clock, the network, and each other's inboxes.
 
 use std::cmp::Ordering;
-use std::sync::atomic::{self, AtomicBool, AtomicU64};
+use std::sync::atomic::{self, AtomicU64};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
@@ -17,7 +17,6 @@ pub(super) struct Shared {
     pub clock: Clock,
     /// By node, and the parent's last.
     inboxes: Vec<Sender<Parcel>>,
-    stopped: AtomicBool,
     next_id: AtomicU64,
     /// Of every link, in nanoseconds.
     latency: AtomicU64,
@@ -65,7 +64,6 @@ impl Shared {
         let shared = Self {
             clock: Clock::start(),
             inboxes,
-            stopped: AtomicBool::new(false),
             next_id: AtomicU64::new(0),
             latency: AtomicU64::new(nanoseconds(header.link.latency)),
             bandwidth: header.link.bandwidth,
@@ -119,14 +117,13 @@ impl Shared {
 
     /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
     pub fn stop(&self) {
-        self.stopped.store(true, atomic::Ordering::SeqCst);
         self.clock.end();
         (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
     }
 
     /// Whether [`Shared::stop`] was called.
     pub fn is_stopped(&self) -> bool {
-        self.stopped.load(atomic::Ordering::SeqCst)
+        self.clock.has_ended()
     }
 }
 

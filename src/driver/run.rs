@@ -1,0 +1,178 @@
+//! A run: its threads, and what its user does to it while it goes on.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use crossbeam_channel::{Receiver, Sender};
+
+use super::node_thread::NodeThread;
+use super::parent_thread::ParentThread;
+use super::port::Port;
+use super::shared::{Command, Parcel, Shared};
+use super::supervisor::{Supervisor, Threads};
+use super::{TracePixels, Update};
+use crate::balance::{NodeId, Party};
+use crate::picture::Colour;
+use crate::runlog::Header;
+use crate::time::Time;
+use crate::tracer::{Scratch, Tracer};
+
+/// A run that goes on in its own threads. Dropping it stops them and waits for them.
+pub struct Run {
+    shared: Arc<Shared>,
+    supervisor: Supervisor,
+}
+
+impl Run {
+    /// Starts the run that `header` describes. Its own options are all in the header, so that a saved run can be
+    /// started again.
+    ///
+    /// # Panics
+    /// If the header has no speeds, or more than 65,535.
+    pub fn start(tracer: Arc<Tracer>, header: &Header) -> Self {
+        Self::start_with(move |pixels, scratch, out| tracer.trace(pixels, scratch, out), header)
+    }
+
+    /// [`Run::start`] with anything in the tracer's place: work of a known cost, or one that fails.
+    pub fn start_with(
+        trace: impl Fn(Range<u32>, &mut Scratch, &mut Vec<Colour>) + Send + Sync + 'static,
+        header: &Header,
+    ) -> Self {
+        let nodes = header.speeds.len();
+        assert!((1..=usize::from(NodeId::MAX)).contains(&nodes), "a run of {nodes} nodes is impossible");
+        let (shared, inboxes) = Shared::new(header);
+        let shared = Arc::new(shared);
+        let supervisor = {
+            let (shared, header) = (shared.clone(), header.clone());
+            Supervisor::start("run", move |updates| supervise(&header, &shared, inboxes, &trace, updates))
+        };
+        Self { shared, supervisor }
+    }
+
+    /// What has happened since, oldest first.
+    pub fn updates(&self) -> &Receiver<Update> {
+        self.supervisor.updates()
+    }
+
+    /// The run's clock; it stands still while the run is paused.
+    pub fn now(&self) -> Time {
+        self.shared.clock.now()
+    }
+
+    /// Changes a node's speed (0 to 1) at once, in the middle of an atom too. At 0 its worker stands still, but the
+    /// node still answers messages. A node that has ended does not mind.
+    pub fn set_speed(&self, node: NodeId, speed: f64) {
+        // NaN is not above 0 either.
+        let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
+        self.shared.command(node, Command::Speed(speed));
+    }
+
+    /// Makes a node's worker stand still at once, in the middle of an atom too, or go on at the node's speed; the node
+    /// still answers messages. A speed that is set meanwhile counts when the worker goes on. A node that has ended does
+    /// not mind.
+    pub fn set_paused(&self, node: NodeId, paused: bool) {
+        self.shared.command(node, Command::Pause(paused));
+    }
+
+    /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one. The
+    /// parent records a change, unless it has ended.
+    pub fn set_latency(&self, latency: Duration) {
+        self.shared.set_latency(latency);
+    }
+
+    /// Stops the run's clock, and with it all machines and all messages.
+    pub fn pause(&self) {
+        self.shared.clock.pause();
+    }
+
+    /// Lets the run go on after [`Run::pause`].
+    pub fn resume(&self) {
+        self.shared.clock.resume();
+    }
+
+    /// Tells all threads to end and returns at once. The last update is then [`Update::Failed`], unless the run was
+    /// over.
+    pub fn stop(&self) {
+        self.shared.stop();
+    }
+
+    /// Whether all threads of the run have ended: nothing is left to wait for.
+    pub fn has_ended(&self) -> bool {
+        self.supervisor.has_ended()
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        self.stop();
+        self.supervisor.join();
+    }
+}
+
+/// Runs all parties on threads of their own until all have ended.
+fn supervise(
+    header: &Header,
+    shared: &Shared,
+    inboxes: Vec<Receiver<Parcel>>,
+    trace: &TracePixels,
+    updates: &Sender<Update>,
+) -> Result<(), String> {
+    let nodes = header.speeds.len();
+    thread::scope(|scope| {
+        let mut threads = Threads::new(scope, || shared.stop());
+        for (index, inbox) in inboxes.into_iter().enumerate() {
+            // Made on the party's own thread.
+            let port = |me| Port::new(me, header, shared, inbox, updates.clone());
+            // The parent's inbox is the last, and so the nodes are there before it starts them.
+            if index < nodes {
+                let id = index as NodeId;
+                let node = move || NodeThread::new(id, header, port(Party::Node(id)), trace).run();
+                threads.start(&format!("node {index}"), node);
+            } else {
+                threads.start("parent", move || ParentThread::new(header, port(Party::Parent)).run());
+            }
+        }
+        threads.join()
+    })?;
+    if shared.is_stopped() { Err("the run was stopped".into()) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::What;
+    use crate::runlog::examples::header;
+
+    /// The emulation does not depend on how busy this computer is: in the machine's own time an atom takes exactly what
+    /// it cost, at the machine's rate.
+    #[test]
+    fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
+        let header = Header { pace: 0.5, ..header(&[0.5, 0.1]) };
+        let trace = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+            let spin = |pixel| (0..1000).fold(pixel as f32, |x: f32, _| (x + 1.3).sin());
+            out.extend(pixels.map(|pixel| [spin(pixel); 3]));
+        };
+        let run = Run::start_with(trace, &header);
+        let updates: Vec<Update> =
+            run.updates().iter().take_while(|update| !matches!(update, Update::Finished)).collect();
+        let mut started = [Time::ZERO; 2];
+        let mut atoms = 0;
+        for record in
+            updates.iter().flat_map(|update| if let Update::Records(records) = update { &records[..] } else { &[] })
+        {
+            match record.what {
+                What::AtomStarted { node, .. } => started[usize::from(node)] = record.at,
+                What::AtomDone { node, cost, .. } => {
+                    let rate = header.speeds[usize::from(node)] * header.pace;
+                    let took = record.at.since(started[usize::from(node)]);
+                    assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
+                    atoms += 1;
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(atoms, header.division.atoms());
+    }
+}

@@ -1,0 +1,80 @@
+//! Runs end when they are told to, whatever they were doing, and leave no thread behind. This is a test program of its
+//! own, so that all its threads but one are those of its runs.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use anel::balance::{NodeId, Strategy};
+use anel::driver::{Run, Update};
+use anel::picture::{Colour, Division, Size};
+use anel::runlog::{Header, Link};
+use anel::tracer::Scratch;
+
+const MS: Duration = Duration::from_millis(1);
+const NODES: NodeId = 32;
+
+#[test]
+fn fifty_runs_in_a_row_leave_nothing_running() {
+    let before = threads();
+    let runs: Vec<Run> = (0..50).map(begin_and_stop).collect();
+    assert!(comes_true(|| runs.iter().all(Run::has_ended)), "a run goes on");
+    for run in &runs {
+        let last = run.updates().try_iter().last();
+        assert!(matches!(last, Some(Update::Failed(why)) if why == "the run was stopped"));
+    }
+    // The system may still be clearing away what has ended.
+    assert!(comes_true(|| threads() <= before), "{before} threads before, {} after", threads());
+}
+
+/// Each of the runs is in another state when it is stopped.
+fn begin_and_stop(number: u32) -> Run {
+    let size = Size::new(1000, 100).expect("a size");
+    let header = Header {
+        scene: "endless".into(),
+        scene_text: String::new(),
+        size,
+        samples: 1,
+        division: Division::new(size.pixels(), [10, 50_000][number as usize % 2]),
+        strategy: Strategy::Ring,
+        // Every third node stands still from the start.
+        speeds: (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect(),
+        pace: 1.0,
+        link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, bandwidth: None },
+        handling: Duration::ZERO,
+        part: 1,
+        cores: 2,
+    };
+    // The whole picture would take three minutes.
+    let run = Run::start_with(
+        |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+            std::thread::sleep(pixels.len() as u32 * 2 * MS);
+            out.extend(pixels.map(|_| [0.0; 3]));
+        },
+        &header,
+    );
+    std::thread::sleep(number % 5 * MS);
+    match number % 4 {
+        0 => run.pause(),
+        1 => (0..NODES).for_each(|node| run.set_paused(node, true)),
+        2 => (0..NODES).for_each(|node| run.set_speed(node, 0.0)),
+        _ => {}
+    }
+    run.stop();
+    // Nothing is to be done to a run that has been told to end.
+    run.pause();
+    run.set_speed(0, 1.0);
+    run
+}
+
+/// Whether something comes true before one gives up; on a busy computer that takes a while.
+fn comes_true(condition: impl Fn() -> bool) -> bool {
+    (0..3000).any(|_| {
+        std::thread::sleep(10 * MS);
+        condition()
+    })
+}
+
+/// The threads of this process, where the system tells.
+fn threads() -> usize {
+    std::fs::read_dir("/proc/self/task").map_or(0, Iterator::count)
+}
