@@ -1,21 +1,27 @@
-//! Runs end when they are told to, whatever they were doing, and leave no thread behind. This is a test program of its
-//! own, so that all its threads but one are those of its runs.
+//! Runs and replays end when they are told to, whatever they were doing, and leave no thread behind. This is a test program of its
+//! own, so that all its threads but one are theirs.
 
+use std::iter::once;
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
-use anel::balance::{NodeId, Strategy};
-use anel::driver::{Run, Update};
+use anel::balance::{Message, NodeId, Party, Strategy};
+use anel::driver::{Replay, Run, Update};
 use anel::picture::{Colour, Division, Size};
-use anel::runlog::{Header, Link};
+use anel::record::{Record, What};
+use anel::runlog::{Header, Link, RunLog};
+use anel::time::Time;
 use anel::tracer::Scratch;
 
 const MS: Duration = Duration::from_millis(1);
 const NODES: NodeId = 32;
 
 #[test]
-fn fifty_runs_in_a_row_leave_nothing_running() {
+fn fifty_of_each_in_a_row_leave_nothing_running() {
     let before = threads();
+    let replays: Vec<Replay> = (0..50).map(replay_and_stop).collect();
+    assert!(comes_true(|| replays.iter().all(Replay::has_ended)), "a replay goes on");
     let runs: Vec<Run> = (0..50).map(begin_and_stop).collect();
     assert!(comes_true(|| runs.iter().all(Run::has_ended)), "a run goes on");
     for run in &runs {
@@ -26,10 +32,9 @@ fn fifty_runs_in_a_row_leave_nothing_running() {
     assert!(comes_true(|| threads() <= before), "{before} threads before, {} after", threads());
 }
 
-/// Each of the runs is in another state when it is stopped.
-fn begin_and_stop(number: u32) -> Run {
+fn header(number: u32) -> Header {
     let size = Size::new(1000, 100).expect("a size");
-    let header = Header {
+    Header {
         scene: "endless".into(),
         scene_text: String::new(),
         size,
@@ -43,15 +48,18 @@ fn begin_and_stop(number: u32) -> Run {
         handling: Duration::ZERO,
         part: 1,
         cores: 2,
-    };
-    // The whole picture would take three minutes.
-    let run = Run::start_with(
-        |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
-            std::thread::sleep(pixels.len() as u32 * 2 * MS);
-            out.extend(pixels.map(|_| [0.0; 3]));
-        },
-        &header,
-    );
+    }
+}
+
+/// The whole picture would take three minutes.
+fn trace(pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>) {
+    std::thread::sleep(pixels.len() as u32 * 2 * MS);
+    out.extend(pixels.map(|_| [0.0; 3]));
+}
+
+/// Each of the runs is in another state when it is stopped.
+fn begin_and_stop(number: u32) -> Run {
+    let run = Run::start_with(trace, &header(number));
     std::thread::sleep(number % 5 * MS);
     match number % 4 {
         0 => run.pause(),
@@ -64,6 +72,25 @@ fn begin_and_stop(number: u32) -> Run {
     run.pause();
     run.set_speed(0, 1.0);
     run
+}
+
+/// The parent receives the whole picture now, or after years.
+fn replay_and_stop(number: u32) -> Replay {
+    let mut log = RunLog::new(header(number));
+    let (id, from, to) = (0, Party::Node(0), Party::Parent);
+    let message = Message::Results(once(0..log.header.division.atoms()).collect());
+    let at = Time([0, u64::MAX][number as usize % 2]);
+    log.add(vec![Record { at: Time::ZERO, what: What::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
+    log.add(vec![Record { at, what: What::Received { id, by: to } }]);
+    let replay = Replay::start_with(trace, Arc::new(log));
+    std::thread::sleep(number % 5 * MS);
+    if number.is_multiple_of(3) {
+        replay.pause();
+    }
+    replay.stop();
+    replay.pause();
+    replay.resume();
+    replay
 }
 
 /// Whether something comes true before one gives up; on a busy computer that takes a while.

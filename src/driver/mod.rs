@@ -7,8 +7,12 @@
 //! thread may wake a little late, or work a little ahead of the clock, but what it does is dated to when the machine
 //! would have done it, and what comes of it is due accordingly. Machines at full speed are not emulated: their times
 //! are the clock's.
+//!
+//! A replay has no parties: one thread tells the records in their time, and as many as the computer has cores trace the
+//! pixels again.
 
 mod clock;
+mod jobs;
 mod link;
 mod machine;
 mod meter;
@@ -16,12 +20,15 @@ mod node_thread;
 mod parent_thread;
 mod port;
 mod probe;
+mod replay;
 mod run;
 mod shared;
 mod supervisor;
+mod teller;
 
 pub use machine::{auto_pace, cores};
 pub use probe::{Probe, probe};
+pub use replay::Replay;
 pub use run::Run;
 
 use std::ops::Range;
@@ -30,10 +37,12 @@ use crate::picture::{Atom, Colour};
 use crate::record::Record;
 use crate::tracer::{RayCounts, Scratch};
 
-/// What a run tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses it once.
+/// What a run or a replay tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses
+/// it once.
 #[derive(Debug)]
 pub enum Update {
-    /// Records of one party, in the order of their times; those of different parties may interleave.
+    /// Records of one party, in the order of their times; those of different parties may interleave. In a replay they
+    /// are of all parties, and come in the order of the log.
     Records(Vec<Record>),
     /// Pixels that the parent has placed.
     Placed {
@@ -44,11 +53,12 @@ pub enum Update {
     },
     /// How many rays a node's worker has traced; its thread has ended.
     Rays(RayCounts),
-    /// All threads have ended and the picture is complete; the last update.
+    /// All threads have ended, and the picture is complete (or as complete as the log of a replay); the last update.
     Finished,
-    /// The run cannot go on (a sentence says why); the last update.
+    /// It cannot go on (a sentence says why); the last update.
     Failed(String),
 }
 
-/// Appends the colours of pixels (positions in scan order) to a vector, as [`Tracer::trace`] does.
+/// Appends the colours of pixels (positions in scan order) to a vector, as
+/// [`Tracer::trace`](crate::tracer::Tracer::trace) does.
 pub type TracePixels = dyn Fn(Range<u32>, &mut Scratch, &mut Vec<Colour>) + Send + Sync;

@@ -21,7 +21,7 @@ use crate::time::Time;
 use crate::tracer::Scratch;
 
 /// A worker looks for messages, changed speeds, pauses and the run's end after at most this many pixels.
-const PIECE: u32 = 64;
+pub(super) const PIECE: u32 = 64;
 
 /// A machine may be ahead of the clock by this much, so that its thread does not sleep after each atom.
 const AHEAD: Duration = Duration::from_millis(1);

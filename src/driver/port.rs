@@ -16,7 +16,7 @@ use crate::runlog::Header;
 use crate::time::Time;
 
 /// How long records (and placed pixels) wait at most before they leave their thread.
-const FLUSH: Duration = Duration::from_millis(15);
+pub(super) const FLUSH: Duration = Duration::from_millis(15);
 
 /// The run was stopped from outside, or another party's thread has panicked.
 #[derive(Debug)]

@@ -1,0 +1,135 @@
+//! What a replay has to trace, and in which order.
+
+use std::collections::BTreeMap;
+use std::mem;
+use std::ops::Range;
+
+use crate::balance::{Message, Party};
+use crate::picture::Atom;
+use crate::record::What;
+use crate::runlog::RunLog;
+
+/// A job is an atom, or consecutive ones of at most so many pixels: else threads would wake each other all the time.
+pub(super) const MOST: u32 = 1024;
+
+/// Atoms that are traced and placed together.
+#[derive(Debug, PartialEq)]
+pub(super) struct Job {
+    pub atoms: Range<Atom>,
+    /// The index of the record that says that the parent has received them.
+    pub received: usize,
+}
+
+/// All jobs of a log, in the order in which their atoms are placed; nothing more once the replay `is_over`. No atom is in
+/// two jobs, though it may be in two messages of a damaged log; one that the parent never received is in none.
+pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Job> {
+    let division = log.header.division;
+    let most = (MOST / division.atom_pixels()).max(1) as usize;
+    let mut planned = vec![false; division.atoms() as usize];
+    let mut on_their_way = BTreeMap::new();
+    let mut jobs: Vec<Job> = Vec::new();
+    for (index, record) in log.records().iter().enumerate() {
+        let results = match &record.what {
+            What::Sent { id, to: Party::Parent, message: Message::Results(ranges), .. } => {
+                on_their_way.insert(id, ranges);
+                None
+            }
+            What::Received { id, by: Party::Parent } => on_their_way.remove(id),
+            _ => None,
+        };
+        for range in results.into_iter().flatten().take_while(|_| !is_over()) {
+            for atom in range.clone() {
+                if planned.get_mut(atom as usize).is_none_or(|planned| mem::replace(planned, true)) {
+                    continue;
+                }
+                match jobs.last_mut() {
+                    Some(Job { atoms, received }) if *received == index && atoms.end == atom && atoms.len() < most => {
+                        atoms.end += 1;
+                    }
+                    _ => jobs.push(Job { atoms: atom..atom + 1, received: index }),
+                }
+            }
+        }
+    }
+    jobs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Division;
+    use crate::record::Record;
+    use crate::runlog::Header;
+    use crate::runlog::examples::{at, header};
+    use crate::time::Time;
+    use proptest::prelude::*;
+    use std::iter::once;
+
+    fn sent(id: u64, ranges: impl IntoIterator<Item = Range<Atom>>) -> Record {
+        let (from, to, message) = (Party::Node(0), Party::Parent, Message::Results(ranges.into_iter().collect()));
+        at(0, What::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO })
+    }
+
+    fn received(id: u64, by: Party) -> Record {
+        at(0, What::Received { id, by })
+    }
+
+    /// The jobs of a log with these records: 20 atoms of `pixels` pixels.
+    fn jobs(pixels: u32, records: Vec<Record>) -> Vec<Job> {
+        let mut log = RunLog::new(Header { division: Division::new(20 * pixels, pixels), ..header(&[1.0]) });
+        log.add(records);
+        plan(&log, || false)
+    }
+
+    #[test]
+    fn atoms_are_traced_as_the_parent_received_them_and_only_once() {
+        let parent = Party::Parent;
+        let records = vec![
+            sent(1, once(5..8)),
+            sent(2, [0..3, 10..11]),
+            sent(3, [2..6, 30..40]),
+            received(2, parent),
+            received(1, Party::Node(0)),
+            received(3, parent),
+            received(3, parent),
+            received(9, parent),
+            sent(4, once(19..20)),
+        ];
+        let job = |atoms, received| Job { atoms, received };
+        assert_eq!(jobs(5, records), [job(0..3, 3), job(10..11, 3), job(3..6, 5)]);
+    }
+
+    #[test]
+    fn a_job_is_neither_too_small_nor_too_large() {
+        let sizes = |pixels| {
+            let records = vec![sent(0, once(0..20)), received(0, Party::Parent)];
+            jobs(pixels, records).iter().map(|job| job.atoms.len()).collect::<Vec<_>>()
+        };
+        assert_eq!([sizes(50), sizes(300)], [vec![20], vec![3, 3, 3, 3, 3, 3, 2]]);
+        assert_eq!(sizes(5000), [1; 20]);
+    }
+
+    proptest! {
+        /// Whatever a damaged log says.
+        #[test]
+        fn no_atom_is_in_two_jobs(
+            records in prop::collection::vec(
+                (0u64..4, any::<bool>(), prop::collection::vec((0u32..25, 0u32..25), 0..4)),
+                0..30,
+            ),
+        ) {
+            let record = |(id, is_sent, ranges): (u64, bool, Vec<(Atom, Atom)>)| {
+                let ranges = ranges.into_iter().map(|(start, end)| start..end);
+                if is_sent { sent(id, ranges) } else { received(id, Party::Parent) }
+            };
+            let jobs = jobs(5, records.into_iter().map(record).collect());
+            prop_assert!(jobs.is_sorted_by_key(|job| job.received));
+            let mut atoms: Vec<Atom> = jobs.into_iter().flat_map(|job| job.atoms).collect();
+            let count = atoms.len();
+            atoms.sort_unstable();
+            atoms.dedup();
+            prop_assert_eq!(atoms.len(), count);
+            prop_assert!(atoms.iter().all(|&atom| atom < 20));
+        }
+    }
+}
