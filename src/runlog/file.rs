@@ -1,7 +1,7 @@
 //! The run file: JSON lines, first the header and then a line a record.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,11 @@ use crate::record::Record;
 
 /// The version of the format that this program writes, and the only one that it reads.
 const VERSION: u32 = 2;
+
+/// How every run file begins.
+const START: [u8; 12] = *br#"{"anel_run":"#;
+
+const NOT_A_RUN: &str = "this is not a run file of anel";
 
 /// Why a run file could not be read.
 #[derive(Debug, Error)]
@@ -45,6 +50,13 @@ struct FirstLine<H> {
     header: H,
 }
 
+/// Whether there is a file at `path` that begins as a run file does. No more than that is read, and nothing of
+/// directories and pipes.
+pub fn is_run_file(path: &Path) -> bool {
+    let mut start = [0; START.len()];
+    open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == START
+}
+
 impl RunLog {
     /// Writes the log.
     ///
@@ -60,11 +72,17 @@ impl RunLog {
     /// Reads a log that [`RunLog::save`] has written.
     ///
     /// # Errors
-    /// [`LogError::Read`] with what the system said; [`LogError::Line`] with the first line that is wrong.
+    /// [`LogError::Read`] if this is not a regular file, or with what the system said; [`LogError::Line`] with the first
+    /// line that is wrong.
     pub fn load(path: &Path) -> Result<Self, LogError> {
         let read = |source| LogError::Read { path: path.to_owned(), source };
         let wrong = |line, why| LogError::Line { path: path.to_owned(), line, why };
-        let mut lines = BufReader::new(File::open(path).map_err(read)?).lines();
+        let mut reader = BufReader::new(open(path).map_err(read)?);
+        // Nobody should read some other file to the end of its first line, which may be far away.
+        if !reader.fill_buf().map_err(read)?.starts_with(&START) {
+            return Err(wrong(1, NOT_A_RUN.into()));
+        }
+        let mut lines = reader.lines();
         let first = match lines.next() {
             // A file that is not text is not a run file either.
             Some(Err(error)) if error.kind() != io::ErrorKind::InvalidData => return Err(read(error)),
@@ -91,12 +109,29 @@ impl RunLog {
     }
 }
 
+/// Opens a regular file. Others are looked at before they are opened, since opening a pipe waits for somebody to write.
+fn open(path: &Path) -> io::Result<File> {
+    let data = fs::metadata(path)?;
+    if data.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "this is a directory, not a run file"));
+    }
+    if !data.is_file() {
+        return Err(io::Error::other("this is not a regular file"));
+    }
+    File::open(path)
+}
+
 fn parse_first(text: &str) -> Result<Header, String> {
     // First the version, since another version's header may look otherwise.
-    let not_a_run = |_| "this is not a run file of anel".to_owned();
-    let first: FirstLine<serde_json::Value> = serde_json::from_str(text).map_err(not_a_run)?;
-    if first.anel_run != VERSION {
-        return Err(format!("the format's version is {}; this program reads version {VERSION}", first.anel_run));
+    let first: FirstLine<serde_json::Value> = serde_json::from_str(text).map_err(|_| NOT_A_RUN)?;
+    let version = first.anel_run;
+    if version != VERSION {
+        let (age, remedy) =
+            if version < VERSION { ("an older", "make the run anew") } else { ("a newer", "open it with that one") };
+        return Err(format!(
+            "the file is from {age} anel (its format's version is {version}; this program reads version {VERSION}); \
+             {remedy}"
+        ));
     }
     let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| what_is_wrong(&error))?;
     check::header(&first.header)?;
@@ -199,7 +234,7 @@ mod tests {
     /// What [`RunLog::load`] says of a file with these lines, without the path.
     fn complaint(text: &[u8]) -> String {
         let file = NamedTempFile::new().unwrap();
-        std::fs::write(file.path(), text).unwrap();
+        fs::write(file.path(), text).unwrap();
         let error = RunLog::load(file.path()).unwrap_err().to_string();
         error.strip_prefix(&format!("{}, ", file.path().display())).unwrap().to_owned()
     }
@@ -210,7 +245,7 @@ mod tests {
         log.add(vec![done(1, 0, 0, 1), done(2, 0, 1, 1)]);
         let file = NamedTempFile::new().unwrap();
         log.save(file.path()).unwrap();
-        let text = std::fs::read_to_string(file.path()).unwrap();
+        let text = fs::read_to_string(file.path()).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         let with = |line: usize, text: &str| {
             let mut lines = lines.clone();
@@ -219,9 +254,16 @@ mod tests {
         };
         assert_eq!(complaint(b""), "line 1: this is not a run file of anel");
         assert_eq!(complaint(b"\x89PNG\xff"), "line 1: this is not a run file of anel");
+        assert_eq!(complaint(b"{\"anel_run\":\xff"), "line 1: this is not a run file of anel");
+        assert_eq!(
+            with(1, r#"{"anel_run":1,"header":null}"#),
+            "line 1: the file is from an older anel (its format's version is 1; this program reads version 2); make \
+             the run anew"
+        );
         assert_eq!(
             with(1, r#"{"anel_run":7,"header":null}"#),
-            "line 1: the format's version is 7; this program reads version 2"
+            "line 1: the file is from a newer anel (its format's version is 7; this program reads version 2); open it \
+             with that one"
         );
         assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));
         assert_eq!(
@@ -239,10 +281,45 @@ mod tests {
         log.add(vec![done(2, 0, 0, 1)]);
         let file = NamedTempFile::new().unwrap();
         log.save(file.path()).unwrap();
-        let mut text = std::fs::read_to_string(file.path()).unwrap();
+        let mut text = fs::read_to_string(file.path()).unwrap();
         text += &(serde_json::to_string(&done(1, 0, 1, 1)).unwrap() + "\n");
         assert_eq!(complaint(text.as_bytes()), "line 3: this record is earlier than the one before");
         let error = log.save(&file.path().join("run.jsonl")).unwrap_err().to_string();
         assert!(error.contains("cannot write"), "{error}");
+    }
+
+    #[test]
+    fn only_what_begins_as_a_run_file_is_one() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("run.jsonl");
+        RunLog::new(header(&[1.0])).save(&path).unwrap();
+        assert!(is_run_file(&path));
+        for other in [&b"(camera: (eye: (0, 0, 5)))"[..], b"", b"{", b"{\"anel_ru", b" {\"anel_run\":2", b"\xff\xfe"] {
+            fs::write(&path, other).unwrap();
+            assert!(!is_run_file(&path), "{other:?}");
+        }
+        assert!(!is_run_file(&directory.path().join("nothing")));
+    }
+
+    #[test]
+    fn directories_and_pipes_are_refused_unread() {
+        let directory = tempfile::tempdir().unwrap();
+        let complaint = |path: &Path| {
+            assert!(!is_run_file(path));
+            RunLog::load(path).unwrap_err().to_string()
+        };
+        let error = complaint(directory.path());
+        assert!(
+            error.starts_with("cannot read ") && error.ends_with(": this is a directory, not a run file"),
+            "{error}"
+        );
+        // Opening a pipe would wait for somebody to write into it.
+        let pipe = directory.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        if made.is_ok_and(|status| status.success()) {
+            let error = complaint(&pipe);
+            assert!(error.ends_with(": this is not a regular file"), "{error}");
+        }
+        assert!(complaint(&directory.path().join("nothing")).starts_with("cannot read "));
     }
 }

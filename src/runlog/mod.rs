@@ -8,6 +8,6 @@ mod header;
 mod log;
 pub mod metrics;
 
-pub use file::LogError;
+pub use file::{LogError, is_run_file};
 pub use header::{Header, Link};
 pub use log::RunLog;
