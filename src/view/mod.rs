@@ -12,6 +12,7 @@ mod plan;
 mod ring;
 #[cfg(test)]
 mod sample;
+mod seen;
 mod state;
 mod traffic;
 mod words;
