@@ -93,7 +93,9 @@ fn draw_node(plan: &Plan, node: NodeId, of: &NodeState, activity: Activity, mark
     let (fill, number) = match activity {
         Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
-        Activity::Waiting | Activity::Offering | Activity::Idle | Activity::Stopped => (0.18, Hue::Text),
+        Activity::Waiting | Activity::Offering | Activity::Idle | Activity::Stopped | Activity::Paused => {
+            (0.18, Hue::Text)
+        }
         Activity::Retired => (0.08, Hue::Quiet),
     };
     marks.push(Mark::Disc { centre, radius, ink: colour.faint(fill) });
@@ -119,7 +121,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
         _ if state.finished().is_some() => [done(), percent(of.done, state.atoms())],
         Activity::Retired => [done(), "retired".into()],
         _ if of.left() == 0 => [activity_word(activity).into(), String::new()],
-        Activity::Receiving => [left(), "receiving".into()],
+        Activity::Receiving | Activity::Paused => [left(), activity_word(activity).into()],
         _ if of.speed < 0.995 => [left(), format!("at {:.0} %", of.speed * 100.0)],
         _ => [left(), String::new()],
     }

@@ -6,13 +6,15 @@ use super::flight::{Cargo, Flight};
 use super::node::{Activity, NodeState};
 use super::state::RunState;
 use crate::balance::{NodeId, Party};
+use crate::picture::Atom;
 use crate::time::Time;
 
 impl RunState {
-    /// Whether anything moves at `now`: a message that is drawn, or a machine that computes.
+    /// Whether anything moves at `now`: a message that is drawn, a machine that computes, or a rate that sinks.
     pub fn moves(&self, now: Time) -> bool {
         let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
-        flies || self.finished.is_none() && self.nodes.iter().any(NodeState::computes)
+        let works = |node: &NodeState| node.computes() || node.rate(now) > 0.0;
+        flies || self.finished.is_none() && self.nodes.iter().any(works)
     }
 
     /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
@@ -29,6 +31,16 @@ impl RunState {
         self.pending.values().any(carries)
     }
 
+    /// The message in which `atom` is on its way to a node.
+    pub fn carrier(&self, atom: Atom) -> Option<&Flight> {
+        let carries = |flight: &&Flight| match &flight.cargo {
+            Cargo::Band(band) => band.contains(&atom),
+            Cargo::Transfer(ranges) => ranges.iter().any(|range| range.contains(&atom)),
+            Cargo::Offer { .. } | Cargo::Results(_) | Cargo::Shutdown => false,
+        };
+        self.pending.values().find(carries)
+    }
+
     /// What `node` is seen doing at `now`.
     pub fn activity(&self, node: NodeId, now: Time) -> Activity {
         let state = &self.nodes[usize::from(node)];
@@ -39,8 +51,10 @@ impl RunState {
             Activity::Done
         } else if state.retired {
             Activity::Retired
-        } else if !state.has_band {
+        } else if state.band_at.is_none() {
             Activity::Waiting
+        } else if state.paused && state.left() > 0 {
+            Activity::Paused
         } else if self.receives(node, now) {
             Activity::Receiving
         } else if state.left() > 0 {
@@ -91,6 +105,42 @@ mod tests {
             idle.iter().all(|&idle| idle >= Duration::from_millis(40) && idle < Duration::from_secs(1)),
             "{idle:?}"
         );
+    }
+
+    #[test]
+    fn a_paused_node_is_seen_so_while_it_has_atoms() {
+        let header = sample::header(&[1.0, 1.0, 0.1], 60);
+        let mut state = RunState::new(&header);
+        let mut seen = Vec::new();
+        for record in sample::records(&header) {
+            state.apply(&record);
+            if seen.is_empty() {
+                state.apply(&Record { at: record.at, what: What::Paused { node: 1 } });
+            }
+            let activity = state.activity(1, record.at);
+            assert!(activity != Activity::Computing, "{record:?}");
+            assert!((activity == Activity::Paused) <= (state.nodes[1].left() > 0));
+            seen.push(activity);
+        }
+        for activity in [Activity::Waiting, Activity::Paused, Activity::Offering, Activity::Receiving] {
+            assert!(seen.contains(&activity), "{activity:?} {seen:?}");
+        }
+    }
+
+    #[test]
+    fn an_atom_is_carried_until_it_arrives() {
+        let header = sample::header(&[1.0, 1.0, 0.1], 60);
+        let mut state = RunState::new(&header);
+        let mut carriers = BTreeSet::new();
+        for record in sample::records(&header) {
+            state.apply(&record);
+            if let Some(flight) = state.carrier(59) {
+                assert!(flight.sent <= record.at && state.places()[59].owner().is_none());
+                carriers.insert((flight.from, flight.to));
+            }
+        }
+        assert!(carriers.contains(&(Party::Parent, Party::Node(2))) && carriers.len() > 1, "{carriers:?}");
+        assert_eq!(state.carrier(59), None);
     }
 
     #[test]

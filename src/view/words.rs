@@ -100,6 +100,7 @@ pub fn activity_word(activity: Activity) -> &'static str {
         Activity::Waiting => "waiting",
         Activity::Computing => "computing",
         Activity::Stopped => "stopped",
+        Activity::Paused => "paused",
         Activity::Offering => "offering",
         Activity::Receiving => "receiving",
         Activity::Idle => "idle",
