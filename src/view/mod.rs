@@ -5,9 +5,12 @@
 
 mod canvas;
 mod display;
+mod events;
 mod flight;
+mod narrator;
 mod node;
 mod nodes;
+mod outcome;
 mod place;
 mod plan;
 mod rate;
@@ -15,6 +18,8 @@ mod ring;
 #[cfg(test)]
 mod sample;
 mod seen;
+mod sentences;
+mod standing;
 mod state;
 mod traffic;
 mod words;
@@ -22,9 +27,11 @@ mod words;
 pub use canvas::Canvas;
 pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use flight::{Cargo, Flight};
+pub use narrator::Narrator;
 pub use node::{Activity, NodeState, Parcels, Slot};
 pub use nodes::{Row, Share, rows, shares};
+pub use outcome::{Outcome, figures, result_words};
 pub use place::Place;
-pub use ring::{Outcome, ring};
+pub use ring::ring;
 pub use state::{Arrived, RunState};
-pub use words::{Narrator, activity_word, count, node_name, percent, result};
+pub use words::{activity_word, count, duration, fraction, node_name, percent, rate_words};

@@ -4,25 +4,16 @@
 //! at the top of the ring to the left.
 
 use std::f32::consts::{PI, TAU};
-use std::time::Duration;
 
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
 use super::node::{Activity, NodeState};
+use super::outcome::Outcome;
 use super::plan::Plan;
 use super::state::RunState;
 use super::traffic;
 use super::words::{activity_word, count, node_name, percent};
 use crate::balance::NodeId;
 use crate::time::Time;
-
-/// What a finished run amounts to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// From the first band sent to the last atom placed.
-    pub makespan: Duration,
-    /// The ideal makespan divided by the real one, 0 to 1.
-    pub efficiency: f64,
-}
 
 /// Beyond this many the labels would run into each other; the rows have the numbers.
 const LABELLED: usize = 16;
@@ -156,7 +147,7 @@ fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut V
         marks.push(Mark::Label { at: [x, y + dy], anchor: Anchor::Centre, text, size, ink: hue.full() });
     };
     let small = TextSize::Small(plan.text);
-    if let Some(Outcome { makespan, efficiency }) = outcome {
+    if let Some(Outcome { makespan, efficiency, .. }) = outcome {
         let large = large * 1.1;
         let (time, used) = (format!("{:.1} s", makespan.as_secs_f64()), format!("{:.0} %", efficiency * 100.0));
         // What explains them has no room within a small ring; the sentence below says it too.
@@ -186,6 +177,7 @@ fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut V
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
+    use std::time::Duration;
 
     use proptest::prelude::*;
 
@@ -245,7 +237,8 @@ mod tests {
     #[test]
     fn the_result_takes_the_centre() {
         let state = RunState::new(&sample::header(&[1.0, 1.0], 30));
-        let outcome = Outcome { makespan: Duration::from_millis(20_440), efficiency: 0.973 };
+        let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
+        let outcome = Outcome { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
         let marks = ring(&state, Some(outcome), Time::from_secs(21.0), SIZE);
         assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
     }
