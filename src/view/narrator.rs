@@ -23,15 +23,18 @@ pub struct Narrator {
 #[derive(Clone, Debug)]
 struct Told {
     at: Time,
-    weight: u8,
+    weight: Weight,
     sentence: String,
 }
 
+/// What kind of event it is and, of transfers, how large: one of twice the atoms weighs more.
+type Weight = (u8, u32);
+
 /// Of what somebody does to the run: it follows the hand.
-const BY_HAND: u8 = 4;
+const BY_HAND: Weight = (4, 0);
 
 /// Of the end, which nothing follows.
-const END: u8 = 5;
+const END: Weight = (5, 0);
 
 /// How long an event is fresh.
 const FRESH: Duration = Duration::from_secs(3);
@@ -77,16 +80,19 @@ impl Narrator {
     }
 }
 
-fn tell(record: &Record, state: &RunState) -> Option<(u8, String)> {
+fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
     let told = match &record.what {
         What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
-            (3, sentences::transfer(state, *from, *to, atoms_in(ranges)))
+            let atoms = atoms_in(ranges);
+            ((3, atoms.checked_ilog2().unwrap_or(0)), sentences::transfer(state, *from, *to, atoms))
         }
         What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
-            (1, sentences::offer(*who, false, *done))
+            ((1, 0), sentences::offer(*who, false, *done))
         }
-        What::Sent { from: Party::Parent, message: Message::Band(band), .. } => (2, sentences::bands(state, band)),
-        What::Retired { node } => (2, format!("{}'s offer came back, nobody needs help: it retires", node_name(*node))),
+        What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
+        What::Retired { node } => {
+            ((2, 0), format!("{}'s offer came back, nobody needs help: it retires", node_name(*node)))
+        }
         What::Finished => (END, sentences::COMPLETE.into()),
         _ => return None,
     };
@@ -135,6 +141,23 @@ mod tests {
         assert!(say(2100, What::Retired { node: 1 }).starts_with("2's offer"));
         assert!(say(2200, What::Finished).starts_with("The picture"));
         assert!(say(9000, What::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
+    }
+
+    #[test]
+    fn a_transfer_of_twice_the_atoms_outweighs_another() {
+        let state = RunState::new(&sample::header(&[1.0, 1.0, 0.1], 900));
+        let mut narrator = Narrator::default();
+        let mut say = |ms: u64, from, atoms| {
+            let (from, to, at) = (Party::Node(from), Party::Node(0), Time(ms * 1_000_000));
+            let message = Message::Transfer(std::iter::once(0..atoms).collect());
+            let what = What::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
+            narrator.apply(&Record { at, what }, &state);
+            narrator.sentence(&state, at)
+        };
+        assert!(say(0, 1, 20).ends_with("2 is still busy: gives it 20 atoms"));
+        assert!(say(100, 1, 30).ends_with("gives it 20 atoms"));
+        assert!(say(200, 2, 200).ends_with("3 is slow (10 %): gives it 200 atoms"));
+        assert!(say(300, 1, 20).ends_with("gives it 200 atoms"));
     }
 
     #[test]

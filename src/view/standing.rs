@@ -50,7 +50,10 @@ fn alone(state: &RunState, (node, last): Machine<'_>) -> String {
 /// Several machines compute.
 fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>]) -> String {
     let machines = state.nodes().len();
-    let compute = format!("{} of {machines} machines compute", busy.len());
+    let compute = match busy.len() {
+        all if all == machines => format!("All {machines} machines compute"),
+        some => format!("{some} of {machines} machines compute"),
+    };
     // Of equals the first is named.
     let Some((node, last)) = busy.iter().rev().max_by_key(|(_, node)| node.left()) else { return compute };
     let (name, left) = (node_name(*node), atoms_words(last.left()));
@@ -63,7 +66,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>]) -> Str
     } else if last.speed < 0.5 {
         format!("{compute}; {name} is slow ({}) and has most left: {left}", fraction(last.speed))
     } else if busy.len() == machines {
-        format!("All {machines} machines compute their own atoms")
+        format!("{compute} their own atoms")
     } else {
         format!("{compute}; {name} has most left")
     }
@@ -201,7 +204,7 @@ mod tests {
         assert_eq!(stands(&[(0, 1.0), (0, 1.0)], &[]), "Waiting for the parent");
         assert_eq!(
             stands(&[(5, 1.0), (5, 1.0), (9, 0.1)], &[]),
-            "3 of 3 machines compute; 3 is slow (10 %) and has most left: 9 atoms"
+            "All 3 machines compute; 3 is slow (10 %) and has most left: 9 atoms"
         );
     }
 
