@@ -40,9 +40,9 @@ pub fn paint(painter: &Painter, origin: Pos2, marks: &[Mark], inks: &Inks<'_>) {
             Mark::Disc { centre, radius, ink } => {
                 painter.circle_filled(at(*centre), *radius, inks.colour(*ink));
             }
-            Mark::Parcel { centre, half, ink } => {
+            Mark::Box { centre, half, round, ink } => {
                 let rect = Rect::from_center_size(at(*centre), 2.0 * Vec2::from(*half));
-                painter.rect_filled(rect, 6.0, inks.colour(*ink));
+                painter.rect_filled(rect, *round, inks.colour(*ink));
             }
             Mark::Line { points, width, ink } => {
                 let stroke = PathStroke::new(*width, inks.colour(*ink));

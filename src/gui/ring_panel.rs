@@ -6,7 +6,7 @@ use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, Look};
 use super::widgets;
-use crate::view::{activity_word, node_name, ring};
+use crate::view::{Overlay, activity_word, node_name, ring};
 
 /// Shows the ring as large as it gets.
 pub fn show(ui: &mut Ui, session: &Session) {
@@ -20,7 +20,8 @@ pub fn show(ui: &mut Ui, session: &Session) {
     let look = Look::of(ui.ctx());
     let inks = Inks { look, nodes: session.colours() };
     let painter = ui.painter_at(rect.expand(4.0));
-    let marks = ring(state, session.outcome(), now, rect.size().into());
+    let overlay = Overlay { outcome: session.outcome(), selected: None };
+    let marks = ring(state, &overlay, now, rect.size().into());
     paint(&painter, rect.min, &marks, &inks);
     let latency = session.header().link.latency.as_millis();
     let lines = [format!("{latency} ms a hop"), "parcels drawn slower than they travel".to_owned()];

@@ -253,6 +253,7 @@ impl Session {
 /// What the run amounts to, if it came to its end.
 fn outcome(log: &RunLog) -> Option<Outcome> {
     let makespan = metrics::makespan(log.records())?;
+    let ideal = metrics::ideal(&log.header, log.records())?;
     let efficiency = metrics::efficiency(&log.header, log.records())?;
-    Some(Outcome { makespan, efficiency })
+    Some(Outcome { makespan, ideal, efficiency, spread: metrics::finish_spread(log.records()) })
 }

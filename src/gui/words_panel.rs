@@ -6,14 +6,14 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::text_on;
-use crate::view::{Share, node_name, percent, result, shares};
+use crate::view::{Share, node_name, percent, result_words, shares};
 
 /// Shows both.
 pub fn show(ui: &mut Ui, session: &Session) {
     let look = Look::of(ui.ctx());
     let sentence = match (session.phase(), session.outcome()) {
         (Phase::Failed(why), _) => format!("The run cannot go on: {why}"),
-        (_, Some(outcome)) => result(session.state(), outcome.makespan, outcome.efficiency),
+        (_, Some(outcome)) => result_words(session.state(), &outcome),
         _ => session.narrator().sentence(session.state(), session.now()),
     };
     // Rather small than cut; what is too long even so has two lines.

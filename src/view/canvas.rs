@@ -107,7 +107,7 @@ impl Canvas {
 
     fn paint_atom(&mut self, atom: Atom, pixels: Range<usize>, state: &RunState) {
         let place = atom as usize;
-        let owner = state.owners()[place].map(usize::from);
+        let (owner, holder) = (state.places()[place].owner().map(usize::from), state.places()[place].holder());
         if self.placed[place] {
             let tones = owner.map(|owner| &self.tones[owner]);
             for (to, &render) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
@@ -118,9 +118,8 @@ impl Canvas {
             }
             return;
         }
-        let holder = state.holders()[place];
         let traced_now = holder.is_some_and(|node| state.nodes()[usize::from(node)].atom == Some(atom));
-        let colour = owner.or(holder.map(usize::from)).map(|node| self.colours[node]);
+        let colour = holder.map(|node| self.colours[usize::from(node)]);
         let strength = match (owner, traced_now) {
             (None, false) => 0.16 + 0.14 * self.blend,
             (None, true) => 1.0,

@@ -18,11 +18,13 @@ pub enum Mark {
         ink: Ink,
     },
     /// A filled box with round corners.
-    Parcel {
+    Box {
         /// Its middle.
         centre: Point,
         /// Half its width and height.
         half: Point,
+        /// Radius of its corners.
+        round: f32,
         /// Its colour.
         ink: Ink,
     },
@@ -79,6 +81,43 @@ pub enum TextSize {
     Body(f32),
     /// In the units of the list: for text that has to fit a shape.
     Fit(f32),
+}
+
+impl Anchor {
+    /// The left end of a text of `width` whose place is `x`.
+    pub fn left(self, x: f32, width: f32) -> f32 {
+        match self {
+            Self::Left => x,
+            Self::Centre => x - width / 2.0,
+            Self::Right => x - width,
+        }
+    }
+}
+
+impl TextSize {
+    /// The usual size of what stands beside something, in the units of the list.
+    pub const SMALL: f32 = 13.0;
+    /// The usual size of what is read.
+    pub const BODY: f32 = 16.0;
+
+    /// The size in the units of the list, if the usual sizes are these.
+    pub fn units(self) -> f32 {
+        match self {
+            Self::Small(times) => Self::SMALL * times,
+            Self::Body(times) => Self::BODY * times,
+            Self::Fit(size) => size,
+        }
+    }
+
+    /// How high a line is.
+    pub(super) fn line(self) -> f32 {
+        1.2 * self.units()
+    }
+
+    /// How broad so many letters are, rather too broad than too narrow.
+    pub(super) fn width(self, letters: usize) -> f32 {
+        0.6 * self.units() * letters as f32
+    }
 }
 
 /// A colour's name and how much of it is seen.

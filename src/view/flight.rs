@@ -38,8 +38,8 @@ pub enum Cargo {
     },
     /// Atoms for the node that offered.
     Transfer(Vec<Range<Atom>>),
-    /// How many traced atoms go to the parent.
-    Results(u32),
+    /// Traced atoms for the parent.
+    Results(Vec<Range<Atom>>),
     /// The end.
     Shutdown,
 }
@@ -51,7 +51,7 @@ impl Flight {
             Message::Band(band) => Cargo::Band(band.clone()),
             Message::Offer { who, .. } => Cargo::Offer { who: *who },
             Message::Transfer(ranges) => Cargo::Transfer(ranges.clone()),
-            Message::Results(ranges) => Cargo::Results(atoms_in(ranges)),
+            Message::Results(ranges) => Cargo::Results(ranges.clone()),
             Message::Shutdown => Cargo::Shutdown,
         };
         Self { from, to, cargo, sent, arrives }
@@ -92,8 +92,7 @@ impl Cargo {
     pub fn atoms(&self) -> u32 {
         match self {
             Self::Band(band) => band.len() as u32,
-            Self::Transfer(ranges) => atoms_in(ranges),
-            Self::Results(count) => *count,
+            Self::Transfer(ranges) | Self::Results(ranges) => atoms_in(ranges),
             Self::Offer { .. } | Self::Shutdown => 0,
         }
     }

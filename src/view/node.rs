@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::rate::Rate;
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -10,21 +11,45 @@ use crate::time::Time;
 pub struct NodeState {
     /// Its speed as a fraction of the reference machine.
     pub speed: f64,
+    /// Its worker was made to stand still; the speed is the one at which it will go on.
+    pub paused: bool,
     /// Atoms that it has traced.
     pub done: u32,
     /// The atom that its worker is tracing.
     pub atom: Option<Atom>,
     /// Its own offer came back.
     pub retired: bool,
+    /// Offers that it has made.
+    pub offers: u32,
+    /// Offers of others that it has passed on.
+    pub hops: u32,
+    /// What it has given to nodes that offered help.
+    pub given: Parcels,
+    /// What it has got for its own offers.
+    pub got: Parcels,
     /// Its speed before that was last set.
     pub(super) speed_before: f64,
     // Signed, since the record of an atom may come before that of the band it belongs to.
     pub(super) left: i64,
-    pub(super) has_band: bool,
+    /// When its band arrived.
+    pub(super) band_at: Option<Time>,
     pub(super) offer_out: bool,
+    pub(super) last_results: Option<Time>,
     idle: Duration,
     idle_since: Option<Time>,
-    pub(super) last_results: Option<Time>,
+    rate: Rate,
+    /// The integral of its speed over time in seconds, from the beginning to `speed_since`.
+    ran: f64,
+    speed_since: Time,
+}
+
+/// Transfers, and the atoms in them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Parcels {
+    /// How many transfers.
+    pub count: u32,
+    /// How many atoms in all of them.
+    pub atoms: u32,
 }
 
 /// What a node is seen doing.
@@ -36,6 +61,8 @@ pub enum Activity {
     Computing,
     /// It has atoms, but its speed is 0.
     Stopped,
+    /// It has atoms, but it is paused.
+    Paused,
     /// Its offer of help is on its way.
     Offering,
     /// Atoms are on their way to it.
@@ -48,6 +75,17 @@ pub enum Activity {
     Done,
 }
 
+/// One of the two places in a worker's pipe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// Nothing is in it.
+    Empty,
+    /// An atom waits in it.
+    Filled,
+    /// The worker traces the atom in it.
+    Traced,
+}
+
 impl NodeState {
     /// Atoms in its queue and its pipe, the one being traced included.
     pub fn left(&self) -> u32 {
@@ -56,7 +94,27 @@ impl NodeState {
 
     /// Whether it has atoms and a speed to trace them at.
     pub fn computes(&self) -> bool {
-        self.left() > 0 && self.speed > 0.0
+        self.left() > 0 && self.runs()
+    }
+
+    /// Whether its worker would trace atoms if it had any.
+    pub fn runs(&self) -> bool {
+        self.speed > 0.0 && !self.paused
+    }
+
+    /// What its pipe holds, the atom that is traced first: two atoms, while it has as many.
+    pub fn pipe(&self) -> [Slot; 2] {
+        let first = if self.atom.is_some() && self.runs() { Slot::Traced } else { Slot::Filled };
+        match self.left() {
+            0 => [Slot::Empty; 2],
+            1 => [first, Slot::Empty],
+            _ => [first, Slot::Filled],
+        }
+    }
+
+    /// Atoms a second that it has traced in the 3 s before `now`, or since its band came if that is less long ago.
+    pub fn rate(&self, now: Time) -> f64 {
+        self.rate.per_second(self.band_at.unwrap_or_default(), now)
     }
 
     /// How long it has had nothing to trace, from the run's beginning until `now`.
@@ -64,19 +122,33 @@ impl NodeState {
         self.idle + self.idle_since.map_or(Duration::ZERO, |since| now.since(since))
     }
 
+    /// The mean of its speed from the run's beginning until `now`; paused it has none.
+    pub fn mean_speed(&self, now: Time) -> f64 {
+        let now = now.max(self.speed_since);
+        if now == Time::ZERO { self.speed_now() } else { self.ran_until(now) / now.secs() }
+    }
+
     pub(super) fn new(speed: f64) -> Self {
         Self {
             speed,
-            speed_before: speed,
+            paused: false,
             done: 0,
             atom: None,
             retired: false,
+            offers: 0,
+            hops: 0,
+            given: Parcels::default(),
+            got: Parcels::default(),
+            speed_before: speed,
             left: 0,
-            has_band: false,
+            band_at: None,
             offer_out: false,
+            last_results: None,
             idle: Duration::ZERO,
             idle_since: Some(Time::ZERO),
-            last_results: None,
+            rate: Rate::default(),
+            ran: 0.0,
+            speed_since: Time::ZERO,
         }
     }
 
@@ -93,8 +165,72 @@ impl NodeState {
         self.done += 1;
         self.left -= 1;
         self.atom = None;
+        self.rate.count(at);
         if self.left <= 0 && self.idle_since.is_none() {
             self.idle_since = Some(at);
         }
+    }
+
+    pub(super) fn set_speed(&mut self, speed: f64, at: Time) {
+        self.keep_ran(at);
+        (self.speed_before, self.speed) = (self.speed, speed);
+    }
+
+    pub(super) fn set_paused(&mut self, paused: bool, at: Time) {
+        self.keep_ran(at);
+        self.paused = paused;
+    }
+
+    fn speed_now(&self) -> f64 {
+        if self.paused { 0.0 } else { self.speed }
+    }
+
+    fn ran_until(&self, now: Time) -> f64 {
+        self.ran + self.speed_now() * now.since(self.speed_since).as_secs_f64()
+    }
+
+    fn keep_ran(&mut self, at: Time) {
+        (self.ran, self.speed_since) = (self.ran_until(at), self.speed_since.max(at));
+    }
+}
+
+impl Parcels {
+    pub(super) fn add(&mut self, atoms: u32) {
+        self.count += 1;
+        self.atoms += atoms;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_paused_node_has_atoms_but_does_not_trace_them() {
+        let mut node = NodeState::new(0.5);
+        assert_eq!((node.pipe(), node.computes()), ([Slot::Empty; 2], false));
+        node.give(9, Time::ZERO);
+        node.atom = Some(3);
+        assert_eq!((node.pipe(), node.computes()), ([Slot::Traced, Slot::Filled], true));
+        node.set_paused(true, Time::from_secs(1.0));
+        assert_eq!((node.pipe(), node.computes(), node.speed), ([Slot::Filled, Slot::Filled], false, 0.5));
+        node.set_paused(false, Time::from_secs(2.0));
+        assert!(node.computes());
+        (0..8).for_each(|_| node.atom_done(Time::from_secs(3.0)));
+        assert_eq!(node.pipe(), [Slot::Filled, Slot::Empty]);
+    }
+
+    #[test]
+    fn the_mean_speed_knows_of_changes_and_pauses() {
+        let mut node = NodeState::new(1.0);
+        let at = Time::from_secs;
+        assert_eq!((node.mean_speed(Time::ZERO), node.mean_speed(at(3.0))), (1.0, 1.0));
+        node.set_speed(0.5, at(2.0));
+        assert_eq!(node.mean_speed(at(4.0)), 0.75);
+        node.set_paused(true, at(4.0));
+        node.set_speed(0.25, at(5.0));
+        node.set_paused(false, at(6.0));
+        assert_eq!(node.mean_speed(at(6.0)), 0.5);
+        assert_eq!(node.mean_speed(at(10.0)), 0.4);
     }
 }

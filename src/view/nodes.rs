@@ -22,6 +22,12 @@ pub struct Row {
     pub idle: f64,
     /// What it is seen doing.
     pub activity: Activity,
+    /// Its speed as a fraction of the reference machine.
+    pub speed: f64,
+    /// Whether it is paused, with or without atoms.
+    pub paused: bool,
+    /// Atoms a second: of late, or once the picture is complete over the whole run.
+    pub rate: f64,
 }
 
 /// A node's part of the finished work.
@@ -41,6 +47,7 @@ pub struct Share {
 pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
     let until = state.finished().map_or(now, |end| now.min(end));
     let most = state.nodes().iter().map(|node| node.done + node.left()).max().unwrap_or(0).max(1) as f32;
+    let over_all = state.finished().filter(|&end| end > Time::ZERO);
     let row = |(node, of): (NodeId, &NodeState)| Row {
         node,
         done: of.done,
@@ -49,6 +56,9 @@ pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
         left_bar: (of.done + of.left()) as f32 / most,
         idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
         activity: state.activity(node, now),
+        speed: of.speed,
+        paused: of.paused,
+        rate: over_all.map_or_else(|| of.rate(now), |end| f64::from(of.done) / end.secs()),
     };
     (0..).zip(state.nodes()).map(row).collect()
 }
@@ -79,6 +89,7 @@ mod tests {
             let rows = rows(&state, record.at);
             assert!(rows.iter().all(|row| 0.0 <= row.done_bar && row.done_bar <= row.left_bar && row.left_bar <= 1.0));
             assert!(rows.iter().all(|row| (0.0..=1.0).contains(&row.idle)), "{rows:?}");
+            assert!(rows.iter().all(|row| (0.0..120.0).contains(&row.rate)), "{rows:?}");
         }
         let shares = shares(&state);
         assert_eq!((shares[0].start, shares[2].end), (0.0, 1.0));
@@ -86,5 +97,8 @@ mod tests {
         let rows = rows(&state, state.head());
         assert!(rows[0].done > rows[1].done && rows[1].done > rows[2].done, "{rows:?}");
         assert_eq!(rows.iter().map(|row| row.done).sum::<u32>(), 90);
+        let rates: f64 = rows.iter().map(|row| row.rate).sum();
+        let seconds = state.finished().expect("the end").secs();
+        assert!((rates * seconds - 90.0).abs() < 1e-6, "{rates} atoms a second for {seconds} s");
     }
 }

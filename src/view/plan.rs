@@ -2,7 +2,8 @@
 
 use std::f32::consts::{PI, TAU};
 
-use super::display::{Point, TextSize};
+use super::display::Point;
+use super::labels::Labels;
 use crate::balance::NodeId;
 
 /// Where everything is, for a number of nodes and a size.
@@ -19,45 +20,48 @@ pub(super) struct Plan {
     pub(super) node: f32,
     /// Radius of the parent.
     pub(super) parent: f32,
-    /// Whether there is little room for words.
-    pub(super) small: bool,
-    /// Whether there is no room for words beside the nodes at all.
-    pub(super) tiny: bool,
-    /// How much larger than usual words are: in a large ring they grow with it.
-    pub(super) text: f32,
+    /// How labels look.
+    pub(super) labels: Labels,
 }
 
-/// Below this height there is little room for words.
-const SMALL: f32 = 380.0;
-/// Below this one there is none.
-const TINY: f32 = 190.0;
-/// Up to this one words have their usual size.
-const USUAL: f32 = 500.0;
-
 impl Plan {
+    /// Radius of a node's progress arc, in radii of a node.
+    pub(super) const TRACK: f32 = 1.2;
+
     /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
     pub(super) fn new(nodes: usize, [width, height]: Point) -> Self {
-        // Beside the rail there is room for a label, above and below it for one of two lines, or of one line where
-        // there is little.
-        let room = height.min(width);
-        let (small, tiny) = (room < SMALL, room < TINY);
-        let text = (room / USUAL).clamp(1.0, 1.4);
-        let (beside, above) = match (tiny, small) {
-            (true, _) => (10.0, 10.0),
-            (_, true) => (66.0, 30.0),
-            _ => (88.0 * text, 48.0 * text),
-        };
-        let rail = (height / 2.0 - above).min(width / 2.0 - beside).max(40.0);
+        let (labels, rail) = Labels::fit(nodes, [width, height]);
+        let rail = rail.max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
         let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
         let seats = rail - node * 1.3 - 8.0;
-        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, small, tiny, text }
+        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, labels }
+    }
+
+    /// How broad a node's progress arc is.
+    pub(super) fn track_width(&self) -> f32 {
+        (self.node * 0.13).max(2.0)
+    }
+
+    /// Radius of a node with its progress arc and the ground round it.
+    pub(super) fn reach(&self) -> f32 {
+        self.node * Self::TRACK + self.track_width()
+    }
+
+    /// Radius of the room within the nodes.
+    pub(super) fn interior(&self) -> f32 {
+        self.seats - self.reach()
+    }
+
+    /// The direction of a node of `nodes` seen from the centre, clockwise from the right.
+    pub(super) fn direction(node: usize, nodes: usize) -> f32 {
+        TAU * node as f32 / nodes.max(1) as f32 - PI / 2.0
     }
 
     /// A node's direction seen from the centre, clockwise from the right.
     pub(super) fn angle(&self, node: NodeId) -> f32 {
-        TAU * f32::from(node) / self.nodes.max(1) as f32 - PI / 2.0
+        Self::direction(usize::from(node), self.nodes)
     }
 
     /// A place by its direction and its distance from the centre.
@@ -73,11 +77,6 @@ impl Plan {
     /// The angle between neighbours.
     pub(super) fn step(&self) -> f32 {
         TAU / self.nodes.max(1) as f32
-    }
-
-    /// How large what is to be read is.
-    pub(super) fn text_size(&self) -> TextSize {
-        if self.small { TextSize::Small(1.0) } else { TextSize::Body(self.text) }
     }
 
     /// A part of a circle round `centre`; clockwise if `sweep` is positive.

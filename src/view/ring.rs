@@ -4,31 +4,39 @@
 //! at the top of the ring to the left.
 
 use std::f32::consts::{PI, TAU};
-use std::time::Duration;
 
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
-use super::node::{Activity, NodeState};
+use super::flight::Flight;
+use super::labels::{is_labelled, label};
+use super::machine::machine;
+use super::outcome::Outcome;
 use super::plan::Plan;
 use super::state::RunState;
 use super::traffic;
-use super::words::{activity_word, count, node_name, percent};
+use super::words::{duration, fraction, percent};
 use crate::balance::NodeId;
 use crate::time::Time;
 
-/// What a finished run amounts to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// From the first band sent to the last atom placed.
-    pub makespan: Duration,
-    /// The ideal makespan divided by the real one, 0 to 1.
-    pub efficiency: f64,
+/// What is laid over the ring.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Overlay {
+    /// The result, which takes the centre.
+    pub outcome: Option<Outcome>,
+    /// The node that is marked.
+    pub selected: Option<NodeId>,
 }
 
-/// Beyond this many the labels would run into each other; the rows have the numbers.
-const LABELLED: usize = 16;
+/// What can be pointed at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// A node, with its progress arc.
+    Node(NodeId),
+    /// The parent in the centre.
+    Parent,
+}
 
 /// The ring at `now`, for an area of `size` whose corner is at 0, 0; the text sizes are taken to be in its units.
-pub fn ring(state: &RunState, outcome: Option<Outcome>, now: Time, size: Point) -> Vec<Mark> {
+pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<Mark> {
     let plan = Plan::new(state.nodes().len(), size);
     let mut marks = Vec::new();
     rail(&plan, &mut marks);
@@ -36,16 +44,35 @@ pub fn ring(state: &RunState, outcome: Option<Outcome>, now: Time, size: Point) 
     traffic::results(&plan, state, now, &mut marks);
     traffic::offers(&plan, state, now, &mut marks);
     for (node, of) in (0..).zip(state.nodes()) {
-        let activity = state.activity(node, now);
-        draw_node(&plan, node, of, activity, &mut marks);
-        if plan.nodes <= LABELLED && !plan.tiny {
-            let words = words(state, of, activity);
-            label(&plan, plan.angle(node), words, activity, &mut marks);
+        let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
+        machine(&plan, (node, of), activity, is_selected, &mut marks);
+        if is_labelled(&plan, is_selected) {
+            label(&plan, state, (node, of), activity, now, &mut marks);
         }
     }
-    centre(&plan, state, outcome, &mut marks);
+    match overlay.outcome {
+        Some(outcome) => result(&plan, &outcome, &mut marks),
+        None => parent(&plan, state, &mut marks),
+    }
     traffic::parcels(&plan, state, now, &mut marks);
     marks
+}
+
+/// What of a ring of `nodes` in an area of `size` is at `point`.
+pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<Spot> {
+    let plan = Plan::new(nodes, size);
+    let from = |[x, y]: Point| (point[0] - x).hypot(point[1] - y);
+    let away = |node: &NodeId| from(plan.seat(*node));
+    let nearest = (0..nodes as NodeId).min_by(|one, other| away(one).total_cmp(&away(other)));
+    match nearest {
+        Some(node) if away(&node) <= plan.reach() => Some(Spot::Node(node)),
+        _ => (from(plan.centre) <= plan.parent).then_some(Spot::Parent),
+    }
+}
+
+/// The message whose parcel of atoms is drawn at `point` at `now`, in an area of `size`.
+pub fn parcel_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
+    traffic::parcel_at(&Plan::new(state.nodes().len(), size), state, now, point)
 }
 
 fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
@@ -74,104 +101,14 @@ fn spokes(plan: &Plan, marks: &mut Vec<Mark>) {
     }
 }
 
-/// A machine is as large as its speed; its arc says how much of its work is done.
-fn draw_node(plan: &Plan, node: NodeId, of: &NodeState, activity: Activity, marks: &mut Vec<Mark>) {
-    let centre = plan.seat(node);
-    let colour = Hue::Node(node);
-    let track = plan.node * 1.2;
-    let width = (plan.node * 0.13).max(2.0);
-    let work = of.done + of.left();
-    let done = if work == 0 { 0.0 } else { of.done as f32 / work as f32 };
-    marks.push(Mark::Disc { centre, radius: track + width, ink: Hue::Ground.full() });
-    marks.push(Mark::Line { points: Plan::arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
-    if done > 0.0 {
-        let strength = if activity == Activity::Retired { 0.5 } else { 1.0 };
-        let points = Plan::arc(centre, track, -PI / 2.0, TAU * done);
-        marks.push(Mark::Line { points, width, ink: colour.faint(strength) });
-    }
-    let radius = plan.node * (0.5 + 0.5 * of.speed.clamp(0.0, 1.0).sqrt() as f32);
-    let (fill, number) = match activity {
-        Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
-        Activity::Receiving => (0.55, Hue::Text),
-        Activity::Waiting | Activity::Offering | Activity::Idle | Activity::Stopped => (0.18, Hue::Text),
-        Activity::Retired => (0.08, Hue::Quiet),
-    };
-    marks.push(Mark::Disc { centre, radius, ink: colour.faint(fill) });
-    if fill < 1.0 {
-        let strength = if activity == Activity::Retired { 0.3 } else { 0.9 };
-        let points = Plan::arc(centre, radius - 0.75, 0.0, TAU);
-        marks.push(Mark::Line { points, width: 1.5, ink: colour.faint(strength) });
-    }
-    marks.push(Mark::Label {
-        at: centre,
-        anchor: Anchor::Centre,
-        text: node_name(node).to_string(),
-        size: TextSize::Fit(plan.node * 0.86),
-        ink: number.full(),
-    });
-}
-
-/// What is said of a node beside it: what it still has to do and what it does; at the end, what it has done.
-fn words(state: &RunState, of: &NodeState, activity: Activity) -> [String; 2] {
-    let left = || format!("{} left", count(of.left()));
-    let done = || format!("{} done", count(of.done));
-    match activity {
-        _ if state.finished().is_some() => [done(), percent(of.done, state.atoms())],
-        Activity::Retired => [done(), "retired".into()],
-        _ if of.left() == 0 => [activity_word(activity).into(), String::new()],
-        Activity::Receiving => [left(), "receiving".into()],
-        _ if of.speed < 0.995 => [left(), format!("at {:.0} %", of.speed * 100.0)],
-        _ => [left(), String::new()],
-    }
-}
-
-/// Puts words outside the rail, on one line or two.
-fn label(plan: &Plan, angle: f32, [first, second]: [String; 2], activity: Activity, marks: &mut Vec<Mark>) {
-    let [x, y] = plan.at(angle, plan.rail + if plan.small { 16.0 } else { 22.0 * plan.text });
-    // To the right of the ring a text begins at its place, to the left it ends there.
-    let anchor = match angle.cos() {
-        cos if cos > 0.2 => Anchor::Left,
-        cos if cos < -0.2 => Anchor::Right,
-        _ => Anchor::Centre,
-    };
-    let two = !second.is_empty() && !plan.small;
-    let y = y + if plan.small { 0.0 } else { 10.0 * plan.text * angle.sin() };
-    let spread = if two { 9.0 * plan.text } else { 0.0 };
-    let ink = if activity == Activity::Retired { Hue::Quiet } else { Hue::Text }.full();
-    let size = plan.text_size();
-    marks.push(Mark::Label { at: [x, y - spread], anchor, text: first, size, ink });
-    if two {
-        let (at, ink) = ([x, y + spread], Hue::Quiet.full());
-        marks.push(Mark::Label { at, anchor, text: second, size: TextSize::Small(plan.text), ink });
-    }
-}
-
-/// The parent, and how far the picture is; when it is done, the result.
-fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut Vec<Mark>) {
-    let [x, y] = plan.centre;
-    let large = (plan.rail * 0.15).clamp(10.0, 48.0);
-    let mut text = |dy: f32, text: String, size: TextSize, hue: Hue| {
-        marks.push(Mark::Label { at: [x, y + dy], anchor: Anchor::Centre, text, size, ink: hue.full() });
-    };
-    let small = TextSize::Small(plan.text);
-    if let Some(Outcome { makespan, efficiency }) = outcome {
-        let large = large * 1.1;
-        let (time, used) = (format!("{:.1} s", makespan.as_secs_f64()), format!("{:.0} %", efficiency * 100.0));
-        // What explains them has no room within a small ring; the sentence below says it too.
-        let lines = if plan.small { [-0.65, 0.65] } else { [-1.3, 0.65] };
-        text(large * lines[0], time, TextSize::Fit(large), Hue::Text);
-        text(large * lines[1], used, TextSize::Fit(large), Hue::Text);
-        if !plan.small {
-            text(-large * 0.45, "start to finish".into(), small, Hue::Quiet);
-            text(large * 1.5, "efficiency".into(), small, Hue::Quiet);
-        }
-        return;
-    }
-    let done = state.done() as f32 / state.atoms().max(1) as f32;
-    let lift = if plan.small { 0.0 } else { large * 0.25 };
-    text(-lift, percent(state.done(), state.atoms()), TextSize::Fit(large), Hue::Text);
-    if !plan.small {
-        text(large * 0.6, "parent".into(), small, Hue::Quiet);
+/// The parent, and how far the picture is.
+fn parent(plan: &Plan, state: &RunState, marks: &mut Vec<Mark>) {
+    let (done, large, captions) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan), has_captions(plan));
+    let lift = if captions { large * 0.25 } else { 0.0 };
+    let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
+    text(plan, -lift, percent(state.done(), state.atoms()), size, Hue::Text, marks);
+    if captions {
+        text(plan, large * 0.6, "parent".into(), small, Hue::Quiet, marks);
     }
     let points = Plan::arc(plan.centre, plan.parent, 0.0, TAU);
     marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });
@@ -181,24 +118,81 @@ fn centre(plan: &Plan, state: &RunState, outcome: Option<Outcome>, marks: &mut V
     }
 }
 
+/// The result of a finished run.
+fn result(plan: &Plan, outcome: &Outcome, marks: &mut Vec<Mark>) {
+    let (large, captions) = (large(plan) * 1.1, has_captions(plan));
+    let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
+    // What explains them has no room within a small ring; the sentence below says it too.
+    let lines = if captions { [-1.3, 0.65] } else { [-0.65, 0.65] };
+    text(plan, large * lines[0], duration(outcome.makespan), size, Hue::Text, marks);
+    text(plan, large * lines[1], fraction(outcome.efficiency), size, Hue::Text, marks);
+    if captions {
+        text(plan, -large * 0.45, "start to finish".into(), small, Hue::Quiet, marks);
+        text(plan, large * 1.5, "efficiency".into(), small, Hue::Quiet, marks);
+    }
+}
+
+/// The size of what is read in the centre.
+fn large(plan: &Plan) -> f32 {
+    (plan.rail * 0.15).clamp(10.0, 48.0)
+}
+
+/// Whether the numbers in the centre have room for what they are.
+fn has_captions(plan: &Plan) -> bool {
+    const LETTERS: usize = "start to finish".len();
+    let width = TextSize::Small(plan.labels.text).width(LETTERS);
+    !plan.labels.are_small() && width < 2.0 * plan.interior()
+}
+
+/// Text in the centre, `dy` below its middle.
+fn text(plan: &Plan, dy: f32, text: String, size: TextSize, hue: Hue, marks: &mut Vec<Mark>) {
+    let at = [plan.centre[0], plan.centre[1] + dy];
+    marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
+}
+
 #[cfg(test)]
 mod tests {
+    use std::cmp::Ordering;
     use std::collections::BTreeSet;
+    use std::time::Duration;
 
     use proptest::prelude::*;
 
     use super::super::sample;
     use super::*;
+    use crate::record::{Record, What};
 
     const SIZE: Point = [520.0, 480.0];
 
+    /// The corners of what holds a mark.
     fn places(mark: &Mark) -> Vec<Point> {
         match mark {
-            Mark::Disc { centre, radius, .. } => [-radius, *radius].map(|d| [centre[0] + d, centre[1] + d]).to_vec(),
-            Mark::Parcel { centre, .. } => vec![*centre],
+            Mark::Disc { centre, radius, .. } => corners(*centre, [*radius; 2]),
+            Mark::Box { centre, half, .. } => corners(*centre, *half),
             Mark::Line { points, .. } | Mark::Trail { points, .. } => points.clone(),
-            Mark::Label { at, .. } => vec![*at],
+            Mark::Label { .. } => {
+                let [left, top, right, bottom] = extent(mark).expect("a label");
+                vec![[left, top], [right, bottom]]
+            }
         }
+    }
+
+    fn corners([x, y]: Point, [w, h]: Point) -> Vec<Point> {
+        vec![[x - w, y - h], [x + w, y + h]]
+    }
+
+    /// Left, top, right and bottom of a label.
+    fn extent(mark: &Mark) -> Option<[f32; 4]> {
+        let Mark::Label { at: [x, y], anchor, text, size, .. } = mark else { return None };
+        let (width, half) = (size.width(text.chars().count()), size.line() / 2.0);
+        let left = anchor.left(*x, width);
+        Some([left, y - half, left + width, y + half])
+    }
+
+    /// The labels beside the rail, not those on nodes, offers or parcels.
+    fn labels(marks: &[Mark]) -> Vec<[f32; 4]> {
+        let beside = |mark: &&Mark| matches!(mark, Mark::Label { text, size, .. } if !matches!(size, TextSize::Fit(_)) && !text.starts_with('×'));
+        marks.iter().filter(beside).filter_map(extent).collect()
     }
 
     fn texts(marks: &[Mark]) -> Vec<&str> {
@@ -210,20 +204,120 @@ mod tests {
             .collect()
     }
 
+    /// A ring of these speeds after a part of its records, with its first node paused.
+    fn moment(speeds: &[f64], part: f64) -> (RunState, Time) {
+        let header = sample::header(speeds, 60);
+        let (records, mut state) = (sample::records(&header), RunState::new(&header));
+        let count = (records.len() as f64 * part) as usize;
+        records[..count].iter().for_each(|record| state.apply(record));
+        let now = state.head();
+        state.apply(&Record { at: now, what: What::Paused { node: 0 } });
+        (state, now)
+    }
+
     proptest! {
         #[test]
-        fn everything_stays_inside(speeds in prop::collection::vec(0.05..1.0f64, 1..24), width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
-            let header = sample::header(&speeds, 60);
-            let mut state = RunState::new(&header);
-            for (i, record) in sample::records(&header).iter().enumerate() {
-                state.apply(record);
-                if i % 17 == 0 {
-                    for point in ring(&state, None, record.at, [width, height]).iter().flat_map(places) {
-                        prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
-                    }
+        fn everything_stays_inside(
+            speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
+            width in 240.0..1000.0f32, height in 240.0..1000.0f32,
+        ) {
+            let (state, now) = moment(&speeds, part);
+            for later in 0..8 {
+                let overlay = Overlay { selected: Some(selected), outcome: None };
+                let now = now + Duration::from_millis(150 * later);
+                for point in ring(&state, &overlay, now, [width, height]).iter().flat_map(places) {
+                    prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
                 }
             }
         }
+
+        #[test]
+        fn labels_touch_neither_each_other_nor_the_rail(
+            speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
+            width in 240.0..1000.0f32, height in 240.0..1000.0f32,
+        ) {
+            let (state, now) = moment(&speeds, part);
+            let selected = selected % speeds.len() as u16;
+            let overlay = Overlay { selected: Some(selected), outcome: None };
+            let plan = Plan::new(speeds.len(), [width, height]);
+            let [x, y] = plan.centre;
+            let nearest = |[left, top, right, bottom]: [f32; 4]| {
+                (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
+            };
+            let mut labels = labels(&ring(&state, &overlay, now, [width, height]));
+            // What stands in the centre.
+            labels.retain(|&label| nearest(label) > plan.parent);
+            let least = if speeds.len() <= 16 { speeds.len() } else { 1 };
+            prop_assert!(labels.len() >= least, "{labels:?}");
+            prop_assert!(labels.len() <= 2 * speeds.len().min(16));
+            for (i, one) in labels.iter().enumerate() {
+                prop_assert!(nearest(*one) > plan.rail + 9.0, "{one:?} lies on the rail");
+                for other in &labels[..i] {
+                    let apart = [one[0] - other[2], other[0] - one[2], one[1] - other[3], other[1] - one[3]];
+                    let apart = apart.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                    prop_assert!(apart > -0.01, "{one:?} and {other:?} overlap by {apart}");
+                }
+            }
+        }
+
+        #[test]
+        fn whatever_is_pointed_at_is_found(nodes in 1..33usize, width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
+            let (size, plan) = ([width, height], Plan::new(nodes, [width, height]));
+            for node in 0..nodes as NodeId {
+                prop_assert_eq!(ring_at(nodes, size, plan.seat(node)), Some(Spot::Node(node)));
+            }
+            prop_assert_eq!(ring_at(nodes, size, plan.centre), Some(Spot::Parent));
+            prop_assert_eq!(ring_at(nodes, size, [1.0, 1.0]), None);
+            prop_assert_eq!(ring_at(nodes, size, plan.at(0.3, plan.interior() * 0.9)), None);
+        }
+    }
+
+    #[test]
+    fn a_parcel_is_found_where_it_is_drawn() {
+        let (state, now) = moment(&[1.0, 1.0, 0.1], 0.5);
+        let marks = ring(&state, &Overlay::default(), now, SIZE);
+        let label = |mark: &Mark| match mark {
+            Mark::Label { at, text, .. } if text.starts_with('×') => Some((*at, text.clone())),
+            _ => None,
+        };
+        let (at, text) = marks.iter().rev().find_map(label).expect("a parcel");
+        let flight = parcel_at(&state, now, SIZE, at).expect("the parcel");
+        assert_eq!(text, format!("×{}", flight.cargo.atoms()));
+        assert_eq!(parcel_at(&state, now, SIZE, [1.0, 1.0]), None);
+    }
+
+    #[test]
+    fn a_pause_the_selection_and_the_pipe_are_seen() {
+        let (mut state, now) = moment(&[1.0, 1.0, 0.1], 0.4);
+        // Slots are as high as wide, bars higher, parcels wider.
+        let boxes = |marks: &[Mark], shape: Ordering| {
+            let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);
+            marks.iter().filter(has).count()
+        };
+        let draw = |state: &RunState, selected| ring(state, &Overlay { selected, outcome: None }, now, [640.0, 490.0]);
+        let paused = draw(&state, None);
+        assert!(texts(&paused).contains(&"paused"));
+        assert_eq!(draw(&state, Some(1)).len(), paused.len() + 1);
+        state.apply(&Record { at: now, what: What::Resumed { node: 0 } });
+        let going = draw(&state, None);
+        assert!(!texts(&going).contains(&"paused"));
+        assert_eq!([boxes(&paused, Ordering::Greater), boxes(&going, Ordering::Greater)], [2, 0], "bars");
+        assert_eq!([boxes(&paused, Ordering::Equal), boxes(&going, Ordering::Equal)], [6, 6], "slots");
+        let small = ring(&state, &Overlay::default(), now, [240.0, 240.0]);
+        assert_eq!(boxes(&small, Ordering::Equal), 0, "too small to be seen");
+    }
+
+    #[test]
+    fn who_has_retired_looks_unlike_who_is_idle() {
+        let mut state = RunState::new(&sample::header(&[1.0, 1.0], 60));
+        state.nodes[0].band_at = Some(Time::ZERO);
+        let draw = |state: &RunState| ring(state, &Overlay::default(), Time::ZERO, SIZE);
+        let idle = draw(&state);
+        state.nodes[0].retired = true;
+        let retired = draw(&state);
+        assert!(texts(&idle).contains(&"idle") && texts(&retired).contains(&"retired"));
+        let lines = |marks: &[Mark]| marks.iter().filter(|mark| matches!(mark, Mark::Line { .. })).count();
+        assert!(lines(&retired) >= lines(&idle) + 4, "a broken outline");
     }
 
     #[test]
@@ -233,7 +327,7 @@ mod tests {
         let mut seen = BTreeSet::new();
         for record in sample::records(&header) {
             state.apply(&record);
-            let marks = ring(&state, None, record.at, SIZE);
+            let marks = ring(&state, &Overlay::default(), record.at, SIZE);
             seen.extend(texts(&marks).into_iter().filter(|text| text.starts_with('×')).map(str::to_owned));
         }
         assert!(seen.contains("×100"), "bands {seen:?}");
@@ -243,8 +337,9 @@ mod tests {
     #[test]
     fn the_result_takes_the_centre() {
         let state = RunState::new(&sample::header(&[1.0, 1.0], 30));
-        let outcome = Outcome { makespan: Duration::from_millis(20_440), efficiency: 0.973 };
-        let marks = ring(&state, Some(outcome), Time::from_secs(21.0), SIZE);
+        let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
+        let outcome = Outcome { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
+        let marks = ring(&state, &Overlay { outcome: Some(outcome), selected: None }, Time::from_secs(21.0), SIZE);
         assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
     }
 }

@@ -5,9 +5,10 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::flight::{Cargo, Flight, atoms_in};
-use super::node::{Activity, NodeState};
+use super::node::NodeState;
+use super::place::Place;
 use crate::balance::{NodeId, Party};
-use crate::picture::Atom;
+use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
 use crate::runlog::Header;
 use crate::time::Time;
@@ -17,32 +18,42 @@ use crate::time::Time;
 /// Records of different parties may come interleaved: a message may be received here before it was sent.
 #[derive(Clone, Debug)]
 pub struct RunState {
-    nodes: Vec<NodeState>,
-    owners: Vec<Option<NodeId>>,
-    holders: Vec<Option<NodeId>>,
-    /// Since when each atom is where it is: atoms may be handed on before the first hand's record comes.
-    held_since: Vec<Time>,
-    flights: Vec<Flight>,
-    pending: BTreeMap<u64, Flight>,
+    pub(super) nodes: Vec<NodeState>,
+    /// By atom.
+    places: Vec<Place>,
+    pub(super) flights: Vec<Flight>,
+    pub(super) pending: BTreeMap<u64, Flight>,
     early: BTreeSet<u64>,
     touched: Vec<Range<Atom>>,
+    division: Division,
+    latency: Duration,
+    arrived: Arrived,
     head: Time,
-    finished: Option<Time>,
+    pub(super) finished: Option<Time>,
+}
+
+/// What has arrived at the parent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Arrived {
+    /// Messages of every kind.
+    pub messages: u64,
+    /// Traced pixels.
+    pub pixels: u32,
 }
 
 impl RunState {
     /// The state before anything has happened.
     pub fn new(header: &Header) -> Self {
-        let atoms = header.division.atoms() as usize;
         Self {
             nodes: header.speeds.iter().map(|&speed| NodeState::new(speed)).collect(),
-            owners: vec![None; atoms],
-            holders: vec![None; atoms],
-            held_since: vec![Time::ZERO; atoms],
+            places: vec![Place::Nowhere; header.division.atoms() as usize],
             flights: Vec::new(),
             pending: BTreeMap::new(),
             early: BTreeSet::new(),
             touched: Vec::new(),
+            division: header.division,
+            latency: header.link.latency,
+            arrived: Arrived::default(),
             head: Time::ZERO,
             finished: None,
         }
@@ -56,38 +67,29 @@ impl RunState {
             What::Sent { id, from, to, message, arrives, .. } => {
                 self.sent(*id, Flight::new(*from, *to, message, at, *arrives));
             }
-            What::Received { id, .. } => match self.pending.remove(id) {
-                Some(flight) => self.received(flight, at),
-                None => {
-                    self.early.insert(*id);
+            What::Received { id, by } => {
+                self.arrived.messages += u64::from(*by == Party::Parent);
+                match self.pending.remove(id) {
+                    Some(flight) => self.received(flight, at),
+                    None => _ = self.early.insert(*id),
                 }
-            },
+            }
             What::AtomStarted { node, atom } => {
-                if let Some(state) = self.nodes.get_mut(usize::from(*node)) {
+                if let Some(state) = self.node(*node) {
                     state.atom = Some(*atom);
                     self.touched.push(*atom..*atom + 1);
                 }
             }
-            What::AtomDone { node, atom, .. } => {
-                if let (Some(state), Some(owner)) =
-                    (self.nodes.get_mut(usize::from(*node)), self.owners.get_mut(*atom as usize))
-                {
-                    *owner = Some(*node);
-                    state.atom_done(at);
-                    self.touched.push(*atom..*atom + 1);
-                }
-            }
-            What::SpeedSet { node, speed } => {
-                if let Some(state) = self.nodes.get_mut(usize::from(*node)) {
-                    (state.speed_before, state.speed) = (state.speed, *speed);
-                }
-            }
+            What::AtomDone { node, atom, cost } => self.atom_done(*node, *atom, *cost, at),
+            What::SpeedSet { node, speed } => _ = self.node(*node).map(|state| state.set_speed(*speed, at)),
+            What::Paused { node } => _ = self.node(*node).map(|state| state.set_paused(true, at)),
+            What::Resumed { node } => _ = self.node(*node).map(|state| state.set_paused(false, at)),
+            What::LatencySet { latency } => self.latency = *latency,
             What::Retired { node } => {
-                if let Some(state) = self.nodes.get_mut(usize::from(*node)) {
+                if let Some(state) = self.node(*node) {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
-            What::Paused { .. } | What::Resumed { .. } | What::LatencySet { .. } => {}
             What::Finished => self.finished = Some(at),
         }
     }
@@ -97,14 +99,9 @@ impl RunState {
         &self.nodes
     }
 
-    /// Who has traced each atom.
-    pub fn owners(&self) -> &[Option<NodeId>] {
-        &self.owners
-    }
-
-    /// In whose queue each atom is or last was.
-    pub fn holders(&self) -> &[Option<NodeId>] {
-        &self.holders
+    /// Where each atom stands.
+    pub fn places(&self) -> &[Place] {
+        &self.places
     }
 
     /// The messages that can still be seen, in the order in which they left; of results, which are many, only
@@ -120,7 +117,22 @@ impl RunState {
 
     /// How many atoms there are.
     pub fn atoms(&self) -> u32 {
-        self.owners.len() as u32
+        self.places.len() as u32
+    }
+
+    /// How the picture is cut into atoms.
+    pub fn division(&self) -> Division {
+        self.division
+    }
+
+    /// How long a message travels that leaves now, apart from what its weight takes.
+    pub fn latency(&self) -> Duration {
+        self.latency
+    }
+
+    /// What has arrived at the parent.
+    pub fn arrived(&self) -> Arrived {
+        self.arrived
     }
 
     /// The time of the latest record.
@@ -133,74 +145,41 @@ impl RunState {
         self.finished
     }
 
-    /// Whether anything moves at `now`: a message that is drawn, or a machine that computes.
-    pub fn moves(&self, now: Time) -> bool {
-        let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
-        flies || self.finished.is_none() && self.nodes.iter().any(NodeState::computes)
-    }
-
-    /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
-    /// result.
-    pub fn presence(&self, now: Time) -> f32 {
-        const FADE: Duration = Duration::from_millis(250);
-        let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
-        1.0 - (after.as_secs_f64() / FADE.as_secs_f64()).min(1.0) as f32
-    }
-
-    /// Whether atoms are on their way to a machine.
-    pub(super) fn has_atoms_under_way(&self) -> bool {
-        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Band(_) | Cargo::Transfer(_));
-        self.pending.values().any(carries)
-    }
-
-    /// What `node` is seen doing at `now`.
-    pub fn activity(&self, node: NodeId, now: Time) -> Activity {
-        let state = &self.nodes[usize::from(node)];
-        // What lasts only an instant is shown for as long as it is drawn.
-        let offers =
-            self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.presence(now) > 0.4);
-        if self.finished.is_some_and(|end| end <= now) {
-            Activity::Done
-        } else if state.retired {
-            Activity::Retired
-        } else if !state.has_band {
-            Activity::Waiting
-        } else if self.receives(node, now) {
-            Activity::Receiving
-        } else if state.left() > 0 {
-            if state.speed > 0.0 { Activity::Computing } else { Activity::Stopped }
-        } else if state.offer_out || offers {
-            Activity::Offering
-        } else {
-            Activity::Idle
-        }
-    }
-
     /// The atoms that look different since this was last asked.
     pub fn take_touched(&mut self) -> Vec<Range<Atom>> {
         std::mem::take(&mut self.touched)
     }
 
-    /// Whether atoms on their way to `node` are drawn at `now`.
-    fn receives(&self, node: NodeId, now: Time) -> bool {
-        self.flights.iter().any(|flight| {
-            flight.to == Party::Node(node)
-                && matches!(flight.cargo, Cargo::Transfer(_))
-                && flight.shown().contains(&now)
-        })
+    fn node(&mut self, node: NodeId) -> Option<&mut NodeState> {
+        self.nodes.get_mut(usize::from(node))
+    }
+
+    fn atom_done(&mut self, node: NodeId, atom: Atom, cost: Duration, at: Time) {
+        if let (Some(state), Some(place)) = (self.nodes.get_mut(usize::from(node)), self.places.get_mut(atom as usize))
+        {
+            *place = Place::traced(node, cost, at);
+            state.atom_done(at);
+            self.touched.push(atom..atom + 1);
+        }
     }
 
     fn sent(&mut self, id: u64, flight: Flight) {
-        if let (Party::Node(from), Cargo::Transfer(ranges)) = (flight.from, &flight.cargo)
-            && let Some(giver) = self.nodes.get_mut(usize::from(from))
+        if let Party::Node(from) = flight.from
+            && let Some(sender) = self.node(from)
         {
-            giver.left -= i64::from(atoms_in(ranges));
-        }
-        if let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo)
-            && from == *who
-            && let Some(offerer) = self.nodes.get_mut(usize::from(from))
-        {
-            offerer.offer_out = true;
+            match &flight.cargo {
+                Cargo::Transfer(ranges) => {
+                    let atoms = atoms_in(ranges);
+                    sender.given.add(atoms);
+                    sender.left -= i64::from(atoms);
+                }
+                Cargo::Offer { who } if *who == from => {
+                    sender.offers += 1;
+                    sender.offer_out = true;
+                }
+                Cargo::Offer { .. } => sender.hops += 1,
+                Cargo::Band(_) | Cargo::Results(_) | Cargo::Shutdown => {}
+            }
         }
         if self.is_drawn(&flight) {
             self.flights.retain(|earlier| earlier.gone() > flight.sent);
@@ -239,30 +218,33 @@ impl RunState {
     }
 
     fn received(&mut self, flight: Flight, at: Time) {
-        let Party::Node(to) = flight.to else { return };
-        let Some(state) = self.nodes.get_mut(usize::from(to)) else { return };
+        let to = match (flight.to, &flight.cargo) {
+            (Party::Parent, Cargo::Results(ranges)) => {
+                self.arrived.pixels += ranges.iter().map(|range| self.division.pixels_in(range)).sum::<u32>();
+                return;
+            }
+            (Party::Parent, _) => return,
+            (Party::Node(to), _) => to,
+        };
+        let Some(state) = self.node(to) else { return };
         let ranges = match flight.cargo {
             Cargo::Band(band) => {
-                state.has_band = true;
+                state.band_at = Some(at);
                 vec![band]
             }
             Cargo::Transfer(ranges) => {
                 state.offer_out = false;
+                state.got.add(atoms_in(&ranges));
                 ranges
             }
             Cargo::Offer { .. } | Cargo::Results(_) | Cargo::Shutdown => return,
         };
         state.give(atoms_in(&ranges), at);
         for range in ranges {
-            let places = range.start as usize..range.end as usize;
-            let (Some(holders), Some(since)) = (self.holders.get_mut(places.clone()), self.held_since.get_mut(places))
-            else {
-                continue;
-            };
-            for (holder, since) in holders.iter_mut().zip(since).filter(|(_, since)| **since <= flight.arrives) {
-                (*holder, *since) = (Some(to), flight.arrives);
+            if let Some(places) = self.places.get_mut(range.start as usize..range.end as usize) {
+                places.iter_mut().for_each(|place| place.arrive(to, flight.arrives));
+                self.touched.push(range);
             }
-            self.touched.push(range);
         }
     }
 }
@@ -307,13 +289,21 @@ mod tests {
                 state.apply(&record);
                 let left: u32 = state.nodes.iter().map(NodeState::left).sum();
                 prop_assert!(left + state.done() + in_flight(&state) <= atoms);
-                if left > 0 && state.nodes.iter().all(|node| node.has_band) {
+                if left > 0 && state.nodes.iter().all(|node| node.band_at.is_some()) {
                     prop_assert_eq!(left + state.done() + in_flight(&state), atoms);
                 }
             }
             prop_assert!(state.finished().is_some());
-            prop_assert!(state.owners().iter().all(Option::is_some));
+            prop_assert!(state.places().iter().all(|place| place.owner().is_some()));
             prop_assert!(state.nodes.iter().all(|node| node.retired && node.left() == 0));
+            prop_assert_eq!(state.arrived().pixels, header.size.pixels());
+            let given: u32 = state.nodes.iter().map(|node| node.given.atoms).sum();
+            prop_assert_eq!(given, state.nodes.iter().map(|node| node.got.atoms).sum::<u32>());
+            for (node, band) in state.nodes.iter().zip(header.division.bands(speeds.len())) {
+                prop_assert_eq!(node.done, band.len() as u32 + node.got.atoms - node.given.atoms);
+                // Each offer is taken or comes back, and only the last one does.
+                prop_assert_eq!(node.offers, node.got.count + 1);
+            }
         }
 
         #[test]
@@ -328,58 +318,26 @@ mod tests {
                 batch.sort_by_key(party);
                 batch.iter().for_each(|record| mixed.apply(record));
             }
-            prop_assert_eq!(straight.owners(), mixed.owners());
-            prop_assert_eq!(straight.holders(), mixed.holders());
+            prop_assert_eq!(straight.places(), mixed.places());
+            prop_assert_eq!(straight.arrived(), mixed.arrived());
             for (one, other) in straight.nodes.iter().zip(&mixed.nodes) {
                 prop_assert_eq!((one.done, one.left, one.retired), (other.done, other.left, other.retired));
+                prop_assert_eq!((one.offers, one.hops, one.given, one.got), (other.offers, other.hops, other.given, other.got));
             }
         }
     }
 
     #[test]
-    fn a_slow_node_computes_while_the_others_offer_and_receive() {
-        let header = sample::header(&[1.0, 1.0, 0.1], 60);
-        let mut state = RunState::new(&header);
-        let mut seen = BTreeSet::new();
-        for record in sample::records(&header) {
-            state.apply(&record);
-            for node in 0..3 {
-                let activity = state.activity(node, record.at);
-                seen.insert((node, format!("{activity:?}")));
-            }
-        }
-        for what in ["Waiting", "Computing", "Offering", "Receiving", "Done"] {
-            assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
-        }
-        assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
-        let idle: Vec<_> = state.nodes.iter().map(|node| node.idle(state.head())).collect();
-        assert!(
-            idle.iter().all(|&idle| idle >= Duration::from_millis(40) && idle < Duration::from_secs(1)),
-            "{idle:?}"
-        );
-    }
-
-    #[test]
-    fn nothing_moves_while_all_machines_stand_still_nor_after_the_end() {
-        let header = sample::header(&[1.0, 1.0], 40);
-        let mut state = RunState::new(&header);
-        let records = sample::records(&header);
-        records.iter().take(30).for_each(|record| state.apply(record));
-        let later = state.head() + Duration::from_secs(5);
-        assert!(state.moves(later));
-        for node in 0..2 {
-            assert!(state.moves(later));
-            state.apply(&Record { at: state.head(), what: What::SpeedSet { node, speed: 0.0 } });
-        }
-        assert!(state.moves(state.head()), "something is still in flight");
-        assert!(!state.moves(later));
-        state.apply(&Record { at: later, what: What::SpeedSet { node: 1, speed: 0.3 } });
-        assert!(state.moves(later));
-
-        records.iter().skip(30).for_each(|record| state.apply(record));
-        let end = state.finished().expect("the run is complete");
-        assert!(state.presence(end) == 1.0 && state.presence(end + Duration::from_millis(400)) == 0.0);
-        assert!(!state.moves(end + Duration::from_millis(400)));
+    fn pauses_and_latencies_are_kept() {
+        let mut state = RunState::new(&sample::header(&[1.0, 0.5], 2));
+        let mut apply = |what| {
+            state.apply(&Record { at: Time::ZERO, what });
+            (state.nodes[1].paused, state.nodes[1].speed, state.latency())
+        };
+        let (before, after) = (Duration::from_millis(40), Duration::from_millis(200));
+        assert_eq!(apply(What::Paused { node: 1 }), (true, 0.5, before));
+        assert_eq!(apply(What::LatencySet { latency: after }), (true, 0.5, after));
+        assert_eq!(apply(What::Resumed { node: 1 }), (false, 0.5, after));
     }
 
     #[test]
@@ -390,6 +348,7 @@ mod tests {
         state.apply(&Record { at, what: What::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
         state.apply(&Record { at, what: What::Received { id: 0, by: to } });
         state.apply(&Record { at, what: What::AtomDone { node: 9, atom: 77, cost: Duration::ZERO } });
+        state.apply(&Record { at, what: What::Paused { node: 9 } });
         assert!(state.flights().is_empty());
         assert_eq!(state.done(), 0);
     }

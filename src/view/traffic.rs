@@ -83,53 +83,91 @@ fn lane_width(plan: &Plan) -> f32 {
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
 pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    let moving = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0 && flight.cargo.atoms() > 0;
-    let mut flights: Vec<_> = state.flights().iter().filter(moving).collect();
-    // The largest are followed; the sort keeps the order of equals, so nothing flickers.
-    flights.sort_by_key(|flight| std::cmp::Reverse(flight.cargo.atoms()));
-    let mut transfers = 0;
-    for flight in flights {
-        let (from, to, hue) = match (flight.from, flight.to, &flight.cargo) {
-            (Party::Parent, Party::Node(to), Cargo::Band(_)) => (plan.centre, plan.seat(to), Hue::Node(to)),
-            (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
-                transfers += 1;
-                (plan.seat(from), plan.seat(to), Hue::Node(from))
-            }
-            _ => continue,
-        };
-        let strength = if transfers <= FOLLOWED { 1.0 } else { HINT };
-        parcel(plan, from, to, hue, (flight, strength * state.presence(now)), now, marks);
+    for parcel in on_their_way(plan, state, now).into_iter().rev() {
+        parcel.draw(plan, now, marks);
     }
 }
 
-fn parcel(
-    plan: &Plan,
+/// The flight of the parcel that is drawn at `point`.
+pub(super) fn parcel_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+    let covers = |parcel: &Parcel<'_>| {
+        let (_, [u, v], half) = parcel.shape(plan, now);
+        parcel.flight.shown().contains(&now) && (x - u).abs() <= half[0] && (y - v).abs() <= half[1]
+    };
+    on_their_way(plan, state, now).into_iter().find(covers).map(|parcel| parcel.flight)
+}
+
+/// A message with atoms as it is drawn.
+struct Parcel<'a> {
+    flight: &'a Flight,
     from: Point,
     to: Point,
-    hue: Hue,
-    (flight, strength): (&Flight, f32),
-    now: Time,
-    marks: &mut Vec<Mark>,
-) {
-    let bend = plan.bend(from, to);
-    let here = ease(flight.progress(now));
-    let pieces = 24;
-    let points = (0..=pieces).map(|i| curve(from, bend, to, here * i as f32 / pieces as f32)).collect();
-    let alpha = strength * flight.presence(now);
-    marks.push(Mark::Trail { points, width: plan.node * 0.5, ink: hue.faint(0.7 * alpha) });
-    if !flight.shown().contains(&now) {
-        return;
+    node: NodeId,
+    /// Or only hinted at.
+    is_followed: bool,
+    /// How strongly it is seen.
+    strength: f32,
+}
+
+/// The parcels that are drawn, the largest first; it lies on top.
+fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'a>> {
+    let moving = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0 && flight.cargo.atoms() > 0;
+    let mut flights: Vec<_> = state.flights().iter().filter(moving).collect();
+    // The sort keeps the order of equals, so nothing flickers.
+    flights.sort_by_key(|flight| std::cmp::Reverse(flight.cargo.atoms()));
+    let mut transfers = 0;
+    let parcel = |flight: &'a Flight| {
+        let (from, to, node) = match (flight.from, flight.to, &flight.cargo) {
+            (Party::Parent, Party::Node(to), Cargo::Band(_)) => (plan.centre, plan.seat(to), to),
+            (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
+                transfers += 1;
+                (plan.seat(from), plan.seat(to), from)
+            }
+            _ => return None,
+        };
+        let is_followed = transfers <= FOLLOWED;
+        let strength = if is_followed { 1.0 } else { HINT };
+        Some(Parcel { flight, from, to, node, is_followed, strength: strength * seen_at(state, flight, now) })
+    };
+    flights.into_iter().filter_map(parcel).collect()
+}
+
+impl Parcel<'_> {
+    /// Its text, its middle, and half its width and height.
+    fn shape(&self, plan: &Plan, now: Time) -> (String, Point, Point) {
+        let text = format!("×{}", count(self.flight.cargo.atoms()));
+        let letters = text.chars().count() as f32;
+        let half = if !self.is_followed {
+            [0.16 * plan.node; 2]
+        } else if plan.labels.are_small() {
+            [5.0 + 3.8 * letters, 9.0]
+        } else {
+            [7.0 + 4.6 * letters, 12.0].map(|side| side * plan.labels.text)
+        };
+        let middle = curve(self.from, plan.bend(self.from, self.to), self.to, ease(self.flight.progress(now)));
+        (text, middle, half)
     }
-    let centre = curve(from, bend, to, here);
-    let text = format!("×{}", count(flight.cargo.atoms()));
-    let letters = text.chars().count() as f32;
-    let half =
-        if plan.small { [5.0 + 3.8 * letters, 9.0] } else { [7.0 + 4.6 * letters, 12.0].map(|side| side * plan.text) };
-    marks.push(Mark::Parcel { centre, half: [half[0] + 2.0, half[1] + 2.0], ink: Hue::Ground.faint(alpha) });
-    marks.push(Mark::Parcel { centre, half, ink: hue.faint(alpha) });
-    let Hue::Node(node) = hue else { return };
-    let ink = Hue::OnNode(node).faint(alpha);
-    marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: plan.text_size(), ink });
+
+    fn draw(&self, plan: &Plan, now: Time, marks: &mut Vec<Mark>) {
+        let (from, to, alpha) = (self.from, self.to, self.strength);
+        let (bend, here) = (plan.bend(from, to), ease(self.flight.progress(now)));
+        let pieces = 24;
+        let points = (0..=pieces).map(|i| curve(from, bend, to, here * i as f32 / pieces as f32)).collect();
+        let hue = Hue::Node(self.node);
+        marks.push(Mark::Trail { points, width: plan.node * 0.5, ink: hue.faint(0.7 * alpha) });
+        if !self.flight.shown().contains(&now) {
+            return;
+        }
+        let (text, centre, half) = self.shape(plan, now);
+        if !self.is_followed {
+            return marks.push(Mark::Box { centre, half, round: 0.5 * half[0], ink: hue.faint(alpha) });
+        }
+        let round = 6.0;
+        marks.push(Mark::Box { centre, half: half.map(|side| side + 2.0), round, ink: Hue::Ground.faint(alpha) });
+        marks.push(Mark::Box { centre, half, round, ink: hue.faint(alpha) });
+        let ink = Hue::OnNode(self.node).faint(alpha);
+        marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: plan.labels.size(), ink });
+    }
 }
 
 /// People follow four to six things at a time: more of a kind are only hinted at.

@@ -1,0 +1,305 @@
+//! The last events of a run as sentences. What belongs together is one event, so that no kind drowns the others.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use super::flight::atoms_in;
+use super::sentences;
+use super::state::RunState;
+use super::words::{atoms_words, fraction, names, node_name};
+use crate::balance::{Message, NodeId, Party};
+use crate::record::{Record, What};
+use crate::time::Time;
+
+/// The last events, the newest last.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Events {
+    told: VecDeque<Told>,
+}
+
+#[derive(Clone, Debug)]
+struct Told {
+    at: Time,
+    event: Event,
+    sentence: String,
+}
+
+/// What events are told by, as far as a later one may join an earlier one.
+#[derive(Clone, Debug, PartialEq)]
+enum Event {
+    Bands,
+    Offer(NodeId),
+    Transfer,
+    /// Transfers of few atoms.
+    Trickle {
+        from: NodeId,
+        to: Vec<NodeId>,
+        transfers: u32,
+        atoms: u32,
+    },
+    Retired(Vec<NodeId>),
+    /// Whose, and the speed before somebody began to change it.
+    Speed {
+        node: NodeId,
+        before: f64,
+    },
+    Paused,
+    Latency,
+    End,
+}
+
+/// How many events are kept.
+const KEPT: usize = 64;
+/// A transfer of up to so many atoms is small.
+const SMALL: u32 = 5;
+/// Events that are alike and no further apart than this are one.
+const TOGETHER: Duration = Duration::from_secs(3);
+
+impl Events {
+    /// Takes in a record; `state` already knows it.
+    pub(super) fn apply(&mut self, record: &Record, state: &RunState) {
+        let at = record.at;
+        match &record.what {
+            What::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
+                if !self.has(&Event::Bands) {
+                    self.tell(at, Event::Bands, sentences::bands(state, band));
+                }
+            }
+            What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
+                // Later offers are told by what comes of them.
+                if state.nodes().get(usize::from(*who)).is_some_and(|node| node.offers == 1) {
+                    self.tell(at, Event::Offer(*who), sentences::offer(*who, true, *done));
+                }
+            }
+            What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
+                self.transfer(at, *from, *to, atoms_in(ranges), state);
+            }
+            What::SpeedSet { node, speed } => {
+                let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
+                let same = |event: &Event| matches!(event, Event::Speed { node: other, .. } if other == node);
+                let before = match self.take(at, same) {
+                    Some(Event::Speed { before, .. }) => before,
+                    _ => machine.speed_before,
+                };
+                let sentence = sentences::speed(state, *node, before, *speed);
+                self.tell(at, Event::Speed { node: *node, before }, sentence);
+            }
+            What::Paused { node } => self.tell(at, Event::Paused, sentences::paused(state, *node)),
+            What::Resumed { node } => self.tell(at, Event::Paused, sentences::resumed(state, *node)),
+            What::LatencySet { latency } => {
+                self.take(at, |event| *event == Event::Latency);
+                self.tell(at, Event::Latency, sentences::latency(*latency));
+            }
+            What::Retired { node } => self.retired(at, *node),
+            What::Finished => self.tell(at, Event::End, sentences::COMPLETE.into()),
+            What::Sent { .. } | What::Received { .. } | What::AtomStarted { .. } | What::AtomDone { .. } => {}
+        }
+    }
+
+    /// The events and their times, the newest last.
+    pub(super) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+        self.told.iter().map(|told| (told.at, &*told.sentence))
+    }
+
+    /// What somebody did to the run last.
+    pub(super) fn latest_by_hand(&self) -> Option<&str> {
+        let by_hand = |told: &&Told| matches!(told.event, Event::Speed { .. } | Event::Paused | Event::Latency);
+        self.told.iter().rev().find(by_hand).map(|told| &*told.sentence)
+    }
+
+    fn has(&self, event: &Event) -> bool {
+        self.told.iter().any(|told| told.event == *event)
+    }
+
+    fn transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
+        if atoms > SMALL {
+            let giver = node_name(from);
+            let slow = state.nodes().get(usize::from(from)).filter(|node| node.runs() && sentences::is_slow(node));
+            let giver = slow.map_or(giver.to_string(), |node| format!("{giver}, slow at {},", fraction(node.speed)));
+            let sentence = format!("{giver} gave {} to {}, which had finished", atoms_words(atoms), node_name(to));
+            return self.tell(at, Event::Transfer, sentence);
+        }
+        let same = |event: &Event| matches!(event, Event::Trickle { from: other, .. } if *other == from);
+        let (mut receivers, mut transfers, mut all) = match self.take(at, same) {
+            Some(Event::Trickle { to, transfers, atoms, .. }) => (to, transfers, atoms),
+            _ => (Vec::new(), 0, 0),
+        };
+        (transfers, all) = (transfers + 1, all + atoms);
+        if let Err(place) = receivers.binary_search(&to) {
+            receivers.insert(place, to);
+        }
+        let (giver, takers) = (node_name(from), names(&receivers));
+        let sentence = if receivers.len() == 1 {
+            format!("{giver} gave {} to {takers}", atoms_words(all))
+        } else if all as usize == receivers.len() {
+            format!("{giver} gave 1 atom to {takers}")
+        } else {
+            format!("{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels")
+        };
+        self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
+    }
+
+    fn retired(&mut self, at: Time, node: NodeId) {
+        let mut nodes = match self.take(at, |event| matches!(event, Event::Retired(_))) {
+            Some(Event::Retired(nodes)) => nodes,
+            _ => Vec::new(),
+        };
+        if let Err(place) = nodes.binary_search(&node) {
+            nodes.insert(place, node);
+        }
+        let sentence = match *nodes {
+            [node] => format!("{}'s offer came back, nobody needs its help: it retires", node_name(node)),
+            _ => format!("{} retire: their offers came back, nobody needs their help", names(&nodes)),
+        };
+        self.tell(at, Event::Retired(nodes), sentence);
+    }
+
+    /// Takes out the latest event of a kind, if it is so fresh that what comes now belongs to it.
+    fn take(&mut self, now: Time, kind: impl Fn(&Event) -> bool) -> Option<Event> {
+        let place = self.told.iter().rposition(|told| kind(&told.event) && now <= told.at + TOGETHER)?;
+        self.told.remove(place).map(|told| told.event)
+    }
+
+    /// Records of different parties may come a little out of order: events do not.
+    fn tell(&mut self, at: Time, event: Event, sentence: String) {
+        let place = self.told.iter().rposition(|told| told.at <= at).map_or(0, |before| before + 1);
+        self.told.insert(place, Told { at, event, sentence });
+        if self.told.len() > KEPT {
+            self.told.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::sample;
+    use super::*;
+
+    fn sentences(events: &Events) -> Vec<&str> {
+        events.iter().map(|(_, sentence)| sentence).collect()
+    }
+
+    /// The events of these records, at their times in ms.
+    fn told(nodes: usize, records: impl IntoIterator<Item = (u64, What)>) -> Events {
+        let (mut state, mut events) = (RunState::new(&sample::header(&vec![1.0; nodes], 900)), Events::default());
+        for (ms, what) in records {
+            let record = Record { at: Time(ms * 1_000_000), what };
+            state.apply(&record);
+            events.apply(&record, &state);
+        }
+        events
+    }
+
+    fn transfer(from: NodeId, to: NodeId, atoms: u32) -> What {
+        let (from, to) = (Party::Node(from), Party::Node(to));
+        let message = Message::Transfer(std::iter::once(0..atoms).collect());
+        What::Sent { id: 0, from, to, message, bytes: 0, arrives: Time::ZERO }
+    }
+
+    proptest! {
+        #[test]
+        fn events_of_a_whole_run_are_few_and_in_order(
+            speeds in prop::collection::vec(0.02..1.0f64, 1..9), atoms in 1..400u32,
+        ) {
+            let header = sample::header(&speeds, atoms);
+            let (mut state, mut events) = (RunState::new(&header), Events::default());
+            for record in sample::records(&header) {
+                state.apply(&record);
+                events.apply(&record, &state);
+                prop_assert!(events.told.len() <= KEPT);
+            }
+            prop_assert!(events.told.iter().is_sorted_by_key(|told| told.at));
+            for sentence in sentences(&events) {
+                prop_assert!(sentence.chars().count() <= 95, "{sentence}");
+            }
+            prop_assert!(sentences(&events).contains(&sentences::COMPLETE));
+            // Every node offers at last, and says so once.
+            for node in 0..speeds.len() as NodeId {
+                let offers = events.told.iter().filter(|told| told.event == Event::Offer(node)).count();
+                prop_assert!(offers == 1 || events.told.len() == KEPT);
+            }
+        }
+    }
+
+    #[test]
+    fn the_list_tells_who_is_slow_and_what_moved_where() {
+        let header = sample::header(&[1.0, 1.0, 0.1], 600);
+        let (mut state, mut events) = (RunState::new(&header), Events::default());
+        for record in sample::records(&header) {
+            state.apply(&record);
+            events.apply(&record, &state);
+        }
+        let told = sentences(&events);
+        assert_eq!(told[0], "The parent gives each of 3 machines an equal band of the picture");
+        assert_eq!(told[1], "1 has finished its band and offers help round the ring");
+        assert!(told.iter().any(|told| told.starts_with("3, slow at 10 %, gave ")), "{told:#?}");
+    }
+
+    #[test]
+    fn small_transfers_of_a_machine_are_one_event() {
+        let [one, two, more] = [1, 2, 40].map(|atoms| move |from, to| transfer(from, to, atoms));
+        let events = told(8, [(0, one(6, 1)), (10, one(6, 7)), (20, one(4, 2)), (30, more(6, 3)), (40, one(6, 2))]);
+        assert_eq!(
+            sentences(&events),
+            ["5 gave 1 atom to 3", "7 gave 40 atoms to 4, which had finished", "7 gave 1 atom to 2, 3 and 8"]
+        );
+        let events = told(8, [(0, one(6, 1)), (10, two(6, 1)), (20, two(6, 3)), (9000, one(6, 1))]);
+        assert_eq!(sentences(&events), ["7 gave few atoms at a time to 2 and 4: 5 in 3 parcels", "7 gave 1 atom to 2"]);
+    }
+
+    #[test]
+    fn many_small_transfers_do_not_drown_the_rest() {
+        let small = (0..500).map(|i: u16| (u64::from(i), transfer(i % 7, i % 3 + 7, 1)));
+        let events = told(12, std::iter::once((0, transfer(0, 1, 99))).chain(small));
+        assert_eq!(events.told.len(), 8);
+        assert_eq!(sentences(&events)[0], "1 gave 99 atoms to 2, which had finished");
+    }
+
+    #[test]
+    fn machines_that_retire_together_are_one_event() {
+        let events = told(4, [2, 0, 3].map(|node| (10 * u64::from(node), What::Retired { node })));
+        assert_eq!(sentences(&events), ["1, 3 and 4 retire: their offers came back, nobody needs their help"]);
+    }
+
+    #[test]
+    fn a_dragged_slider_is_one_event() {
+        let speed = |node, percent: u64| What::SpeedSet { node, speed: percent as f64 / 100.0 };
+        let ms = Duration::from_millis;
+        let events = told(
+            3,
+            [
+                (0, speed(1, 80)),
+                (100, transfer(0, 2, 50)),
+                (200, speed(1, 30)),
+                (300, What::LatencySet { latency: ms(90) }),
+                (400, What::LatencySet { latency: ms(200) }),
+                (500, speed(2, 60)),
+                (6000, speed(1, 40)),
+                (6100, What::Paused { node: 2 }),
+                (6200, What::Resumed { node: 2 }),
+            ],
+        );
+        assert_eq!(
+            sentences(&events),
+            [
+                "1 gave 50 atoms to 3, which had finished",
+                "Machine 2 now runs at 30 %: the others will make up for it",
+                "A hop takes 200 ms now",
+                "Machine 3 now runs at 60 %: the others will make up for it",
+                "Machine 2 now runs at 40 %: it can take more work",
+                "Machine 3 is paused: the others will make up for it",
+                "Machine 3 goes on",
+            ]
+        );
+    }
+
+    #[test]
+    fn only_the_last_are_kept() {
+        let records = (0..200).map(|i| (i, transfer(0, 1, 100 + i as u32)));
+        let events = told(2, records);
+        assert_eq!(events.told.len(), KEPT);
+        assert_eq!(sentences(&events)[KEPT - 1], "1 gave 299 atoms to 2, which had finished");
+    }
+}

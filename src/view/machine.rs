@@ -1,0 +1,110 @@
+//! One machine of the ring: as large as its speed, with its number, its pipe, and what it does.
+
+use std::f32::consts::{FRAC_PI_4, PI, TAU};
+
+use super::display::{Anchor, Hue, Mark, Point, TextSize};
+use super::node::{Activity, NodeState, Slot};
+use super::plan::Plan;
+use super::words::node_name;
+use crate::balance::NodeId;
+
+/// Below this radius of a node what its pipe holds could not be told.
+const PIPE_SEEN: f32 = 20.0;
+
+/// Draws a machine; its arc says how much of its work is done.
+pub(super) fn machine(
+    plan: &Plan,
+    (node, of): (NodeId, &NodeState),
+    activity: Activity,
+    is_selected: bool,
+    marks: &mut Vec<Mark>,
+) {
+    let centre = plan.seat(node);
+    progress(plan, centre, (node, of), activity, marks);
+    let radius = plan.node * (0.5 + 0.5 * of.speed.clamp(0.0, 1.0).sqrt() as f32);
+    let colour = Hue::Node(node);
+    let (fill, hue) = match activity {
+        Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
+        Activity::Receiving => (0.55, Hue::Text),
+        Activity::Paused | Activity::Stopped => (0.3, Hue::Text),
+        Activity::Waiting | Activity::Offering | Activity::Idle => (0.18, Hue::Text),
+        Activity::Retired => (0.0, Hue::Quiet),
+    };
+    marks.push(Mark::Disc { centre, radius, ink: colour.faint(fill) });
+    match activity {
+        Activity::Retired => dashes(centre, radius - 0.75, marks),
+        _ if fill < 1.0 => {
+            let points = Plan::arc(centre, radius - 0.75, 0.0, TAU);
+            marks.push(Mark::Line { points, width: 1.5, ink: colour.faint(0.9) });
+        }
+        _ => {}
+    }
+    let has_pipe = plan.node >= PIPE_SEEN && !matches!(activity, Activity::Retired | Activity::Done);
+    marks.push(Mark::Label {
+        at: [centre[0], centre[1] - if has_pipe { 0.2 * radius } else { 0.0 }],
+        anchor: Anchor::Centre,
+        text: node_name(node).to_string(),
+        size: TextSize::Fit((0.86 * plan.node).min(1.05 * radius)),
+        ink: hue.full(),
+    });
+    if has_pipe {
+        pipe(plan, [centre[0], centre[1] + 0.55 * radius], of, hue, marks);
+    }
+    if of.paused && activity != Activity::Done {
+        pause_badge(plan, centre, marks);
+    }
+    if is_selected {
+        let points = Plan::arc(centre, plan.reach() + 1.5, 0.0, TAU);
+        marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
+    }
+}
+
+/// What of its work is done, round the machine.
+fn progress(plan: &Plan, centre: Point, (node, of): (NodeId, &NodeState), activity: Activity, marks: &mut Vec<Mark>) {
+    let (track, width, colour) = (plan.node * Plan::TRACK, plan.track_width(), Hue::Node(node));
+    let work = of.done + of.left();
+    let done = if work == 0 { 0.0 } else { of.done as f32 / work as f32 };
+    marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
+    marks.push(Mark::Line { points: Plan::arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
+    if done > 0.0 {
+        let strength = if activity == Activity::Retired { 0.4 } else { 1.0 };
+        let points = Plan::arc(centre, track, -PI / 2.0, TAU * done);
+        marks.push(Mark::Line { points, width, ink: colour.faint(strength) });
+    }
+}
+
+/// A broken outline: whoever has retired is no longer needed.
+fn dashes(centre: Point, radius: f32, marks: &mut Vec<Mark>) {
+    let count = (radius * 0.5).round().clamp(5.0, 12.0);
+    let step = TAU / count;
+    for i in 0..count as usize {
+        let points = Plan::arc(centre, radius, step * i as f32, step * 0.55);
+        marks.push(Mark::Line { points, width: 1.5, ink: Hue::Quiet.faint(0.8) });
+    }
+}
+
+/// The two places of the pipe, the atom that is traced on the left.
+fn pipe(plan: &Plan, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
+    let half = 0.12 * plan.node;
+    for (slot, side) in of.pipe().into_iter().zip([-1.0, 1.0]) {
+        let ink = hue.faint(match slot {
+            Slot::Traced => 1.0,
+            Slot::Filled => 0.65,
+            Slot::Empty => 0.18,
+        });
+        marks.push(Mark::Box { centre: [x + side * 1.35 * half, y], half: [half; 2], round: 0.45 * half, ink });
+    }
+}
+
+/// Two bars at the machine's upper right.
+fn pause_badge(plan: &Plan, [x, y]: Point, marks: &mut Vec<Mark>) {
+    let radius = 0.34 * plan.node;
+    let away = plan.reach() - radius;
+    let [x, y] = [x + away * FRAC_PI_4.cos(), y - away * FRAC_PI_4.sin()];
+    marks.push(Mark::Disc { centre: [x, y], radius, ink: Hue::Ground.full() });
+    marks.push(Mark::Disc { centre: [x, y], radius: 0.87 * radius, ink: Hue::Text.full() });
+    for side in [-1.0, 1.0] {
+        let (centre, half) = ([x + side * 0.25 * radius, y], [0.12 * radius, 0.4 * radius]);
+        marks.push(Mark::Box { centre, half, round: 0.05 * radius, ink: Hue::Ground.full() });
+    }
+}

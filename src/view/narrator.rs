@@ -1,0 +1,184 @@
+//! The run in sentences: one large at a time, and the last ones in a list.
+
+use std::time::Duration;
+
+use super::events::Events;
+use super::flight::atoms_in;
+use super::sentences;
+use super::standing::standing;
+use super::state::RunState;
+use super::words::node_name;
+use crate::balance::{Message, Party};
+use crate::record::{Record, What};
+use crate::time::Time;
+
+/// Says what happens, one sentence at a time: each stays long enough to be read, unless something weightier
+/// happens. Keeps the last events too.
+#[derive(Clone, Debug, Default)]
+pub struct Narrator {
+    told: Option<Told>,
+    events: Events,
+}
+
+#[derive(Clone, Debug)]
+struct Told {
+    at: Time,
+    weight: Weight,
+    sentence: String,
+}
+
+/// What kind of event it is and, of transfers, how large: one of twice the atoms weighs more.
+type Weight = (u8, u32);
+
+/// Of what somebody does to the run: it follows the hand.
+const BY_HAND: Weight = (4, 0);
+
+/// Of the end, which nothing follows.
+const END: Weight = (5, 0);
+
+/// How long an event is fresh.
+const FRESH: Duration = Duration::from_secs(3);
+
+impl Narrator {
+    /// Takes in a record; `state` already knows it.
+    pub fn apply(&mut self, record: &Record, state: &RunState) {
+        /// How long a sentence stays when others like it follow.
+        const READ: Duration = Duration::from_millis(1600);
+        self.events.apply(record, state);
+        let by_hand = matches!(
+            record.what,
+            What::SpeedSet { .. } | What::Paused { .. } | What::Resumed { .. } | What::LatencySet { .. }
+        );
+        let told = if by_hand {
+            // The list knows where a slider was before the hand took hold of it.
+            self.events.latest_by_hand().map(|sentence| (BY_HAND, sentence.to_owned()))
+        } else {
+            tell(record, state)
+        };
+        let Some((weight, sentence)) = told else { return };
+        // What is done by hand is told at once, or the first of a slider's many speeds would stand there.
+        let free = self.told.as_ref().is_none_or(|told| {
+            weight > told.weight || weight == told.weight && by_hand || told.weight < END && record.at >= told.at + READ
+        });
+        if free {
+            self.told = Some(Told { at: record.at, weight, sentence });
+        }
+    }
+
+    /// What is to be read at `now`: the last event while it is fresh, else how things stand.
+    pub fn sentence(&self, state: &RunState, now: Time) -> String {
+        match &self.told {
+            Some(told) if now < told.at + FRESH || state.finished().is_some() => told.sentence.clone(),
+            _ => standing(state),
+        }
+    }
+
+    /// The last events and their times, the newest last. What belongs together is one event: a slider that is
+    /// dragged, small transfers of one machine, machines that retire.
+    pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+        self.events.iter()
+    }
+}
+
+fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
+    let told = match &record.what {
+        What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
+            let atoms = atoms_in(ranges);
+            ((3, atoms.checked_ilog2().unwrap_or(0)), sentences::transfer(state, *from, *to, atoms))
+        }
+        What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
+            ((1, 0), sentences::offer(*who, false, *done))
+        }
+        What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
+        What::Retired { node } => {
+            ((2, 0), format!("{}'s offer came back, nobody needs help: it retires", node_name(*node)))
+        }
+        What::Finished => (END, sentences::COMPLETE.into()),
+        _ => return None,
+    };
+    Some(told)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    #[test]
+    fn the_story_of_a_slow_machine() {
+        let header = sample::header(&[1.0, 1.0, 0.1], 2400);
+        let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), Vec::new());
+        for record in sample::records(&header) {
+            state.apply(&record);
+            narrator.apply(&record, &state);
+            heard.push(narrator.sentence(&state, record.at));
+        }
+        heard.dedup();
+        let says = |part: &str| heard.iter().any(|sentence| sentence.contains(part));
+        assert!(says("The parent gives each of 3 machines an equal band"), "{heard:#?}");
+        assert!(says("3 machines compute; 3 is slow (10 %)"), "{heard:#?}");
+        assert!(says("has finished and offers help; 3 is slow (10 %): gives it "), "{heard:#?}");
+        assert_eq!(heard.last().map(String::as_str), Some("The picture is complete"));
+        assert!(heard.iter().all(|sentence| sentence.chars().count() <= 95), "{heard:#?}");
+    }
+
+    #[test]
+    fn a_sentence_stays_until_it_is_read_or_outweighed() {
+        let mut state = RunState::new(&sample::header(&[1.0, 1.0], 9));
+        let mut narrator = Narrator::default();
+        let at = |ms: u64| Time(ms * 1_000_000);
+        let mut say = |ms, what| {
+            let record = Record { at: at(ms), what };
+            state.apply(&record);
+            narrator.apply(&record, &state);
+            narrator.sentence(&state, record.at)
+        };
+        assert!(say(0, What::Retired { node: 0 }).starts_with("1's offer"));
+        assert!(say(100, What::Retired { node: 1 }).starts_with("1's offer"));
+        assert!(say(200, What::SpeedSet { node: 1, speed: 0.25 }).starts_with("Machine 2 now runs at 25 %"));
+        assert!(say(300, What::Retired { node: 1 }).starts_with("Machine 2"));
+        assert!(say(400, What::LatencySet { latency: Duration::from_millis(200) }).starts_with("A hop takes 200 ms"));
+        assert!(say(2100, What::Retired { node: 1 }).starts_with("2's offer"));
+        assert!(say(2200, What::Finished).starts_with("The picture"));
+        assert!(say(9000, What::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
+    }
+
+    #[test]
+    fn a_transfer_of_twice_the_atoms_outweighs_another() {
+        let state = RunState::new(&sample::header(&[1.0, 1.0, 0.1], 900));
+        let mut narrator = Narrator::default();
+        let mut say = |ms: u64, from, atoms| {
+            let (from, to, at) = (Party::Node(from), Party::Node(0), Time(ms * 1_000_000));
+            let message = Message::Transfer(std::iter::once(0..atoms).collect());
+            let what = What::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
+            narrator.apply(&Record { at, what }, &state);
+            narrator.sentence(&state, at)
+        };
+        assert!(say(0, 1, 20).ends_with("2 is still busy: gives it 20 atoms"));
+        assert!(say(100, 1, 30).ends_with("gives it 20 atoms"));
+        assert!(say(200, 2, 200).ends_with("3 is slow (10 %): gives it 200 atoms"));
+        assert!(say(300, 1, 20).ends_with("gives it 200 atoms"));
+    }
+
+    #[test]
+    fn a_sentence_on_a_speed_follows_the_hand() {
+        let mut state = RunState::new(&sample::header(&[1.0, 1.0, 0.1], 9));
+        let mut narrator = Narrator::default();
+        let mut set = |ms: u64, node, speed| {
+            let record = Record { at: Time(ms * 1_000_000), what: What::SpeedSet { node, speed } };
+            state.apply(&record);
+            narrator.apply(&record, &state);
+            narrator.sentence(&state, record.at)
+        };
+        for (ms, speed) in [(0, 0.86), (50, 0.4), (100, 0.01)] {
+            let expected = format!("Machine 2 now runs at {:.0} %: the others will make up for it", speed * 100.0);
+            assert_eq!(set(ms, 1, speed), expected);
+        }
+        assert_eq!(set(150, 1, 0.0), "Machine 2 is stopped: the others will make up for it");
+        assert_eq!(set(200, 1, 0.7), "Machine 2 now runs at 70 %: the others will make up for it");
+        assert_eq!(set(250, 1, 1.0), "Machine 2 now runs at 100 %");
+        assert_eq!(set(300, 2, 0.6), "Machine 3 now runs at 60 %: it can take more work");
+        assert_eq!(set(350, 2, 1.0), "Machine 3 now runs at 100 %: it can take more work");
+        assert_eq!(set(9000, 2, 0.9), "Machine 3 now runs at 90 %: the others will make up for it");
+    }
+}

@@ -1,0 +1,166 @@
+//! What a finished run amounts to, in figures and in words.
+
+use std::cmp::Reverse;
+use std::time::Duration;
+
+use super::node::NodeState;
+use super::place::Place;
+use super::state::RunState;
+use super::words::{atoms_words, count, duration, fraction, node_name};
+use crate::balance::NodeId;
+
+/// What a finished run amounts to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// From the first band sent to the last atom placed.
+    pub makespan: Duration,
+    /// What the makespan would have been, had the work been shared perfectly.
+    pub ideal: Duration,
+    /// The ideal makespan divided by the real one, 0 to 1.
+    pub efficiency: f64,
+    /// From the first node that was done with its last atom to the last one.
+    pub spread: Duration,
+}
+
+/// The figures of the result, each with what it is, to be shown large.
+pub fn figures(outcome: &Outcome) -> [(String, &'static str); 4] {
+    [
+        (seconds(outcome.makespan), "start to finish"),
+        (seconds(outcome.ideal), "shared perfectly"),
+        (fraction(outcome.efficiency), "efficiency"),
+        (seconds(outcome.spread), "first to last to finish"),
+    ]
+}
+
+/// The result in a sentence or two: how well the work was shared, and who did most and least of it, and why.
+pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
+    let Outcome { makespan, ideal, efficiency, spread } = *outcome;
+    let mut words = format!(
+        "Done in {}; shared perfectly it takes {}: efficiency {}",
+        seconds(makespan),
+        seconds(ideal),
+        fraction(efficiency)
+    );
+    let machines = state.nodes().len();
+    if machines == 1 {
+        return words;
+    }
+    words += &format!(". {machines} machines were done within {}", seconds(spread));
+    if let Some(parts) = parts_words(state) {
+        words += &format!(": {parts}");
+    }
+    words
+}
+
+/// Seconds with a decimal, unless nothing would be left of them.
+fn seconds(length: Duration) -> String {
+    if length < Duration::from_millis(95) { duration(length) } else { format!("{:.1} s", length.as_secs_f64()) }
+}
+
+/// Who did most and least, and why; `None` if all did about the same.
+fn parts_words(state: &RunState) -> Option<String> {
+    let nodes = || (0..).zip(state.nodes());
+    // Of equals the first is named.
+    let (most, fast): (NodeId, _) = nodes().min_by_key(|(_, node)| Reverse(node.done))?;
+    let (least, slow) = nodes().min_by_key(|(_, node)| node.done)?;
+    if f64::from(fast.done) < 1.05 * f64::from(slow.done) {
+        return None;
+    }
+    let words = format!(
+        "{} traced most, {} {}, {} least, {} {}",
+        node_name(most),
+        atoms_words(fast.done),
+        at_speed(state, fast),
+        node_name(least),
+        count(slow.done),
+        at_speed(state, slow),
+    );
+    let end = state.finished().unwrap_or(state.head());
+    let alike = fast.mean_speed(end) < 1.05 * slow.mean_speed(end);
+    let dearer = mean_cost(state, least) > 1.05 * mean_cost(state, most);
+    Some(if alike && dearer { format!("{words} (its atoms took longer)") } else { words })
+}
+
+/// A node's speed in words, as far as one number can tell it.
+fn at_speed(state: &RunState, node: &NodeState) -> String {
+    let mean = fraction(node.mean_speed(state.finished().unwrap_or(state.head())));
+    if mean == fraction(node.speed) { format!("at {mean}") } else { format!("at {mean} on average") }
+}
+
+/// What an atom that `node` has traced cost on average, in seconds of CPU time; 0 if it has traced none.
+fn mean_cost(state: &RunState, node: NodeId) -> f64 {
+    let cost = |place: &Place| match *place {
+        Place::Traced { by, cost, .. } if by == node => Some(f64::from(cost)),
+        _ => None,
+    };
+    let (sum, atoms) = state.places().iter().filter_map(cost).fold((0.0, 0_u32), |(sum, n), cost| (sum + cost, n + 1));
+    sum / f64::from(atoms.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+    use crate::record::{Record, What};
+    use crate::time::Time;
+
+    const OUTCOME: Outcome = Outcome {
+        makespan: Duration::from_millis(20_440),
+        ideal: Duration::from_millis(19_800),
+        efficiency: 0.9687,
+        spread: Duration::from_millis(300),
+    };
+
+    /// How a run ends in which each node traces so many atoms at its speed and a cost in milliseconds.
+    fn ended(machines: &[(f64, u32, u64)]) -> String {
+        let speeds: Vec<_> = machines.iter().map(|&(speed, ..)| speed).collect();
+        let header = sample::header(&speeds, machines.iter().map(|&(_, atoms, _)| atoms).sum());
+        let mut state = RunState::new(&header);
+        let mut atoms = 0..;
+        for (node, &(_, count, cost)) in (0..).zip(machines) {
+            for atom in atoms.by_ref().take(count as usize) {
+                let what = What::AtomDone { node, atom, cost: Duration::from_millis(cost) };
+                state.apply(&Record { at: Time::from_secs(1.0), what });
+            }
+        }
+        state.apply(&Record { at: Time::from_secs(20.44), what: What::Finished });
+        result_words(&state, &OUTCOME)
+    }
+
+    #[test]
+    fn the_figures_say_what_they_are() {
+        assert_eq!(
+            figures(&OUTCOME).map(|(value, caption)| format!("{value} {caption}")),
+            ["20.4 s start to finish", "19.8 s shared perfectly", "97 % efficiency", "0.3 s first to last to finish"]
+        );
+    }
+
+    #[test]
+    fn who_did_most_and_least_is_told_with_the_reason() {
+        let all = "Done in 20.4 s; shared perfectly it takes 19.8 s: efficiency 97 %";
+        assert_eq!(ended(&[(1.0, 5, 1)]), all);
+        let two = format!("{all}. 2 machines were done within 0.3 s");
+        assert_eq!(ended(&[(1.0, 50, 1), (1.0, 51, 1)]), two);
+        assert_eq!(
+            ended(&[(0.1, 5, 1), (1.0, 50, 1)]),
+            format!("{two}: 2 traced most, 50 atoms at 100 %, 1 least, 5 at 10 %")
+        );
+        let dearer = ended(&[(1.0, 50, 1), (1.0, 25, 2)]);
+        assert!(dearer.ends_with("2 least, 25 at 100 % (its atoms took longer)"), "{dearer}");
+    }
+
+    #[test]
+    fn a_speed_that_changed_is_told_as_a_mean() {
+        let mut state = RunState::new(&sample::header(&[1.0, 1.0], 3));
+        for (at, what) in [
+            (0.0, What::SpeedSet { node: 1, speed: 0.0 }),
+            (5.0, What::SpeedSet { node: 1, speed: 1.0 }),
+            (6.0, What::AtomDone { node: 0, atom: 0, cost: Duration::ZERO }),
+            (10.0, What::Finished),
+        ] {
+            state.apply(&Record { at: Time::from_secs(at), what });
+        }
+        let words = result_words(&state, &OUTCOME);
+        assert!(words.ends_with("1 traced most, 1 atom at 100 %, 2 least, 0 at 50 % on average"), "{words}");
+    }
+}
