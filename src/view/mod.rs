@@ -23,6 +23,7 @@ mod seen;
 mod sentences;
 mod standing;
 mod state;
+mod tones;
 mod traffic;
 mod words;
 
@@ -36,4 +37,5 @@ pub use outcome::{Outcome, figures, result_words};
 pub use place::Place;
 pub use ring::{Overlay, Spot, parcel_at, ring, ring_at};
 pub use state::{Arrived, RunState};
+pub use tones::picture_pixels;
 pub use words::{activity_word, count, duration, fraction, node_name, percent, rate_words};
