@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::state::RunState;
+use super::tones::Tones;
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Colour, Division, Size, srgb8};
 
@@ -14,8 +15,7 @@ pub struct Canvas {
     size: Size,
     division: Division,
     colours: Vec<Rgb>,
-    /// For each node, its colour as 256 levels of light.
-    tones: Vec<[Rgb; 256]>,
+    tones: Tones,
     ground: Rgb,
     blend: f32,
     render: Vec<Rgb>,
@@ -31,7 +31,7 @@ impl Canvas {
         Self {
             size,
             division,
-            tones: colours.iter().map(|&colour| tones(colour)).collect(),
+            tones: Tones::new(&colours),
             colours,
             ground,
             blend: 0.0,
@@ -107,14 +107,10 @@ impl Canvas {
 
     fn paint_atom(&mut self, atom: Atom, pixels: Range<usize>, state: &RunState) {
         let place = atom as usize;
-        let (owner, holder) = (state.places()[place].owner().map(usize::from), state.places()[place].holder());
+        let (owner, holder) = (state.places()[place].owner(), state.places()[place].holder());
         if self.placed[place] {
-            let tones = owner.map(|owner| &self.tones[owner]);
             for (to, &render) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
-                *to = match tones {
-                    Some(tones) if self.blend > 0.0 => mix(render, tones[light(render)], self.blend),
-                    _ => render,
-                };
+                *to = self.tones.shown(render, owner, self.blend);
             }
             return;
         }
@@ -127,27 +123,6 @@ impl Canvas {
         };
         self.shown[pixels].fill(colour.map_or(self.ground, |colour| mix(self.ground, colour, strength)));
     }
-}
-
-/// How light a shown pixel looks, 0 to 255 (Rec. 601 luma, which is made for encoded values).
-fn light(pixel: Rgb) -> usize {
-    let [r, g, b] = pixel.map(usize::from);
-    (299 * r + 587 * g + 114 * b) / 1000
-}
-
-/// A node's colour at each level of light: dark but still itself in the shadows, full in the middle, towards white
-/// in highlights, so that the shapes stay as clear as the owners.
-fn tones(colour: Rgb) -> [Rgb; 256] {
-    const FULL: f32 = 0.62;
-    let dark = mix([0; 3], colour, 0.16);
-    std::array::from_fn(|level| {
-        let level = level as f32 / 255.0;
-        if level <= FULL {
-            mix(dark, colour, level / FULL)
-        } else {
-            mix(colour, [0xff; 3], 0.8 * (level - FULL) / (1.0 - FULL))
-        }
-    })
 }
 
 #[cfg(test)]
@@ -207,12 +182,5 @@ mod tests {
         assert_eq!(traced, COLOURS[0]);
         assert!(waiting[0] > GROUND[0] && waiting[0] < 80 && waiting[2] <= GROUND[2], "{waiting:?}");
         assert!(other[2] > GROUND[2] && other[0] <= GROUND[0], "{other:?}");
-    }
-
-    #[test]
-    fn tones_rise_with_light() {
-        let lights: Vec<_> = tones([0x9A, 0x3B, 0x78]).map(light).to_vec();
-        assert!(lights.windows(2).all(|pair| pair[0] <= pair[1]));
-        assert!(lights[255] > 200 && lights[0] < 40);
     }
 }

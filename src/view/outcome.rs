@@ -77,8 +77,8 @@ fn parts_words(state: &RunState) -> Option<String> {
     );
     let end = state.finished().unwrap_or(state.head());
     let alike = fast.mean_speed(end) < 1.05 * slow.mean_speed(end);
-    let dearer = mean_cost(state, least) > 1.05 * mean_cost(state, most);
-    Some(if alike && dearer { format!("{words} (its atoms took longer)") } else { words })
+    let dearer = || mean_cost(state, least) > 1.05 * mean_cost(state, most);
+    Some(if alike && dearer() { format!("{words} (its atoms took longer)") } else { words })
 }
 
 /// A node's speed in words, as far as one number can tell it.

@@ -1,9 +1,9 @@
-//! Hand-made runs for tests: a small ring in virtual time, every atom as dear as the others.
+//! Runs for tests: the ring's own parent and nodes in virtual time, every atom as dear as the others.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
-use crate::balance::{Message, NodeId, Party, Strategy};
+use crate::balance::{Action, Event, Message, Node, NodeId, Parent, Party, Strategy};
 use crate::picture::{Atom, Division, Size};
 use crate::record::{Record, What};
 use crate::runlog::{Header, Link};
@@ -30,137 +30,159 @@ pub fn header(speeds: &[f64], atoms: u32) -> Header {
 
 /// The records of a whole run, in the order of their times.
 pub fn records(header: &Header) -> Vec<Record> {
-    let mut sample = Sample::new(header);
-    while sample.step() {}
-    sample.records
+    Sample::new(header).run()
 }
 
 /// What an atom costs on this computer; a node of speed 1 at pace 0.1 needs ten times as long.
 pub const COST: Duration = Duration::from_millis(1);
 
-enum Event {
-    Arrival { id: u64, to: Party, message: Message },
-    Done(NodeId, Atom),
+struct Machine {
+    node: Node,
+    /// The first is being traced.
+    pipe: VecDeque<Atom>,
+    needs: Duration,
+    timer: Option<Time>,
+    finished: bool,
+}
+
+enum Happening {
+    Message { id: u64, from: Party, to: Party, message: Message },
+    Done(NodeId),
+    Timer(NodeId),
 }
 
 struct Sample<'a> {
     header: &'a Header,
+    now: Time,
+    parent: Parent,
+    machines: Vec<Machine>,
+    /// By time, and at one time in the order in which they were made.
+    future: BTreeMap<(Time, u64), Happening>,
+    made: u64,
+    finished: bool,
     records: Vec<Record>,
-    events: BTreeMap<(Time, u64), Event>,
-    queues: Vec<VecDeque<Atom>>,
-    done: Vec<u32>,
-    ids: u64,
-    placed: u32,
 }
 
 impl<'a> Sample<'a> {
     fn new(header: &'a Header) -> Self {
-        let nodes = header.speeds.len();
-        let mut sample = Self {
-            header,
-            records: Vec::new(),
-            events: BTreeMap::new(),
-            queues: vec![VecDeque::new(); nodes],
-            done: vec![0; nodes],
-            ids: 0,
-            placed: 0,
+        let nodes = header.speeds.len() as NodeId;
+        let machine = |(id, speed): (NodeId, &f64)| Machine {
+            node: Node::new(header.strategy, id, nodes, header.part),
+            pipe: VecDeque::new(),
+            needs: COST.div_f64(speed * header.pace),
+            timer: None,
+            finished: false,
         };
-        for (node, band) in header.division.bands(nodes).enumerate() {
-            sample.send(Time::ZERO, Party::Parent, Party::Node(node as NodeId), Message::Band(band));
+        Self {
+            header,
+            now: Time::ZERO,
+            parent: Parent::new(header.strategy, header.division, nodes),
+            machines: (0..).zip(&header.speeds).map(machine).collect(),
+            future: BTreeMap::new(),
+            made: 0,
+            finished: false,
+            records: Vec::new(),
         }
-        sample
     }
 
-    fn step(&mut self) -> bool {
-        let Some(((at, _), event)) = self.events.pop_first() else { return false };
-        match event {
-            Event::Arrival { id, to, message } => {
-                self.note(at, What::Received { id, by: to });
-                self.arrived(at, to, message);
-            }
-            Event::Done(node, atom) => {
-                self.note(at, What::AtomDone { node, atom, cost: COST });
-                self.done[usize::from(node)] += 1;
-                self.queues[usize::from(node)].pop_front();
-                self.send(
-                    at,
-                    Party::Node(node),
-                    Party::Parent,
-                    Message::Results(std::iter::once(atom..atom + 1).collect()),
-                );
-                self.go_on(at, node);
-            }
+    fn run(mut self) -> Vec<Record> {
+        self.tell(Party::Parent, Event::Started);
+        while let Some(((at, _), happening)) = self.future.pop_first() {
+            self.now = at;
+            self.happen(happening);
         }
-        true
+        self.records
     }
 
-    fn arrived(&mut self, at: Time, to: Party, message: Message) {
-        match (to, message) {
-            (Party::Node(node), Message::Band(band)) => {
-                self.queues[usize::from(node)].extend(band);
-                self.go_on(at, node);
-            }
-            (Party::Node(node), Message::Transfer(ranges)) => {
-                self.queues[usize::from(node)].extend(ranges.into_iter().flatten());
-                self.go_on(at, node);
-            }
-            (Party::Node(node), Message::Offer { who, done }) => self.weigh(at, node, who, done),
-            (Party::Parent, Message::Results(ranges)) => {
-                self.placed += ranges.into_iter().flatten().count() as u32;
-                if self.placed == self.header.division.atoms() {
-                    self.note(at, What::Finished);
+    fn happen(&mut self, happening: Happening) {
+        match happening {
+            Happening::Message { id, from, to, message } => {
+                if !self.has_ended(to) {
+                    self.note(What::Received { id, by: to });
+                    self.tell(to, Event::Message { from, message });
                 }
             }
-            _ => {}
+            Happening::Timer(node) => {
+                let now = self.now;
+                if self.machines[usize::from(node)].timer.take_if(|at| *at <= now).is_some() {
+                    self.tell(Party::Node(node), Event::Timer);
+                }
+            }
+            Happening::Done(node) => {
+                let pipe = &mut self.machines[usize::from(node)].pipe;
+                let atom = pipe.pop_front().expect("an atom in hand");
+                let is_empty = pipe.is_empty();
+                self.note(What::AtomDone { node, atom, cost: COST });
+                if !is_empty {
+                    self.take_in_hand(node);
+                }
+                self.tell(Party::Node(node), Event::AtomDone { atom, cost: COST });
+            }
         }
     }
 
-    fn weigh(&mut self, at: Time, node: NodeId, who: NodeId, done: u32) {
-        if node == who {
-            return self.note(at, What::Retired { node });
-        }
-        let queue = &mut self.queues[usize::from(node)];
-        let own = self.done[usize::from(node)];
-        let spare = queue.len().saturating_sub(2) as f64;
-        let share = (spare * f64::from(done) / f64::from((done + own).max(1))).round() as usize;
-        if share == 0 {
-            return self.send(at, Party::Node(node), self.left(node), Message::Offer { who, done });
-        }
-        let given = queue.split_off(queue.len() - share);
-        let ranges = given.into_iter().map(|atom| atom..atom + 1).collect();
-        self.send(at, Party::Node(node), Party::Node(who), Message::Transfer(ranges));
-    }
-
-    fn go_on(&mut self, at: Time, node: NodeId) {
-        let place = usize::from(node);
-        if let Some(&atom) = self.queues[place].front() {
-            self.note(at, What::AtomStarted { node, atom });
-            let needs = COST.div_f64(self.header.speeds[place] * self.header.pace);
-            self.schedule(at + needs, Event::Done(node, atom));
-        } else {
-            let done = self.done[place];
-            self.send(at, Party::Node(node), self.left(node), Message::Offer { who: node, done });
+    fn has_ended(&self, party: Party) -> bool {
+        match party {
+            Party::Parent => self.finished,
+            Party::Node(node) => self.machines[usize::from(node)].finished,
         }
     }
 
-    fn left(&self, node: NodeId) -> Party {
-        let nodes = self.queues.len() as NodeId;
-        Party::Node((node + nodes - 1) % nodes)
+    /// Hands a party that has not ended an event, and does what it asks for.
+    fn tell(&mut self, party: Party, event: Event) {
+        if self.has_ended(party) {
+            return;
+        }
+        let mut actions = Vec::new();
+        match party {
+            Party::Parent => self.parent.handle(self.now, event, &mut actions),
+            Party::Node(id) => self.machines[usize::from(id)].node.handle(self.now, event, &mut actions),
+        }
+        for action in actions {
+            match (party, action) {
+                (from, Action::Send { to, message }) => self.send(from, to, message),
+                (Party::Node(node), Action::Trace(atom)) => {
+                    let pipe = &mut self.machines[usize::from(node)].pipe;
+                    pipe.push_back(atom);
+                    if pipe.len() == 1 {
+                        self.take_in_hand(node);
+                    }
+                }
+                (Party::Node(node), Action::SetTimer(at)) => {
+                    self.machines[usize::from(node)].timer = Some(at);
+                    self.plan(at, Happening::Timer(node));
+                }
+                (Party::Node(node), Action::Retire) => self.note(What::Retired { node }),
+                (Party::Node(node), Action::Finish) => self.machines[usize::from(node)].finished = true,
+                (Party::Parent, Action::Finish) => {
+                    self.note(What::Finished);
+                    self.finished = true;
+                }
+                (Party::Parent, other) => panic!("the parent asks for {other:?}"),
+            }
+        }
     }
 
-    fn send(&mut self, at: Time, from: Party, to: Party, message: Message) {
-        let (id, arrives) = (self.ids, at + self.header.link.latency);
+    fn take_in_hand(&mut self, node: NodeId) {
+        let Machine { pipe, needs, .. } = &self.machines[usize::from(node)];
+        let (atom, due) = (pipe[0], self.now + *needs);
+        self.note(What::AtomStarted { node, atom });
+        self.plan(due, Happening::Done(node));
+    }
+
+    fn send(&mut self, from: Party, to: Party, message: Message) {
+        let (id, arrives) = (self.made, self.now + self.header.link.latency);
         let bytes = message.bytes(self.header.division, self.header.scene_text.len() as u64);
-        self.note(at, What::Sent { id, from, to, message: message.clone(), bytes, arrives });
-        self.schedule(arrives, Event::Arrival { id, to, message });
+        self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives });
+        self.plan(arrives, Happening::Message { id, from, to, message });
     }
 
-    fn schedule(&mut self, at: Time, event: Event) {
-        self.events.insert((at, self.ids), event);
-        self.ids += 1;
+    fn plan(&mut self, at: Time, happening: Happening) {
+        self.future.insert((at, self.made), happening);
+        self.made += 1;
     }
 
-    fn note(&mut self, at: Time, what: What) {
-        self.records.push(Record { at, what });
+    fn note(&mut self, what: What) {
+        self.records.push(Record { at: self.now, what });
     }
 }
