@@ -48,7 +48,7 @@ fn the_window_shows_the_run_and_obeys() {
     std::thread::sleep(Duration::from_secs(2));
 
     let shot = display.shot(&directory.path().join("shot.png"));
-    let (picture, ring) = (window.place("Picture"), window.place("Ring"));
+    let (picture, ring) = (window.place("Picture"), window.place("The ring"));
     let mut colours: Vec<_> = pixels(&shot, picture).collect();
     colours.sort_unstable();
     colours.dedup();

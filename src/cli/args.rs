@@ -12,7 +12,7 @@ use crate::picture::Size;
 #[derive(Debug, Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
 pub(super) struct Args {
-    /// A scene file, or the name of a built-in scene
+    /// A scene file, the name of a built-in scene, or a run file [default: what was open last]
     pub scene: Option<String>,
     /// Write the run's records here when it ends
     #[arg(long, value_name = "FILE")]
@@ -35,6 +35,12 @@ pub(super) enum Command {
         /// The proportions of the picture
         #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480")]
         size: Size,
+    },
+    /// Show a recorded run again
+    Replay {
+        /// What `--log`, or Save in the window, has written
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
     },
 }
 

@@ -7,16 +7,19 @@ mod report;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Parser;
 
-use crate::driver::auto_pace;
+use crate::driver::{auto_pace, cores};
 use crate::export::to_pov;
-use crate::gui;
+use crate::gui::{self, Opening, Settings};
 use crate::output::{check_writable, is_same_file, write_whole};
 use crate::picture::Size;
-use crate::scene::Opened;
-use crate::tracer::Quality;
+use crate::runlog::{Header, RunLog};
+use crate::scene::{Opened, Scene};
+use crate::tracer::{Quality, Tracer};
 use args::{Args, Command};
 
 /// Why a command ended without doing its work: one sentence.
@@ -34,7 +37,8 @@ pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
-        None => window(args.scene.as_deref().unwrap_or("ten-objects"), args.log),
+        Some(Command::Replay { log }) => replay(&log),
+        None => window(args.scene.as_deref(), args.log),
     });
     let (code, sentence) = match done {
         Ok(()) => return ExitCode::SUCCESS,
@@ -84,22 +88,45 @@ fn usage(error: clap::Error) -> Failure {
     let text = error.to_string();
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
-    let command = std::env::args().nth(1).filter(|first| first == "render" || first == "export");
+    let command = std::env::args().nth(1).filter(|first| ["render", "export", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
     Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
 }
 
-/// Opens the viewer; where that is not possible, does the same run without it.
-fn window(argument: &str, log: Option<PathBuf>) -> Result<(), Failure> {
-    let scene = open(argument)?;
-    check_outputs(argument, log.as_deref().as_slice())?;
-    let Err(why) = gui::open(gui::Launch { scene: scene.clone(), log: log.clone() }) else { return Ok(()) };
+/// Opens the viewer with a scene, a recorded run, or what was open last; where that is not possible, traces the picture
+/// without it.
+fn window(argument: Option<&str>, log: Option<PathBuf>) -> Result<(), Failure> {
+    let opening = argument.map(Opening::read).transpose().map_err(Failure::Refused)?;
+    check_outputs(argument.unwrap_or_default(), log.as_deref().as_slice())?;
+    show(opening, log)
+}
+
+fn replay(path: &Path) -> Result<(), Failure> {
+    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    show(Some(Opening::Run(Arc::new(log))), None)
+}
+
+fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
+    let Err(why) = gui::open(gui::Launch { opening: opening.clone(), log: log.clone() }) else { return Ok(()) };
     tell(&format!("no window can be opened ({why}); the same run goes on without one."));
-    let out = free_name(&scene.name);
-    check_outputs(argument, &[&out])?;
-    let (tracer, mut header) = gui::demonstration(&scene);
+    let opening = opening.map_or_else(|| Opening::read("ten-objects"), Ok).map_err(Failure::Refused)?;
+    let (scene, mut header) = match opening {
+        Opening::Scene(scene) => {
+            let header = Settings::default().header(&scene.name, &scene.text, Duration::ZERO, cores());
+            (scene.scene.clone(), header)
+        }
+        // Nobody can raise a speed of 0 here, so that only the picture is that of the recorded run.
+        Opening::Run(run) => {
+            let scene = Scene::parse(&run.header.scene_text).map_err(|error| Failure::Refused(error.to_string()))?;
+            (scene, Header { speeds: vec![1.0; run.header.speeds.len()], ..run.header.clone() })
+        }
+    };
     // Nobody watches: no need to go slowly.
     header.pace = auto_pace(&header.speeds, header.cores);
+    let out = free_name(&header.scene);
+    check_outputs("", &[&out])?;
+    let quality = Quality { samples: header.samples, ..Quality::default() };
+    let tracer = Arc::new(Tracer::new(&scene, header.size, quality));
     render::run_and_save(&tracer, &header, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 

@@ -92,11 +92,12 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let mut frame = Frame::new(header.size);
-    let mut log = RunLog::new(header.clone());
+    // One batch for the log, which would else sort its end for each party's.
+    let mut told = Vec::new();
     let mut rays = RayCounts::default();
     let failure = loop {
         match run.updates().recv() {
-            Ok(Update::Records(records)) => log.add(records),
+            Ok(Update::Records(records)) => told.extend(records),
             Ok(Update::Placed { atoms, pixels }) => {
                 for (place, colours) in header.division.placed(&atoms, &pixels) {
                     frame.place(place, colours);
@@ -109,10 +110,15 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
             Err(_) => break Some("the run ended without a result".into()),
         }
     };
+    let wall = begun.elapsed();
     bar.finish_and_clear();
     match failure {
         Some(why) => Err(Failure::Failed(why)),
-        None => Ok(Outcome { frame, log, rays, wall: begun.elapsed() }),
+        None => {
+            let mut log = RunLog::new(header.clone());
+            log.add(told);
+            Ok(Outcome { frame, log, rays, wall })
+        }
     }
 }
 

@@ -1,118 +1,254 @@
-//! The window's content: which panel goes where, and which key does what.
+//! The window's content: which panel goes where, and what happens when something is pressed.
 
-use std::time::Duration;
+use eframe::Storage;
+use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Theme, Ui, UiBuilder, ViewportCommand};
+use serde::{Deserialize, Serialize};
 
-use egui::{Align, Frame, Key, Layout, Margin, Modifiers, Panel, Rect, Theme, Ui, UiBuilder, ViewportCommand};
-
+use super::gallery::Gallery;
+use super::history::Gesture;
+use super::keys::{self, Command};
 use super::picture_panel::{self, PicturePanel};
 use super::save_bar::SaveBar;
-use super::session::{Phase, Session};
+use super::session::{Done, Purpose, Session};
+use super::settings::Settings;
+use super::setup_panel::{self, SetupPanel};
 use super::theme::{self, GRID, Look};
-use super::top_bar::Click;
-use super::{Launch, nodes_panel, places, ring_panel, top_bar, words_panel, zoom};
+use super::{Launch, frames, help, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
+use crate::balance::NodeId;
 
 /// The window's content.
 pub struct App {
     session: Session,
     picture: PicturePanel,
     save_bar: SaveBar,
+    setup: SetupPanel,
+    gallery: Gallery,
+    help: bool,
+    selected: Option<NodeId>,
 }
 
+/// What is remembered from one window to the next, beside what egui itself remembers.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct Remembered {
+    settings: Settings,
+    scene: Option<String>,
+    recent: Vec<String>,
+    blend: Option<f64>,
+    setup: bool,
+}
+
+const REMEMBERED: &str = "anel";
+
 impl App {
-    /// The window's content; the run starts at once.
-    pub fn new(ctx: &egui::Context, launch: &Launch) -> Self {
+    /// The window's content, with what `storage` remembers; a run starts as soon as its scene is compiled.
+    pub fn new(ctx: &Context, storage: Option<&dyn Storage>, launch: Launch) -> Self {
         theme::install(ctx);
         places::install(ctx);
         zoom::install(ctx);
-        let ground = theme::rgb(Look::of(ctx).ground);
-        Self { session: Session::start(launch, ground), picture: PicturePanel::default(), save_bar: SaveBar::default() }
+        let remembered: Remembered =
+            storage.and_then(|storage| eframe::get_value(storage, REMEMBERED)).unwrap_or_default();
+        let settings = if remembered.settings.check().is_ok() { remembered.settings } else { Settings::default() };
+        let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
+        session.set_recent(remembered.recent);
+        match (launch.opening, &remembered.scene) {
+            (Some(opening), _) => session.show(opening),
+            (None, Some(scene)) => session.open(scene),
+            (None, None) => session.open("ten-objects"),
+        }
+        let mut picture = PicturePanel::default();
+        picture.blend = remembered.blend.unwrap_or(picture.blend).clamp(0.0, 100.0);
+        Self {
+            session,
+            picture,
+            save_bar: SaveBar::default(),
+            setup: SetupPanel::new(remembered.setup),
+            gallery: Gallery::default(),
+            help: false,
+            selected: None,
+        }
     }
 
-    /// The run that is shown, for tests.
+    /// What is shown, for tests.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    fn keys(&mut self, ui: &Ui) {
-        if ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Q)) {
-            ui.ctx().send_viewport_cmd(ViewportCommand::Close);
-        }
-        zoom::keys(ui.ctx());
-        // Whoever is about to type a path means letters, wherever the focus is just then.
-        if self.save_bar.is_open() || ui.ctx().egui_wants_keyboard_input() {
-            return;
-        }
-        let pressed = |key| ui.input(|input| input.key_pressed(key) && input.modifiers.is_none());
-        if pressed(Key::Space) && ui.ctx().memory(|memory| memory.focused().is_none()) {
-            self.click(Click::Pause, ui);
-        }
-        if pressed(Key::R) {
-            self.click(Click::Restart, ui);
-        }
-        if pressed(Key::S) {
-            self.click(Click::Save, ui);
-        }
+    /// The selected machine, for tests.
+    pub fn selected(&self) -> Option<NodeId> {
+        self.selected
     }
 
-    fn click(&mut self, click: Click, ui: &Ui) {
-        match click {
-            Click::Pause => self.session.toggle_pause(),
-            Click::Restart => self.session.restart(),
-            Click::Save => self.save_bar.toggle(&self.session),
-            Click::Theme => {
-                let other = if ui.ctx().theme() == Theme::Dark { Theme::Light } else { Theme::Dark };
-                ui.ctx().set_theme(other);
+    fn obey(&mut self, command: Command, ctx: &Context) {
+        let session = &mut self.session;
+        match command {
+            Command::Pause => session.toggle_pause(),
+            Command::Restart => session.restart(),
+            Command::Save => self.save_bar.toggle(session),
+            Command::Scenes => self.gallery.toggle(session),
+            Command::Reload => session.reload(),
+            Command::Setup => self.setup.open = !self.setup.open,
+            Command::Undo => session.undo(),
+            Command::Redo => session.redo(),
+            Command::Select(node) if usize::from(node) < session.header().speeds.len() => {
+                self.selected = if self.selected == Some(node) { None } else { Some(node) };
             }
+            Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
+            Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
+            Command::Theme => {
+                ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
+            }
+            Command::FullScreen => {
+                let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+                ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
+            }
+            Command::Help => self.help = !self.help,
+            Command::Back => self.back(),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
 
-    /// Motion only while something moves: at rest nothing is drawn anew.
-    fn schedule_repaint(&self, ctx: &egui::Context) {
-        const FRAME: Duration = Duration::from_millis(33);
-        // For the clock, and in order to learn when something moves again.
-        const LOOK_IN: Duration = Duration::from_millis(250);
-        let session = &self.session;
-        let moves = session.state().moves(session.now());
-        match session.phase() {
-            Phase::Running if session.is_paused() => {}
-            Phase::Running => ctx.request_repaint_after(if moves { FRAME } else { LOOK_IN }),
-            Phase::Finished if moves => ctx.request_repaint_after(FRAME),
-            Phase::Finished | Phase::Failed(_) => {}
+    fn obey_for_node(&mut self, command: Command) {
+        let Some(node) = self.selected else {
+            return self.session.note("First select a machine: press its number, or click it");
+        };
+        if command == Command::PauseNode {
+            return self.session.toggle_node_pause(node);
         }
-    }
-}
-
-impl eframe::App for App {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        for done in self.session.tick() {
-            self.save_bar.take_in(done);
-        }
-        self.schedule_repaint(ctx);
+        // To the next tenth.
+        let tenths = self.session.speed(node) * 10.0;
+        let next = if command == Command::Faster { (tenths + 1.01).floor() } else { (tenths - 1.01).ceil() };
+        let speed = (next / 10.0).clamp(0.0, 1.0);
+        self.session.change(Gesture::Once, |settings| settings.speeds[usize::from(node)] = speed);
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.keys(ui);
-        ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
+    /// Whatever was opened last goes away.
+    fn back(&mut self) {
+        if self.help {
+            self.help = false;
+        } else if self.gallery.is_open() {
+            self.gallery.close();
+        } else if self.save_bar.is_open() {
+            self.save_bar.close();
+        } else if self.session.notice().is_some() {
+            self.session.close_notice();
+        } else {
+            self.selected = None;
+        }
+    }
+
+    fn take_dropped(&mut self, ctx: &Context) {
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        let Some(first) = dropped.first().map(|file| file.path().to_owned()) else { return };
+        self.gallery.close();
+        self.session.open(&first.to_string_lossy());
+        if dropped.len() > 1 {
+            let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            self.session.note(format!("{} files were dropped; {name} is opened", dropped.len()));
+        }
+    }
+
+    fn panels(&mut self, ui: &mut Ui) {
         let side = 2 * GRID as i8;
         let panel = |top: i8, bottom: i8| Frame::NONE.inner_margin(Margin { left: side, right: side, top, bottom });
-        let clicked = Panel::top("top bar").frame(panel(8, 8)).show(ui, |ui| top_bar::show(ui, &self.session)).inner;
-        if let Some(click) = clicked {
-            self.click(click, ui);
+        let open =
+            top_bar::Open { scenes: self.gallery.is_open(), setup: self.setup.open, save: self.save_bar.is_open() };
+        let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
+        if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
+            self.obey(command, ui.ctx());
+        }
+        if let Some(shown) = self.session.notice().cloned() {
+            match Panel::top("notice").frame(panel(4, 4)).show(ui, |ui| shown.show(ui)).inner {
+                Some(notice::Click::Close) => self.session.close_notice(),
+                Some(notice::Click::Reload) => self.session.reload(),
+                None => {}
+            }
+        }
+        if let Some(name) = self.session.loading().filter(|(_, secs)| *secs > 0.4).map(|(name, _)| name.to_owned()) {
+            Panel::top("loading").frame(panel(4, 4)).show(ui, |ui| notice::loading(ui, &name));
         }
         if self.save_bar.is_open() {
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &self.session);
+            let blend = self.picture.blend_share();
+            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, blend);
             Panel::top("save bar").frame(panel(8, 8)).show(ui, bar);
         }
-        let height = nodes_panel::height(ui, self.session.state().nodes().len());
-        let nodes = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
-        nodes.show(ui, |ui| nodes_panel::show(ui, &mut self.session));
-        Panel::bottom("words").frame(panel(8, 12)).show(ui, |ui| words_panel::show(ui, &self.session));
+        if self.gallery.is_open() {
+            let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
+            ui.scope_builder(UiBuilder::new().max_rect(area), |ui| self.gallery.show(ui, &mut self.session));
+            return;
+        }
+        if self.setup.open {
+            let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup_panel::WIDTH).resizable(false);
+            panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
+        }
+        let nodes = self.session.header().speeds.len();
+        self.selected = self.selected.filter(|node| usize::from(*node) < nodes);
+        let height = nodes_panel::height(ui, nodes);
+        let rows = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
+        rows.show(ui, |ui| nodes_panel::show(ui, &mut self.session, &mut self.selected));
+        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(words_panel::height(ui) + 18.0);
+        words.show(ui, |ui| words_panel::show(ui, &self.session));
+        self.heroes(ui);
+    }
+
+    fn heroes(&mut self, ui: &mut Ui) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         let size = self.session.header().size;
         let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session));
-        ui.scope_builder(within(right), |ui| ring_panel::show(ui, &self.session));
+        ui.scope_builder(within(right), |ui| ring_panel::show(ui, &self.session, &mut self.selected));
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
+        self.take_dropped(ctx);
+        for done in self.session.tick(ctx.input(|input| input.time)) {
+            match done {
+                Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
+                Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
+                Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
+                _ => {}
+            }
+        }
+        if !ctx.input(|input| input.pointer.any_down()) {
+            self.session.let_go();
+        }
+        frames::schedule(ctx, &self.session, frame.info().cpu_usage);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        zoom::keys(ui.ctx());
+        let types = ui.ctx().egui_wants_keyboard_input();
+        // Whoever is about to type a path means letters, wherever the focus is just then.
+        let types = types || self.save_bar.is_open() || self.gallery.is_open();
+        for command in keys::pressed(ui.ctx(), types) {
+            self.obey(command, ui.ctx());
+        }
+        ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
+        self.panels(ui);
+        if self.help && help::show(ui.ctx()) {
+            self.help = false;
+        }
+        if !ui.input(|input| input.raw.hovered_files.is_empty()) {
+            notice::drop_here(ui);
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn Storage) {
+        let scene = self.session.opened().and_then(|opened| match &opened.path {
+            Some(path) => std::path::absolute(path).ok().map(|path| path.to_string_lossy().into_owned()),
+            None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
+        });
+        let remembered = Remembered {
+            settings: self.session.settings().clone(),
+            scene,
+            recent: self.session.recent().to_vec(),
+            blend: Some(self.picture.blend),
+            setup: self.setup.open,
+        };
+        eframe::set_value(storage, REMEMBERED, &remembered);
     }
 
     #[cfg(feature = "glow")]

@@ -1,14 +1,24 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
 
 mod app;
-mod demonstration;
+mod frames;
+mod gallery;
+mod help;
+mod history;
+mod icons;
+mod keys;
 mod nodes_panel;
+mod notice;
+mod opening;
 mod paint;
 mod picture_panel;
 mod places;
 mod ring_panel;
+mod row_places;
 mod save_bar;
 mod session;
+mod settings;
+mod setup_panel;
 mod theme;
 mod top_bar;
 mod widgets;
@@ -20,17 +30,16 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::scene::Opened;
-
 pub use app::App;
-pub use demonstration::demonstration;
-pub use session::{Phase, Session};
+pub use opening::Opening;
+pub use session::{Phase, Session, Stage};
+pub use settings::{Preset, Settings, Tempo};
 
 /// What the window opens with.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Launch {
-    /// The scene.
-    pub scene: Opened,
+    /// The scene or the recorded run; what was open last if `None`.
+    pub opening: Option<Opening>,
     /// Where each run's records are written when it ends or the window closes.
     pub log: Option<PathBuf>,
 }
@@ -67,7 +76,7 @@ pub fn open(launch: Launch) -> Result<(), String> {
         let create: eframe::AppCreator<'_> = Box::new(move |creation| {
             created.store(true, Ordering::Relaxed);
             restore_once_created();
-            Ok(Box::new(App::new(&creation.egui_ctx, &launch)))
+            Ok(Box::new(App::new(&creation.egui_ctx, creation.storage, launch)))
         });
         eframe::run_native("anel", options, create)
     }));

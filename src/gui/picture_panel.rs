@@ -1,12 +1,14 @@
 //! The picture, and how much of it is render and how much owners.
 
+use std::ops::Range;
+
 use egui::{Align2, Color32, ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 
 use super::session::Session;
 use super::theme::{self, GRID, Look};
 use super::widgets;
-use crate::palette::Rgb;
-use crate::view::{Canvas, percent};
+use crate::picture::Atom;
+use crate::view::{Canvas, atom_words, percent};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
@@ -15,7 +17,7 @@ pub const BELOW: f32 = 5.0 * GRID;
 pub struct PicturePanel {
     texture: Option<TextureHandle>,
     /// 0 is the render, 100 the owners.
-    blend: f64,
+    pub blend: f64,
 }
 
 impl Default for PicturePanel {
@@ -28,7 +30,8 @@ impl PicturePanel {
     /// Shows the picture as large as it gets, and the slider below it.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
         let look = Look::of(ui.ctx());
-        let canvas = session.canvas((self.blend / 100.0) as f32, theme::rgb(look.ground));
+        let blend = self.blend_share();
+        let canvas = session.stage_mut().canvas(blend, theme::rgb(look.ground));
         self.upload(ui, canvas);
         let size = vec2(canvas.size().width() as f32, canvas.size().height() as f32);
         let room = vec2(ui.available_width(), (ui.available_height() - BELOW).max(GRID));
@@ -36,14 +39,23 @@ impl PicturePanel {
         let slack = (room - size * scale).max(egui::Vec2::ZERO);
         let place = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * scale);
         let response = ui.allocate_rect(place, Sense::hover());
-        let done = percent(session.state().done(), session.state().atoms());
-        widgets::describe(&response, "Picture", || format!("{done} done"));
+        let state = &session.stage().state;
+        widgets::describe(&response, "Picture", || format!("{} done", percent(state.done(), state.atoms())));
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture.id(), place, whole, Color32::WHITE);
         }
+        if let Some(at) = response.hover_pos() {
+            let atom = atom_at(session, (at - place.min) / scale);
+            response.on_hover_text_at_pointer(atom_words(state, atom, session.now()));
+        }
         let below = Rect::from_min_size(place.left_bottom(), vec2(place.width(), BELOW));
         self.blend_slider(ui, below, look);
+    }
+
+    /// How much of the picture is owners, 0 to 1.
+    pub fn blend_share(&self) -> f32 {
+        (self.blend / 100.0) as f32
     }
 
     fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look) {
@@ -62,33 +74,53 @@ impl PicturePanel {
         let width = (row.width() - left - right).max(4.0 * GRID);
         let place = Rect::from_min_size(pos2(row.left() + left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            widgets::slider(ui, &mut self.blend, width, look.accent, "Render or owners")
+            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, "Render or owners")
                 .on_hover_text("From the render to who traced it");
         });
     }
 
-    /// Hands the changed rows to the graphics card; the whole picture only once.
+    /// Hands the changed rows to the graphics card; the whole picture only once. A picture that is larger than a texture
+    /// can be is shown with fewer pixels.
     fn upload(&mut self, ui: &Ui, canvas: &mut Canvas) {
         let (width, height) = (canvas.size().width(), canvas.size().height());
+        let most = ui.input(|input| input.max_texture_side).max(1) as u32;
+        let step = width.max(height).div_ceil(most);
+        let shown = [width.div_ceil(step) as usize, height.div_ceil(step) as usize];
         let dirty = canvas.take_dirty();
-        let fits = |texture: &TextureHandle| texture.size() == [width as usize, height as usize];
         match &mut self.texture {
-            Some(texture) if fits(texture) => {
+            Some(texture) if texture.size() == shown => {
                 for rows in dirty {
-                    let image = image(width, canvas.rows(rows.clone()));
-                    texture.set_partial([0, rows.start as usize], image, TextureOptions::LINEAR);
+                    let first = rows.start.div_ceil(step);
+                    if let Some(image) = image(canvas, first..rows.end.div_ceil(step), step) {
+                        texture.set_partial([0, first as usize], image, TextureOptions::LINEAR);
+                    }
                 }
             }
             texture => {
-                let image = image(width, canvas.rows(0..height));
-                *texture = Some(ui.ctx().load_texture("picture", image, TextureOptions::LINEAR));
+                let image = image(canvas, 0..height.div_ceil(step), step);
+                *texture = image.map(|image| ui.ctx().load_texture("picture", image, TextureOptions::LINEAR));
             }
         }
     }
 }
 
-fn image(width: u32, pixels: &[Rgb]) -> ColorImage {
-    let width = width as usize;
-    let pixels: Vec<_> = pixels.iter().map(|&pixel| theme::colour(pixel)).collect();
-    ColorImage::new([width, pixels.len() / width], pixels)
+/// Some rows of the texture, each `step`th of the picture's, and of those each `step`th pixel.
+fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
+    let width = canvas.size().width();
+    let pixels: Vec<_> = rows
+        .clone()
+        .flat_map(|row| canvas.rows(row * step..row * step + 1).iter().step_by(step as usize))
+        .map(|&pixel| theme::colour(pixel))
+        .collect();
+    let size = [width.div_ceil(step) as usize, rows.len()];
+    (!pixels.is_empty()).then(|| ColorImage::new(size, pixels))
+}
+
+/// The atom that a place in the picture, in pixels, belongs to.
+fn atom_at(session: &Session, place: egui::Vec2) -> Atom {
+    let header = session.header();
+    let (width, height) = (header.size.width(), header.size.height());
+    let column = (place.x.max(0.0) as u32).min(width - 1);
+    let row = (place.y.max(0.0) as u32).min(height - 1);
+    (row * width + column) / header.division.atom_pixels()
 }

@@ -1,30 +1,72 @@
 //! The ring.
 
-use egui::{Sense, Ui};
+use std::time::Duration;
+
+use egui::{Painter, Rect, RichText, Sense, Ui};
 
 use super::paint::{Inks, paint};
 use super::session::Session;
-use super::theme::{self, Look};
+use super::theme::{self, GRID, Look};
 use super::widgets;
-use crate::view::{Overlay, activity_word, node_name, ring};
+use crate::balance::NodeId;
+use crate::view::{
+    Overlay, Point, Spot, activity_word, duration, flight_words, node_name, node_words, parcel_at, parent_words, ring,
+    ring_at,
+};
 
-/// Shows the ring as large as it gets.
-pub fn show(ui: &mut Ui, session: &Session) {
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
-    let (state, now) = (session.state(), session.now());
-    widgets::describe(&response, "Ring", || {
+/// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
+pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    let (stage, now) = (session.stage(), session.now());
+    let state = &stage.state;
+    widgets::describe(&response, "The ring", || {
         let say = |node| format!("{} is {}", node_name(node), activity_word(state.activity(node, now)));
         let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| say(node)).collect();
         nodes.join(", ")
     });
     let look = Look::of(ui.ctx());
-    let inks = Inks { look, nodes: session.colours() };
+    let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
-    let overlay = Overlay { outcome: session.outcome(), selected: None };
-    let marks = ring(state, &overlay, now, rect.size().into());
-    paint(&painter, rect.min, &marks, &inks);
-    let latency = session.header().link.latency.as_millis();
-    let lines = [format!("{latency} ms a hop"), "parcels drawn slower than they travel".to_owned()];
+    let drawn = Overlay { outcome: stage.outcome, selected: *selected };
+    paint(&painter, rect.min, &ring(state, &drawn, now, rect.size().into()), &inks);
+
+    let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
+    let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at));
+    let parcel = pointed.and_then(|at| parcel_at(state, now, rect.size().into(), at));
+    if response.clicked() {
+        *selected = match spot {
+            Some(Spot::Node(node)) if *selected != Some(node) => Some(node),
+            _ => None,
+        };
+    }
+    // Parcels fly over everything else.
+    let more = match (parcel, spot) {
+        (Some(parcel), _) => Some((flight_words(parcel), Vec::new())),
+        (None, Some(Spot::Node(node))) => Some((format!("Machine {}", node_name(node)), node_words(state, node, now))),
+        (None, Some(Spot::Parent)) => Some(("The parent".to_owned(), parent_words(state, now))),
+        (None, None) => None,
+    };
+    if let Some((title, lines)) = more {
+        response.on_hover_ui_at_pointer(|ui| more_words(ui, &title, &lines, look));
+    }
+    corner(&painter, rect, state.latency(), look);
+}
+
+/// A title, and below it what there is to say.
+fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: Look) {
+    ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
+    egui::Grid::new("more").spacing([2.0 * GRID, 0.25 * GRID]).show(ui, |ui| {
+        for (what, how_much) in lines {
+            ui.label(RichText::new(*what).font(theme::regular(theme::SMALL)).color(look.quiet));
+            ui.label(RichText::new(how_much).font(theme::regular(theme::SMALL)).color(look.text));
+            ui.end_row();
+        }
+    });
+}
+
+/// What there is to know of the drawing itself, in its lower right corner.
+fn corner(painter: &Painter, rect: Rect, latency: Duration, look: Look) {
+    let lines = [format!("{} a hop", duration(latency)), "parcels drawn slower than they travel".to_owned()];
     let galleys = lines.map(|line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet));
     // Where the corner is narrow the second line would run into the lowest node's label.
     let room = rect.width() / 2.0 - 64.0;

@@ -1,12 +1,13 @@
-//! Where to save the picture: a path to type, the system's own dialog beside it, and a sentence on how it went.
+//! What to save, and where: a path to type, the system's own dialog beside it, and a sentence on what is in the way.
 
 use std::path::{Path, PathBuf};
 
-use egui::{Key, Label, RichText, TextEdit, Ui, WidgetInfo};
+use egui::{ComboBox, Key, Label, RichText, TextEdit, Ui, WidgetInfo};
 
-use super::session::{Done, Phase, Session};
+use super::session::{Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
-use super::widgets::button;
+use super::widgets::{Weight, button};
+use crate::output::check_writable;
 use crate::runlog::Header;
 
 /// The bar below the top bar, while it is open.
@@ -14,27 +15,47 @@ use crate::runlog::Header;
 pub struct SaveBar {
     open: bool,
     wants_focus: bool,
+    kind: Kind,
     path: String,
     /// The name that the bar itself has put there last: it is renewed as long as nobody has changed it.
     suggested: String,
     /// What was asked for when the file was found to exist: asked for once more, it is replaced.
     warned: Option<PathBuf>,
-    said: Option<Said>,
+    /// What is in the way.
+    trouble: Option<String>,
 }
 
-/// What is to be read below the path.
-enum Said {
-    /// How things stand.
-    Note(String),
-    /// Why it did not work, or not yet.
-    Trouble(String),
+/// What is saved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Kind {
+    /// The picture as the tracer made it.
+    #[default]
+    Render,
+    /// The picture in the colours of who traced it.
+    Owners,
+    /// Between the two, as it is shown.
+    Blend,
+    /// The run's records.
+    Run,
 }
+
+const KINDS: [(Kind, &str, &str); 4] = [
+    (Kind::Render, "render", "The picture as it was traced"),
+    (Kind::Owners, "owners", "The picture in the colours of who traced it"),
+    (Kind::Blend, "blend", "The picture as it is blended now"),
+    (Kind::Run, "run", "All records of the run, to be played again"),
+];
 
 impl SaveBar {
-    /// Opens the bar, with a name that says what the picture is, or closes it.
+    /// Opens the bar, with a name that says what is saved, or closes it.
     pub fn toggle(&mut self, session: &Session) {
-        *self = Self { open: !self.open, wants_focus: !self.open, ..Self::default() };
+        *self = Self { open: !self.open, wants_focus: !self.open, kind: self.kind, ..Self::default() };
         self.suggest(session);
+    }
+
+    /// Closes it.
+    pub fn close(&mut self) {
+        self.open = false;
     }
 
     /// Whether the bar is to be shown.
@@ -42,85 +63,103 @@ impl SaveBar {
         self.open
     }
 
-    /// Takes in what a job in the background has come to.
-    pub fn take_in(&mut self, done: Done) {
-        self.wants_focus |= matches!(done, Done::Chosen(_));
-        self.said = Some(match done {
-            Done::Saved(Ok(said)) => Said::Note(said),
-            Done::Saved(Err(why)) => Said::Trouble(why),
-            Done::Chosen(Some(path)) => {
-                self.path = path.display().to_string();
-                Said::Note("Press Save to write it there".into())
+    /// Takes in what was chosen in the system's dialog.
+    pub fn take_in(&mut self, chosen: Option<PathBuf>) {
+        self.wants_focus = true;
+        self.trouble = None;
+        match chosen {
+            Some(path) => self.path = path.display().to_string(),
+            None => {
+                self.trouble = Some(
+                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed".into(),
+                );
             }
-            Done::Chosen(None) => Said::Trouble(
-                "No dialog of the system answered, or nothing was chosen in it: the path above can still be typed"
-                    .into(),
-            ),
-        });
+        }
     }
 
-    /// Shows the bar.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session) {
+    /// Shows the bar; the picture is shown with this `blend`.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, blend: f32) {
         let look = Look::of(ui.ctx());
-        self.suggest(session);
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Save the render as").font(theme::regular(theme::BODY)).color(look.quiet));
+            let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
+            ui.label(quiet("Save the"));
+            self.choose_kind(ui);
+            self.suggest(session);
+            ui.label(quiet("as"));
             let width = (ui.available_width() - 30.0 * GRID).max(20.0 * GRID);
             let field = TextEdit::singleline(&mut self.path).desired_width(width).margin(egui::vec2(GRID, 0.75 * GRID));
             let field = ui.add(field);
-            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Path of the PNG"));
+            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Where to save"));
             // A field gives up the focus on Enter; but whoever has mistyped goes on typing.
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if std::mem::take(&mut self.wants_focus) || entered {
                 field.request_focus();
             }
             if field.changed() {
-                (self.warned, self.said) = (None, None);
+                (self.warned, self.trouble) = (None, None);
             }
-            if button(ui, None, "Save", true, true).clicked() || entered {
-                self.save(session, ui);
+            if button(ui, None, "Save", true, Weight::Primary).clicked() || entered {
+                self.save(session, blend);
             }
-            if button(ui, None, "Choose…", true, false).clicked() {
-                self.said = Some(Said::Note("Asking the system for a place…".into()));
+            if button(ui, None, "Choose…", true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
-                session.choose(typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)), ui.ctx());
+                session.jobs().choose(Purpose::Save, typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)));
             }
-            let escaped = ui.input(|input| input.key_pressed(Key::Escape));
-            if button(ui, None, "Close", true, false).clicked() || escaped {
+            if button(ui, None, "Close", true, Weight::Quiet).clicked() {
                 self.open = false;
             }
         });
-        if let Some(said) = &self.said {
-            let (text, colour) = match said {
-                Said::Note(text) => (text, look.text),
-                Said::Trouble(text) => (text, ui.visuals().error_fg_color),
-            };
-            ui.add(Label::new(RichText::new(text).font(theme::regular(theme::BODY)).color(colour)).truncate());
+        if let Some(trouble) = &self.trouble {
+            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(ui.visuals().error_fg_color);
+            ui.add(Label::new(text).truncate());
+        }
+    }
+
+    fn choose_kind(&mut self, ui: &mut Ui) {
+        let before = self.kind;
+        let named = KINDS.iter().find(|(kind, ..)| *kind == before).map_or("", |(_, name, _)| name);
+        let combo = ComboBox::from_id_salt("kind").selected_text(named).width(13.0 * GRID);
+        let combo = combo.show_ui(ui, |ui| {
+            for (kind, name, hint) in KINDS {
+                self.wants_focus |= ui.selectable_value(&mut self.kind, kind, name).on_hover_text(hint).clicked();
+            }
+        });
+        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, "What to save"));
+        if self.kind != before {
+            (self.warned, self.trouble) = (None, None);
         }
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
-    fn save(&mut self, session: &Session, ui: &Ui) {
+    fn save(&mut self, session: &mut Session, blend: f32) {
         let path = match resolve(&self.path, std::env::home_dir()) {
             Ok(path) => path,
-            Err(why) => return self.said = Some(Said::Trouble(why)),
+            Err(why) => return self.trouble = Some(why),
         };
+        if let Err(error) = check_writable(&path) {
+            return self.trouble = Some(error.to_string());
+        }
         let warned = self.warned.take();
         if path.is_file() && warned.as_ref() != Some(&path) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            self.said = Some(Said::Trouble(format!("{name} exists; press Save again to replace it")));
+            self.trouble = Some(format!("{name} exists; press Save again to replace it"));
             self.warned = Some(path);
             return;
         }
-        self.said = None;
-        session.save(path, ui.ctx());
+        self.open = false;
+        match self.kind {
+            Kind::Render => session.save_picture(path, 0.0),
+            Kind::Owners => session.save_picture(path, 1.0),
+            Kind::Blend => session.save_picture(path, blend),
+            Kind::Run => session.save_run(path),
+        }
     }
 
-    /// Puts a name there that says what the picture is now, unless the user has put something else there.
+    /// Puts a name there that says what is saved, unless the user has put something else there.
     fn suggest(&mut self, session: &Session) {
-        let done = *session.phase() == Phase::Finished;
+        let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
-        let suggested = directory.join(file_name(session.header(), done)).display().to_string();
+        let suggested = directory.join(file_name(session.header(), self.kind, done)).display().to_string();
         if self.path == self.suggested {
             self.path.clone_from(&suggested);
         }
@@ -129,10 +168,10 @@ impl SaveBar {
 }
 
 /// The path that was typed, `~` being the home directory.
-fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
+pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
     let typed = typed.trim();
     if typed.is_empty() {
-        return Err("There is no path: type where to save the picture, for instance ~/picture.png".into());
+        return Err("There is no path: type one, for instance ~/picture.png".into());
     }
     let path = match Path::new(typed).strip_prefix("~") {
         Ok(rest) => home.ok_or("The home directory is not known: type it instead of ~")?.join(rest),
@@ -144,15 +183,24 @@ fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
     Ok(path)
 }
 
-/// A name that says what the picture is.
-fn file_name(header: &Header, done: bool) -> String {
-    let kind: String =
+/// A name that says what is saved.
+fn file_name(header: &Header, kind: Kind, done: bool) -> String {
+    let scene: String =
         header.scene.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' }).collect();
-    format!("{kind}-{}{}.png", header.size, if done { "" } else { "-unfinished" })
+    let what = match kind {
+        Kind::Render => String::new(),
+        Kind::Owners => "-owners".into(),
+        Kind::Blend => "-blend".into(),
+        Kind::Run => format!("-{}-{}", header.strategy, header.speeds.len()),
+    };
+    let unfinished = if done { "" } else { "-unfinished" };
+    let ending = if kind == Kind::Run { "anel" } else { "png" };
+    format!("{scene}-{}{what}{unfinished}.{ending}", header.size)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::settings::Settings;
     use super::*;
 
     #[test]
@@ -169,5 +217,14 @@ mod tests {
         assert!(resolve("  ", None).is_err_and(|why| why.contains("no path")));
         assert!(resolve(".", None).is_err_and(|why| why.contains("is a directory")));
         assert!(resolve("pictures/", None).is_err_and(|why| why.contains("is a directory")));
+    }
+
+    #[test]
+    fn a_name_says_what_is_saved() {
+        let header = Settings::default().header("my scene", "", Default::default(), 2);
+        let named = |kind, done| file_name(&header, kind, done);
+        assert_eq!(named(Kind::Render, true), "my-scene-640x480.png");
+        assert_eq!(named(Kind::Owners, false), "my-scene-640x480-owners-unfinished.png");
+        assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
     }
 }

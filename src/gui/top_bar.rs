@@ -1,40 +1,51 @@
-//! The bar at the top: what runs, how long, and the few things to press.
+//! The bar at the top: what runs, how long, and what to press.
 
 use egui::{Align, Color32, Label, Layout, RichText, Ui};
 
+use super::icons::Icon;
+use super::keys::Command;
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Icon, button};
+use super::widgets::{Weight, button, named_button};
 use crate::view::count;
 
-/// What was pressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Click {
-    /// Stand still, or go on.
-    Pause,
-    /// From the beginning.
-    Restart,
-    /// Into a file.
-    Save,
-    /// Dark or light.
-    Theme,
+/// What is open, and so shown as pressed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Open {
+    /// The scenes.
+    pub scenes: bool,
+    /// What can be set.
+    pub setup: bool,
+    /// Saving.
+    pub save: bool,
 }
 
 /// Shows the bar and returns what was pressed.
-pub fn show(ui: &mut Ui, session: &Session) -> Option<Click> {
+pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
-    let wide = ui.available_width() > 760.0;
+    let wide = ui.available_width() > 900.0;
+    let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
         ui.label(RichText::new("anel").font(theme::strong(theme::LARGE)).color(look.text));
         ui.add_space(GRID);
+        let name = session.header().scene.as_str();
+        let shown: String = name.chars().take(if wide { 24 } else { 14 }).collect();
+        let shown = if shown.is_empty() { "Scenes" } else { &shown };
+        let weight = if open.scenes { Weight::On } else { Weight::Quiet };
+        if named_button(ui, Some(Icon::Scenes), "Scenes", Some(shown), weight)
+            .on_hover_text("Open a scene or a recorded run (O)")
+            .clicked()
+        {
+            clicked = Some(Command::Scenes);
+        }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
-            let clicked = buttons(ui, session, wide);
+            clicked = clicked.or(buttons(ui, session, wide, open));
             ui.add_space(2.0 * GRID);
-            let time = format!("{:.1} s", session.lasted().secs());
+            let time = format!("{:.1} s", session.stage().lasted().secs());
             ui.label(RichText::new(time).font(theme::strong(theme::LARGE)).color(look.text));
-            if session.is_paused() {
+            if session.stage().paused {
                 ui.label(quiet("paused at".into(), look.quiet));
             }
             ui.add_space(2.0 * GRID);
@@ -43,28 +54,42 @@ pub fn show(ui: &mut Ui, session: &Session) -> Option<Click> {
                 let what = what(ui, session);
                 ui.add(Label::new(quiet(what, look.quiet)).truncate());
             });
-            clicked
-        })
-        .inner
-    })
-    .inner
+        });
+    });
+    clicked
 }
 
 /// From right to left.
-fn buttons(ui: &mut Ui, session: &Session, words: bool) -> Option<Click> {
+fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Command> {
     let mut clicked = None;
-    let mut press = |icon, name, words, primary, click, hint: &str| {
-        if button(ui, Some(icon), name, words, primary).on_hover_text(hint).clicked() {
-            clicked = Some(click);
+    let mut press = |icon, name, words, weight, command, hint: &str| {
+        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+            clicked = Some(command);
         }
     };
-    press(Icon::Contrast, "Dark or light", false, false, Click::Theme, "Dark or light");
-    press(Icon::Save, "Save PNG", words, false, Click::Save, "Save the render (S)");
-    let over = *session.phase() != Phase::Running;
-    press(Icon::Restart, "Restart", words, over, Click::Restart, "From the beginning, with these speeds (R)");
+    let shown = |open: bool| if open { Weight::On } else { Weight::Quiet };
+    press(Icon::Help, "Help", false, Weight::Quiet, Command::Help, "Which key does what (F1)");
+    press(Icon::Contrast, "Dark or light", false, Weight::Quiet, Command::Theme, "Dark or light (D)");
+    press(Icon::Save, "Save…", words, shown(open.save), Command::Save, "Save a picture, or the run (S)");
+    press(Icon::Sliders, "Set up", words, shown(open.setup), Command::Setup, "Machines, picture, strategy (E)");
+    ui.add_enabled_ui(session.history().can_undo(), |ui| {
+        let button = button(ui, Some(Icon::Undo), "Undo", false, Weight::Quiet);
+        if button.on_hover_text("Take back the last change of a speed or of what is set (Ctrl Z)").clicked() {
+            clicked = Some(Command::Undo);
+        }
+    });
+    let mut press = |icon, name, words, weight, command, hint: &str| {
+        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+            clicked = Some(command);
+        }
+    };
+    let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
+    let weight = if over { Weight::Primary } else { Weight::Quiet };
+    press(Icon::Restart, "Restart", words, weight, Command::Restart, "From the beginning, with what is set (R)");
     if !over {
-        let (icon, name) = if session.is_paused() { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
-        press(icon, name, words, true, Click::Pause, "Stand still or go on (space)");
+        let paused = session.stage().paused;
+        let (icon, name) = if paused { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
+        press(icon, name, words, Weight::Primary, Command::Pause, "Stand still or go on (space)");
     }
     clicked
 }
@@ -72,15 +97,17 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool) -> Option<Click> {
 /// What runs, in as many words as fit.
 fn what(ui: &Ui, session: &Session) -> String {
     let header = session.header();
-    let scene = header.scene.clone();
-    let machines = format!("{scene} · {} machines in a ring", header.speeds.len());
+    let nodes = header.speeds.len();
+    let machines = if nodes == 1 { "1 machine".to_owned() } else { format!("{nodes} machines in a ring") };
+    let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
     let (width, height) = (header.size.width(), header.size.height());
-    let all = format!("{machines} · {width} × {height} pixels in {} atoms", count(header.division.atoms()));
+    let size = format!("{machines} · {width} × {height} pixels");
+    let all = format!("{size} in {} atoms", count(header.division.atoms()));
     let fits = |text: &String| {
         let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::BODY), Color32::PLACEHOLDER);
         galley.size().x <= ui.available_width()
     };
-    [all, machines].into_iter().find(fits).unwrap_or(scene)
+    [all, size, machines].into_iter().find(fits).unwrap_or_default()
 }
 
 fn quiet(text: String, colour: Color32) -> RichText {

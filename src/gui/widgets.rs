@@ -1,25 +1,13 @@
-//! The few widgets of the window: a button with an icon, a slim slider.
+//! The few widgets of the window: a button, a slim slider, an exact value, a choice.
+
+use std::ops::RangeInclusive;
 
 use egui::{
-    Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Color32, DragValue, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
+use super::icons::{self, Icon};
 use super::theme::{GRID, Look};
-
-/// What a button shows before its words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Icon {
-    /// Go on.
-    Play,
-    /// Stand still.
-    Pause,
-    /// From the beginning.
-    Restart,
-    /// Into a file.
-    Save,
-    /// Dark or light.
-    Contrast,
-}
 
 /// What a painted view is called, and what there is to be seen in it, for those who cannot see it.
 pub fn describe(response: &Response, name: &str, seen: impl Fn() -> String) {
@@ -30,42 +18,88 @@ pub fn describe(response: &Response, name: &str, seen: impl Fn() -> String) {
     });
 }
 
-/// A quiet button; `primary` for the one to press first. `name` is its accessible name, and its words if `words`.
-pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: bool, primary: bool) -> Response {
+/// How a button stands out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// One of many.
+    Quiet,
+    /// What it stands for is the case, or open.
+    On,
+    /// The one to press first.
+    Primary,
+}
+
+/// A button. `name` is its accessible name, and its words if `words`.
+pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: bool, weight: Weight) -> Response {
+    named_button(ui, icon, name, words.then_some(name), weight)
+}
+
+/// A button whose words are not its accessible name.
+pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&str>, weight: Weight) -> Response {
     let look = Look::of(ui.ctx());
     let text_font = TextStyle::Button.resolve(ui.style());
-    let galley = words.then(|| ui.painter().layout_no_wrap(name.to_owned(), text_font, Color32::PLACEHOLDER));
+    let galley = words.map(|words| ui.painter().layout_no_wrap(words.to_owned(), text_font, Color32::PLACEHOLDER));
     let icon_side = 2.0 * GRID;
     let text_width = galley.as_ref().map_or(0.0, |galley| galley.size().x);
     let icon_width = if icon.is_some() { icon_side } else { 0.0 };
-    let gap = if words && icon.is_some() { GRID } else { 0.0 };
-    let size = vec2(icon_width + gap + text_width + 3.0 * GRID, 4.0 * GRID);
+    let gap = if galley.is_some() && icon.is_some() { GRID } else { 0.0 };
+    let size = vec2(icon_width + gap + text_width + if galley.is_some() { 3.0 } else { 2.0 } * GRID, 4.0 * GRID);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), weight == Weight::On, name));
     if ui.is_rect_visible(rect) {
-        let (fill, text) = match (primary, response.hovered() || response.is_pointer_button_down_on()) {
-            (true, false) => (look.accent, look.on_accent),
-            (true, true) => (look.accent.gamma_multiply(0.85), look.on_accent),
-            (false, false) => (look.raised, look.text),
-            (false, true) => (look.hairline, look.text),
+        let hovered = response.hovered() || response.is_pointer_button_down_on();
+        let (fill, text) = match (weight, hovered) {
+            (Weight::Primary, false) => (look.accent, look.on_accent),
+            (Weight::Primary, true) => (look.accent.gamma_multiply(0.85), look.on_accent),
+            (Weight::Quiet, false) => (look.raised, look.text),
+            (Weight::On, _) | (Weight::Quiet, true) => (look.hairline, look.text),
         };
+        let fade = if ui.is_enabled() { 1.0 } else { 0.45 };
         ui.painter().rect_filled(rect, 6.0, fill);
+        if weight == Weight::On {
+            let line = Stroke::new(1.5, look.accent);
+            ui.painter().rect_stroke(rect, 6.0, line, StrokeKind::Inside);
+        }
         focus_ring(ui, &response, rect, look);
-        let mut left = rect.left() + 1.5 * GRID;
+        let mut left = rect.center().x - (icon_width + gap + text_width) / 2.0;
         if let Some(icon) = icon {
             let place = Rect::from_center_size(pos2(left + icon_side / 2.0, rect.center().y), Vec2::splat(icon_side));
-            paint_icon(ui.painter(), icon, place, text);
+            icons::paint(ui.painter(), icon, place, text.gamma_multiply(fade));
             left = place.right() + GRID;
         }
         if let Some(galley) = galley {
-            ui.painter().galley(pos2(left, rect.center().y - galley.size().y / 2.0), galley, text);
+            let place = pos2(left, rect.center().y - galley.size().y / 2.0);
+            ui.painter().galley(place, galley, text.gamma_multiply(fade));
         }
     }
     response
 }
 
-/// A slim slider from 0 to 100 in steps of 1, its filled part in `colour`. `name` is its accessible name.
-pub fn slider(ui: &mut Ui, percent: &mut f64, width: f32, colour: Color32, name: &str) -> Response {
+/// Buttons of which one is on; returns what was pressed. Each has a value, an accessible name that is also its words, and
+/// a hint.
+pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, on: T, all: &[(T, &str, &str)]) -> Option<T> {
+    let mut pressed = None;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GRID / 2.0;
+        for &(value, name, hint) in all {
+            let weight = if value == on { Weight::On } else { Weight::Quiet };
+            if button(ui, None, name, true, weight).on_hover_text(hint).clicked() {
+                pressed = Some(value);
+            }
+        }
+    });
+    pressed
+}
+
+/// A slim slider, in steps of 1 if `whole`, its filled part in `colour`. `name` is its accessible name.
+pub fn slider(
+    ui: &mut Ui,
+    value: &mut f64,
+    (range, whole): (RangeInclusive<f64>, bool),
+    width: f32,
+    colour: Color32,
+    name: &str,
+) -> Response {
     ui.scope(|ui| {
         let look = Look::of(ui.ctx());
         ui.spacing_mut().slider_width = width;
@@ -76,17 +110,20 @@ pub fn slider(ui: &mut Ui, percent: &mut f64, width: f32, colour: Color32, name:
             state.bg_fill = look.hairline;
             state.fg_stroke = Stroke::NONE;
         }
-        let slider = egui::Slider::new(percent, 0.0..=100.0).step_by(1.0).show_value(false);
+        let (least, most) = (*range.start(), *range.end());
+        let slider = egui::Slider::new(value, range).step_by(if whole { 1.0 } else { 0.0 }).show_value(false);
         let response = ui.add(slider);
         // Without words beside it the slider has no name of its own.
-        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *percent, name));
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *value, name));
         // Over egui's handle, which has the rail's colour while nobody touches it.
         let radius = response.rect.height() / 2.5;
         let left = response.rect.left() + radius;
-        let x = left + (response.rect.width() - 2.0 * radius) * (*percent as f32 / 100.0);
+        let share = ((*value - least) / (most - least)).clamp(0.0, 1.0) as f32;
+        let x = left + (response.rect.width() - 2.0 * radius) * share;
         let handle = pos2(x, response.rect.center().y);
         let grown = if response.hovered() || response.dragged() { 9.0 } else { 8.0 };
-        ui.painter().circle(handle, grown, colour, Stroke::new(2.0, look.text));
+        let line = if ui.is_enabled() { look.text } else { look.quiet };
+        ui.painter().circle(handle, grown, colour, Stroke::new(2.0, line));
         if response.has_focus() {
             ui.painter().circle_stroke(handle, grown + 3.0, Stroke::new(1.5, look.accent));
         }
@@ -95,48 +132,33 @@ pub fn slider(ui: &mut Ui, percent: &mut f64, width: f32, colour: Color32, name:
     .inner
 }
 
+/// An exact value, to be typed or dragged. `name` is its accessible name.
+pub fn number<N: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    suffix: &str,
+    width: f32,
+    name: &str,
+) -> Response {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size = vec2(width, 3.5 * GRID);
+        ui.spacing_mut().button_padding = vec2(0.75 * GRID, 0.25 * GRID);
+        let speed = (range.end().to_f64() - range.start().to_f64()).clamp(10.0, 2000.0) / 400.0;
+        let response = ui.add(DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed));
+        let exact = value.to_f64();
+        response.widget_info(|| WidgetInfo {
+            label: Some(name.to_owned()),
+            ..WidgetInfo::drag_value(ui.is_enabled(), exact)
+        });
+        response
+    })
+    .inner
+}
+
 fn focus_ring(ui: &Ui, response: &Response, rect: Rect, look: Look) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, look.accent);
-        ui.painter().rect_stroke(rect.expand(2.0), 8.0, stroke, egui::StrokeKind::Outside);
-    }
-}
-
-fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
-    let at = |x: f32, y: f32| -> Pos2 { rect.lerp_inside(vec2(x, y)) };
-    let stroke = Stroke::new(1.75, colour);
-    match icon {
-        Icon::Play => {
-            let corners = vec![at(0.22, 0.1), at(0.9, 0.5), at(0.22, 0.9)];
-            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
-        }
-        Icon::Pause => {
-            for left in [0.18, 0.6] {
-                painter.rect_filled(Rect::from_min_max(at(left, 0.12), at(left + 0.22, 0.88)), 1.0, colour);
-            }
-        }
-        Icon::Restart => {
-            let turn = |i: i32| {
-                let angle = 0.4 + i as f32 * 0.27;
-                at(0.5 + 0.38 * angle.cos(), 0.5 + 0.38 * angle.sin())
-            };
-            painter.line((0..=19).map(turn).collect(), stroke);
-            let tip = turn(19);
-            let corners = vec![tip + vec2(-5.0, -1.0), tip + vec2(2.5, -5.0), tip + vec2(2.5, 3.0)];
-            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
-        }
-        Icon::Save => {
-            painter.line(vec![at(0.5, 0.08), at(0.5, 0.62)], stroke);
-            painter.line(vec![at(0.25, 0.4), at(0.5, 0.66), at(0.75, 0.4)], stroke);
-            painter.line(vec![at(0.1, 0.66), at(0.1, 0.92), at(0.9, 0.92), at(0.9, 0.66)], stroke);
-        }
-        Icon::Contrast => {
-            painter.circle_stroke(rect.center(), rect.width() * 0.4, stroke);
-            let half = |i: i32| {
-                let angle = std::f32::consts::PI * (i as f32 / 12.0 - 0.5);
-                at(0.5 + 0.4 * angle.cos(), 0.5 + 0.4 * angle.sin())
-            };
-            painter.add(Shape::convex_polygon((0..=12).map(half).collect(), colour, Stroke::NONE));
-        }
+        ui.painter().rect_stroke(rect.expand(2.0), 8.0, stroke, StrokeKind::Outside);
     }
 }

@@ -1,33 +1,112 @@
-//! What happens, in a sentence, and who has done how much, in a bar.
+//! What happens in sentences, what came of it in figures, and who has done how much in a bar.
 
-use egui::{Align2, CornerRadius, Rect, RichText, Sense, Ui, pos2, vec2};
+use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::text_on;
-use crate::view::{Share, node_name, percent, result_words, shares};
+use crate::view::{Share, figures, node_name, percent, shares};
 
-/// Shows both.
+const SENTENCE: f32 = 3.25 * GRID;
+const EVENT: f32 = 2.25 * GRID;
+const BAR: f32 = 3.0 * GRID;
+
+/// How high the panel is to be, so that it does not change while one watches.
+pub fn height(ui: &Ui) -> f32 {
+    SENTENCE + events_shown(ui) as f32 * EVENT + 1.5 * GRID + BAR
+}
+
+/// Shows all three.
 pub fn show(ui: &mut Ui, session: &Session) {
     let look = Look::of(ui.ctx());
-    let sentence = match (session.phase(), session.outcome()) {
-        (Phase::Failed(why), _) => format!("The run cannot go on: {why}"),
-        (_, Some(outcome)) => result_words(session.state(), &outcome),
-        _ => session.narrator().sentence(session.state(), session.now()),
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui) - BAR - GRID), Sense::hover());
+    ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.shrink_clip_rect(area.expand(2.0));
+        if session.stage().outcome.is_some() { result(ui, session, look) } else { story(ui, session, look) }
+    });
+    bar(ui, session, look);
+}
+
+fn events_shown(ui: &Ui) -> usize {
+    match ui.ctx().content_rect().height() {
+        height if height < 560.0 => 0,
+        height if height < 700.0 => 1,
+        height if height < 950.0 => 2,
+        _ => 4,
+    }
+}
+
+/// The sentence of the moment, and the last events before it.
+fn story(ui: &mut Ui, session: &Session, look: Look) {
+    let stage = session.stage();
+    let sentence = match &stage.phase {
+        Phase::Preparing => "Reading the scene, compiling it, and looking what it will cost …".to_owned(),
+        Phase::Failed(why) => format!("The run cannot go on: {why}"),
+        Phase::Finished if stage.state.finished().is_none() => {
+            let done = percent(stage.state.done(), stage.state.atoms());
+            format!("The record ends here, with {done} of the picture")
+        }
+        _ => stage.narrator.sentence(&stage.state, session.now()),
     };
-    // Rather small than cut; what is too long even so has two lines.
+    // Rather small than cut.
     let width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
     let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| width(size) <= ui.available_width());
-    let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::BODY))).color(look.text);
-    ui.add(egui::Label::new(text).wrap());
-    bar(ui, session, look);
+    let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::SMALL))).color(look.text);
+    ui.allocate_ui(vec2(ui.available_width(), SENTENCE), |ui| {
+        ui.set_min_height(SENTENCE);
+        ui.add(Label::new(text).wrap());
+    });
+    let font = theme::regular(theme::SMALL);
+    // The newest is the sentence itself.
+    for (at, event) in stage.narrator.events().rev().skip_while(|(_, event)| *event == sentence).take(events_shown(ui))
+    {
+        let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
+        widgets::describe(&response, "Event", || event.to_owned());
+        let y = line.center().y;
+        let time = format!("{:.1} s", at.secs());
+        ui.painter().text(pos2(line.left() + 5.5 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
+        let galley = one_line(ui, event, &font, look, line.width() - 7.0 * GRID);
+        ui.painter().galley(pos2(line.left() + 6.5 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
+    }
+}
+
+/// What the run amounts to: large, and in words.
+fn result(ui: &mut Ui, session: &Session, look: Look) {
+    let stage = session.stage();
+    let Some(outcome) = stage.outcome else { return };
+    let area = ui.available_rect_before_wrap();
+    let (value, caption) = (theme::strong(theme::LARGE), theme::regular(theme::SMALL));
+    let mut x = area.left();
+    for (figure, means) in figures(&outcome) {
+        let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
+        let means = ui.painter().layout_no_wrap(means.to_owned(), caption.clone(), look.quiet);
+        let width = figure.size().x.max(means.size().x);
+        ui.painter().galley(pos2(x, area.top() - 0.5 * GRID), figure, look.text);
+        ui.painter().galley(pos2(x, area.top() + 3.25 * GRID), means, look.quiet);
+        x += width + 3.0 * GRID;
+    }
+    let words = &stage.result;
+    let place = Rect::from_min_max(pos2(x + GRID, area.top()), area.max);
+    let lines = |size: f32| ui.painter().layout(words.clone(), theme::regular(size), look.text, place.width()).size().y;
+    let size = [theme::BODY, 14.0].into_iter().find(|&size| lines(size) <= place.height()).unwrap_or(theme::SMALL);
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        ui.add(Label::new(RichText::new(words).font(theme::regular(size)).color(look.text)).wrap());
+    });
+}
+
+fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::sync::Arc<egui::Galley> {
+    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font.clone(), look.quiet);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+    ui.painter().layout_job(job)
 }
 
 /// All atoms in one row: each node's part in its colour, what is still to be done empty.
 fn bar(ui: &mut Ui, session: &Session, look: Look) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.0 * GRID), Sense::hover());
-    let (shares, all) = (shares(session.state()), session.state().atoms());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), BAR), Sense::hover());
+    let state = &session.stage().state;
+    let (shares, all) = (shares(state), state.atoms());
     widgets::describe(&response, "Who has traced how much", || {
         let say = |share: &Share| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
@@ -46,7 +125,7 @@ fn bar(ui: &mut Ui, session: &Session, look: Look) {
         if Some(i) == last && share.end > 0.999 {
             (corners.ne, corners.se) = (4, 4);
         }
-        let own = session.colours()[i];
+        let own = session.stage().colours[i];
         ui.painter().rect_filled(part, corners, theme::colour(own));
         let ink = theme::colour(text_on(own));
         if part.width() > 72.0 {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use ron::extensions::Extensions;
@@ -18,6 +18,8 @@ use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
 pub struct Opened {
     /// The file's name without its ending.
     pub name: String,
+    /// The file that it was read from; `None` if it is built in or was given as text.
+    pub path: Option<PathBuf>,
     /// The file's text.
     pub text: String,
     /// What it says.
@@ -53,13 +55,14 @@ impl Opened {
         }
         let text = read(path).map_err(|message| SceneError { file: None, place: None, message });
         text.and_then(|text| Self::from_text(&name, &text))
+            .map(|opened| Self { path: Some(path.into()), ..opened })
             .map_err(|error| SceneError { file: Some(argument.into()), ..error })
     }
 
     /// # Errors
     /// Those of [`Scene::parse`].
     pub fn from_text(name: &str, text: &str) -> Result<Self, SceneError> {
-        Ok(Self { name: name.into(), text: text.into(), scene: Scene::parse(text)? })
+        Ok(Self { name: name.into(), path: None, text: text.into(), scene: Scene::parse(text)? })
     }
 }
 

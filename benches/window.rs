@@ -1,0 +1,266 @@
+//! What the window costs: `cargo bench --bench window`. The CPU of one frame, what a run at full speed loses with the
+//! window open, and what the window takes at rest. The last two need Linux and Xvfb.
+//!
+//! The figures say what this computer does while it does nothing else; none of them is asserted.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use anel::gui::{App, Launch, Opening, Phase};
+use anel::runlog::{RunLog, metrics};
+use cpu_time::ThreadTime;
+use egui::Key;
+use egui_kittest::Harness;
+use tempfile::TempDir;
+
+const PAIRS: usize = 5;
+
+/// What is set for the runs at full speed: eight equal machines, a picture of some seconds.
+const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), samples: 3, tempo: Full, latency: 0,
+    speeds: [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), scene: Some("ten-objects"))"#;
+
+fn main() {
+    frames();
+    if let Some(display) = Display::open() {
+        against_headless(&display);
+        at_rest(&display);
+    } else {
+        println!("Xvfb is not installed: the window itself was not measured");
+    }
+}
+
+/// Interface and tessellation of one frame while eight nodes run at full speed, at 1280 × 800.
+fn frames() {
+    let storage = Storage(SETTINGS.into());
+    let launch = Launch { opening: Some(Opening::read("ten-objects").expect("a built-in scene")), log: None };
+    let build =
+        move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, Some(&storage), launch);
+    let mut window = Harness::builder().with_size([1280.0, 800.0]).build_eframe(build);
+    let (mut times, mut restarts) = (Vec::new(), 0);
+    while restarts < 3 {
+        sleep(Duration::from_millis(20));
+        let before = ThreadTime::now();
+        window.step();
+        let shapes = window.output().shapes.clone();
+        let scale = window.ctx.pixels_per_point();
+        let meshes = window.ctx.tessellate(shapes, scale);
+        let took = before.elapsed();
+        assert!(!meshes.is_empty(), "something is drawn");
+        match window.state().session().stage().phase {
+            Phase::Running => times.push(took.as_secs_f64() * 1e3),
+            Phase::Finished => {
+                restarts += 1;
+                window.key_press(Key::R);
+            }
+            Phase::Preparing | Phase::Failed(_) => {}
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+    let (count, median, most) = (times.len(), at(0.5), at(0.99));
+    println!("one frame, interface and tessellation, 1280x800, eight nodes at full speed, {count} frames:");
+    println!("  median {median:.2} ms, 99th percentile {most:.2} ms of CPU");
+}
+
+/// The same run with the window and without it, in turn.
+fn against_headless(display: &Display) {
+    println!("\nthe same run at full speed, eight nodes, {PAIRS} pairs in turn (s):");
+    let (mut losses, mut owns) = (Vec::new(), Vec::new());
+    for _ in 0..PAIRS {
+        let headless = headless();
+        let (with, own) = with_window(display);
+        let loss = with / headless - 1.0;
+        println!(
+            "  headless {headless:.3}, with the window {with:.3}: {:+.1} %; the window's own CPU {:.1} % of the computer",
+            100.0 * loss,
+            100.0 * own
+        );
+        losses.push(loss);
+        owns.push(own);
+    }
+    println!("  median: {:+.1} % for {:.1} % of the computer", 100.0 * median(losses), 100.0 * median(owns));
+}
+
+fn headless() -> f64 {
+    let directory = TempDir::new().expect("a temporary directory");
+    let log = directory.path().join("run.anel");
+    let done = Command::new(env!("CARGO_BIN_EXE_anel"))
+        .args(["render", "ten-objects", "--size", "1280x960", "--samples", "3", "--nodes", "8", "--pace", "full"])
+        .arg("--out")
+        .arg(directory.path().join("out.png"))
+        .arg("--log")
+        .arg(&log)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    assert!(done.is_ok_and(|status| status.success()), "the headless run failed");
+    makespan(&log)
+}
+
+/// The makespan, and what part of the computer went into everything but the nodes.
+fn with_window(display: &Display) -> (f64, f64) {
+    let directory = TempDir::new().expect("a temporary directory");
+    let log = directory.path().join("run.anel");
+    let mut window = Window::open(display, directory.path(), Some(&log));
+    let mut cpu = None;
+    while !log.exists() {
+        sleep(Duration::from_millis(5));
+        let now = [window.cpu_without_nodes(), display.cpu()];
+        if cpu.is_none() && window.has_nodes() {
+            cpu = Some((now, now));
+        }
+        if let Some((_, last)) = &mut cpu
+            && window.has_nodes()
+        {
+            *last = now;
+        }
+    }
+    window.close();
+    let makespan = makespan(&log);
+    let (first, last) = cpu.expect("the nodes were seen");
+    let used: f64 = last.iter().zip(first).map(|(last, first)| last - first).sum();
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    (makespan, used / makespan / cores as f64)
+}
+
+/// CPU of the window, its display included, while a finished run is shown, and while a run is paused.
+fn at_rest(display: &Display) {
+    const REST: Duration = Duration::from_secs(10);
+    let directory = TempDir::new().expect("a temporary directory");
+    let log = directory.path().join("run.anel");
+    let mut window = Window::open(display, directory.path(), Some(&log));
+    while !log.exists() {
+        sleep(Duration::from_millis(20));
+    }
+    // What was said below the top bar has to go away, too.
+    sleep(Duration::from_secs(10));
+    let before = window.cpu() + display.cpu();
+    sleep(REST);
+    let used = window.cpu() + display.cpu() - before;
+    window.close();
+    println!(
+        "\nat rest, a finished run shown: {:.2} % of one core over {} s",
+        100.0 * used / REST.as_secs_f64(),
+        REST.as_secs()
+    );
+}
+
+fn makespan(log: &Path) -> f64 {
+    let log = RunLog::load(log).expect("a run file");
+    metrics::makespan(log.records()).expect("a whole run").as_secs_f64()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// What an earlier window remembered.
+struct Storage(String);
+
+impl eframe::Storage for Storage {
+    fn get_string(&self, _key: &str) -> Option<String> {
+        Some(self.0.clone())
+    }
+
+    fn set_string(&mut self, _key: &str, _value: String) {}
+
+    fn remove_string(&mut self, _key: &str) {}
+
+    fn flush(&mut self) {}
+}
+
+/// An X server without a screen.
+struct Display {
+    server: Child,
+    name: String,
+}
+
+impl Display {
+    fn open() -> Option<Self> {
+        use std::io::BufRead;
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .ok()?;
+        let mut number = String::new();
+        std::io::BufReader::new(server.stdout.take()?).read_line(&mut number).ok()?;
+        Some(Self { server, name: format!(":{}", number.trim()) })
+    }
+
+    fn cpu(&self) -> f64 {
+        cpu_seconds(Path::new(&format!("/proc/{}/stat", self.server.id())))
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+struct Window(Child);
+
+impl Window {
+    fn open(display: &Display, home: &Path, log: Option<&Path>) -> Self {
+        let remembered = home.join("anel");
+        fs::create_dir_all(&remembered).expect("a directory");
+        let quoted = format!("{{\"anel\": {SETTINGS:?}}}");
+        fs::write(remembered.join("app.ron"), quoted).expect("a file");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_anel"));
+        command.env("DISPLAY", &display.name).env("HOME", home).env("XDG_DATA_HOME", home);
+        command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET").stderr(Stdio::null());
+        if let Some(log) = log {
+            command.arg("--log").arg(log);
+        }
+        Self(command.spawn().expect("the program starts"))
+    }
+
+    fn tasks(&self) -> Vec<std::path::PathBuf> {
+        let tasks = fs::read_dir(format!("/proc/{}/task", self.0.id()));
+        tasks.into_iter().flatten().filter_map(|task| Some(task.ok()?.path())).collect()
+    }
+
+    fn has_nodes(&self) -> bool {
+        self.tasks().iter().any(|task| name(task).starts_with("node "))
+    }
+
+    /// CPU seconds of all threads that are not nodes.
+    fn cpu_without_nodes(&self) -> f64 {
+        let others = self.tasks().into_iter().filter(|task| !name(task).starts_with("node "));
+        others.map(|task| cpu_seconds(&task.join("stat"))).sum()
+    }
+
+    fn cpu(&self) -> f64 {
+        cpu_seconds(Path::new(&format!("/proc/{}/stat", self.0.id())))
+    }
+
+    fn close(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+fn name(task: &Path) -> String {
+    fs::read_to_string(task.join("comm")).unwrap_or_default()
+}
+
+/// User and system time in a `stat` file of Linux; its clock ticks a hundred times a second.
+fn cpu_seconds(stat: &Path) -> f64 {
+    let text = fs::read_to_string(stat).unwrap_or_default();
+    let fields: Vec<_> = text.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+    let ticks = |index: usize| fields.get(index).and_then(|field| field.parse::<f64>().ok()).unwrap_or(0.0);
+    (ticks(11) + ticks(12)) / 100.0
+}

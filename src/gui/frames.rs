@@ -1,0 +1,69 @@
+//! When the window draws itself anew: as often as something moves, as seldom as that takes cores from the run.
+
+use std::time::Duration;
+
+use egui::Context;
+
+use super::session::{Phase, Session};
+
+/// While somebody looks at something that moves.
+const FRAME: Duration = Duration::from_millis(33);
+/// For the clock, and in order to learn when something moves again.
+const LOOK_IN: Duration = Duration::from_millis(250);
+/// Slower than this nobody would call it moving.
+const SLOWEST: Duration = Duration::from_millis(250);
+/// What part of one core the window's own thread takes at most while nobody touches it and the run wants every core.
+/// Where OpenGL is software, its threads take some times as much again.
+const SHARE: f64 = 0.015;
+/// For so long after a touch the window is as quick as it can be, in seconds.
+const TOUCHED: f64 = 1.0;
+
+/// Asks for the next frame; `cpu` is what the last took, in seconds.
+pub fn schedule(ctx: &Context, session: &Session, cpu: Option<f32>) {
+    let stage = session.stage();
+    let moves = stage.state.moves(session.now());
+    let next = match stage.phase {
+        Phase::Running if stage.paused => None,
+        Phase::Running if moves => {
+            let wants_all = session.header().pace >= 1.0 && !session.is_recorded();
+            Some(if wants_all && !is_touched(ctx) { spared(cpu) } else { FRAME })
+        }
+        Phase::Running | Phase::Preparing => Some(LOOK_IN),
+        Phase::Finished if moves => Some(FRAME),
+        Phase::Finished | Phase::Failed(_) => None,
+    };
+    let fades = session.notice().and_then(|notice| notice.remains(ctx.input(|input| input.time)));
+    let others = [fades.map(Duration::from_secs_f64), session.loading().map(|_| LOOK_IN)];
+    if let Some(next) = next.into_iter().chain(others.into_iter().flatten()).min() {
+        ctx.request_repaint_after(next);
+    }
+    if session.runs_ending() > 0 {
+        ctx.request_repaint_after(LOOK_IN);
+    }
+}
+
+/// The time between two frames of `cpu` seconds that leaves the run its cores.
+fn spared(cpu: Option<f32>) -> Duration {
+    Duration::from_secs_f64(f64::from(cpu.unwrap_or(0.0)) / SHARE).clamp(FRAME, SLOWEST)
+}
+
+/// Whether somebody has just moved the mouse or pressed a key.
+fn is_touched(ctx: &Context) -> bool {
+    ctx.input(|input| {
+        let last = input.pointer.time_since_last_movement();
+        f64::from(last) < TOUCHED || input.pointer.any_down() || !input.keys_down.is_empty()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dear_frames_come_seldom() {
+        assert_eq!(spared(None), FRAME);
+        assert_eq!(spared(Some(0.0004)), FRAME);
+        assert_eq!(spared(Some(0.0015)), Duration::from_millis(100));
+        assert_eq!(spared(Some(1.0)), SLOWEST);
+    }
+}

@@ -1,0 +1,101 @@
+//! The window's icons, drawn with a few lines each.
+
+use std::f32::consts::PI;
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+
+/// What a button shows before its words, or instead of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    /// Go on.
+    Play,
+    /// Stand still.
+    Pause,
+    /// From the beginning.
+    Restart,
+    /// Into a file.
+    Save,
+    /// Dark or light.
+    Contrast,
+    /// The scenes.
+    Scenes,
+    /// What can be set.
+    Sliders,
+    /// Take back.
+    Undo,
+    /// Questions.
+    Help,
+    /// Away with it.
+    Close,
+}
+
+/// Paints an icon into a square.
+pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
+    let at = |x: f32, y: f32| -> Pos2 { rect.lerp_inside(vec2(x, y)) };
+    let stroke = Stroke::new(1.75, colour);
+    let line = |points: &[(f32, f32)]| painter.line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke);
+    let arc = |centre: (f32, f32), radius: f32, from: f32, to: f32| {
+        let turn = |i: i32| {
+            let angle = from + (to - from) * i as f32 / 20.0;
+            at(centre.0 + radius * angle.cos(), centre.1 + radius * angle.sin())
+        };
+        (0..=20).map(turn).collect::<Vec<_>>()
+    };
+    let head = |tip: Pos2, corners: [Vec2; 3]| {
+        painter.add(Shape::convex_polygon(corners.map(|corner| tip + corner).to_vec(), colour, Stroke::NONE));
+    };
+    match icon {
+        Icon::Play => {
+            let corners = vec![at(0.22, 0.1), at(0.9, 0.5), at(0.22, 0.9)];
+            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Icon::Pause => {
+            for left in [0.18, 0.6] {
+                painter.rect_filled(Rect::from_min_max(at(left, 0.12), at(left + 0.22, 0.88)), 1.0, colour);
+            }
+        }
+        Icon::Restart => {
+            let points = arc((0.5, 0.5), 0.38, 0.4, 5.53);
+            let tip = points[points.len() - 1];
+            painter.line(points, stroke);
+            head(tip, [vec2(-5.0, -1.0), vec2(2.5, -5.0), vec2(2.5, 3.0)]);
+        }
+        Icon::Undo => {
+            let points = arc((0.52, 0.58), 0.34, 0.9, -PI);
+            let tip = points[points.len() - 1];
+            painter.line(points, stroke);
+            head(tip, [vec2(-4.5, -1.0), vec2(4.5, -1.0), vec2(0.0, 5.0)]);
+        }
+        Icon::Save => {
+            line(&[(0.5, 0.08), (0.5, 0.62)]);
+            line(&[(0.25, 0.4), (0.5, 0.66), (0.75, 0.4)]);
+            line(&[(0.1, 0.66), (0.1, 0.92), (0.9, 0.92), (0.9, 0.66)]);
+        }
+        Icon::Contrast => {
+            painter.circle_stroke(rect.center(), rect.width() * 0.4, stroke);
+            let half = arc((0.5, 0.5), 0.4, -PI / 2.0, PI / 2.0);
+            painter.add(Shape::convex_polygon(half, colour, Stroke::NONE));
+        }
+        Icon::Scenes => {
+            for (x, y) in [(0.1, 0.14), (0.56, 0.14), (0.1, 0.56), (0.56, 0.56)] {
+                let tile = Rect::from_min_max(at(x, y), at(x + 0.34, y + 0.3));
+                painter.rect_stroke(tile, 1.5, Stroke::new(1.5, colour), egui::StrokeKind::Middle);
+            }
+        }
+        Icon::Sliders => {
+            for (y, knob) in [(0.2, 0.7), (0.5, 0.3), (0.8, 0.6)] {
+                line(&[(0.06, y), (0.94, y)]);
+                painter.circle_filled(at(knob, y), rect.width() * 0.13, colour);
+            }
+        }
+        Icon::Help => {
+            painter.line(arc((0.5, 0.3), 0.2, -PI, 0.5 * PI), stroke);
+            line(&[(0.5, 0.5), (0.5, 0.66)]);
+            painter.circle_filled(pos2(rect.center().x, at(0.5, 0.88).y), 1.4, colour);
+        }
+        Icon::Close => {
+            line(&[(0.22, 0.22), (0.78, 0.78)]);
+            line(&[(0.78, 0.22), (0.22, 0.78)]);
+        }
+    }
+}

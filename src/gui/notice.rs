@@ -1,0 +1,121 @@
+//! A sentence below the top bar: what was done, what went wrong, what can be done about it.
+
+use egui::{Label, RichText, Ui};
+
+use super::icons::Icon;
+use super::theme::{self, GRID, Look};
+use super::widgets::{Weight, button};
+
+/// What is to be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Notice {
+    text: String,
+    kind: Kind,
+    /// When it came, by egui's clock in seconds.
+    since: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// It goes away by itself.
+    Note,
+    /// It stays until it is closed.
+    Trouble,
+    /// The scene's file has changed: it can be read again.
+    Changed,
+}
+
+/// What was pressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Click {
+    /// Away with it.
+    Close,
+    /// Read the scene's file again.
+    Reload,
+}
+
+impl Notice {
+    /// For how long a note can be read, in seconds.
+    const READ: f64 = 8.0;
+
+    /// Something was done.
+    pub fn note(text: impl Into<String>, since: f64) -> Self {
+        Self { text: text.into(), kind: Kind::Note, since }
+    }
+
+    /// Something cannot be done.
+    pub fn trouble(text: impl Into<String>, since: f64) -> Self {
+        Self { text: text.into(), kind: Kind::Trouble, since }
+    }
+
+    /// The file of the scene has changed.
+    pub fn changed(text: impl Into<String>, since: f64) -> Self {
+        Self { text: text.into(), kind: Kind::Changed, since }
+    }
+
+    /// What it says.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// For how many more seconds it is to be shown; `None` if until it is closed.
+    pub fn remains(&self, now: f64) -> Option<f64> {
+        (self.kind == Kind::Note).then(|| (self.since + Self::READ - now).max(0.0))
+    }
+
+    /// Shows it, and returns what was pressed.
+    pub fn show(&self, ui: &mut Ui) -> Option<Click> {
+        let look = Look::of(ui.ctx());
+        let mut click = None;
+        ui.horizontal(|ui| {
+            let colour = if self.kind == Kind::Trouble { ui.visuals().error_fg_color } else { look.text };
+            let buttons = if self.kind == Kind::Changed { 22.0 } else { 10.0 };
+            let width = (ui.available_width() - buttons * GRID).max(20.0 * GRID);
+            let text = RichText::new(&self.text).font(theme::regular(theme::BODY)).color(colour);
+            ui.allocate_ui(egui::vec2(width, 0.0), |ui| ui.add(Label::new(text).wrap()));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if button(ui, Some(Icon::Close), "Close notice", false, Weight::Quiet).clicked() {
+                    click = Some(Click::Close);
+                }
+                if self.kind == Kind::Changed && button(ui, None, "Reload", true, Weight::Primary).clicked() {
+                    click = Some(Click::Reload);
+                }
+            });
+        });
+        click
+    }
+}
+
+/// Says that something is being read and compiled.
+pub fn loading(ui: &mut Ui, name: &str) {
+    let look = Look::of(ui.ctx());
+    ui.horizontal(|ui| {
+        ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
+        let text = format!("{name} is being read and compiled …");
+        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
+    });
+}
+
+/// Says, over everything, that a file can be dropped.
+pub fn drop_here(ui: &Ui) {
+    let look = Look::of(ui.ctx());
+    let painter = ui.ctx().layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
+    let area = ui.ctx().content_rect();
+    painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
+    let frame = area.shrink(3.0 * GRID);
+    painter.rect_stroke(frame, 12.0, egui::Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
+    let text = "Drop a scene or a recorded run";
+    painter.text(area.center(), egui::Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notes_go_away_and_troubles_stay() {
+        let note = Notice::note("Saved", 10.0);
+        assert_eq!([note.remains(10.0), note.remains(15.0), note.remains(99.0)], [Some(8.0), Some(3.0), Some(0.0)]);
+        assert_eq!(Notice::trouble("No", 10.0).remains(99.0), None);
+    }
+}

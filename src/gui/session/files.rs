@@ -1,0 +1,138 @@
+//! Opening and saving.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::notice::Notice;
+use super::super::opening::Opening;
+use super::super::settings::Settings;
+use super::jobs::{FileChange, Prepared, Recorded};
+use super::performer::Performer;
+use super::stage::{Phase, Stage};
+use super::{Loading, Session};
+use crate::driver::Replay;
+use crate::scene::Opened;
+use crate::view::picture_pixels;
+
+impl Session {
+    /// Shows what has been read already.
+    pub fn show(&mut self, opening: Opening) {
+        let name = match &opening {
+            Opening::Scene(opened) => opened.name.clone(),
+            Opening::Run(log) => log.header.scene.clone(),
+        };
+        self.load(name, move || Ok(opening));
+    }
+
+    /// Reads a file, or a built-in scene, and shows it; what is shown now stays until then, or if it cannot be read.
+    pub fn open(&mut self, argument: &str) {
+        let name =
+            Path::new(argument).file_name().map_or_else(|| argument.into(), |name| name.to_string_lossy().into());
+        let argument = argument.to_owned();
+        self.load(name, move || Opening::read(&argument));
+    }
+
+    /// Reads the scene's file again.
+    pub fn reload(&mut self) {
+        self.notice = None;
+        if let Some(path) = self.opened().and_then(|opened| opened.path.clone()) {
+            self.open(&path.to_string_lossy());
+        }
+    }
+
+    /// Traces a recorded run's picture anew, by living nodes.
+    pub fn make_live(&mut self) {
+        let header = &self.stage.log.header;
+        let settings = Settings::of(header, self.settings.tempo);
+        if let Err(why) = settings.check() {
+            return self.trouble(format!("This run cannot be made live here: {why}"));
+        }
+        match Opened::from_text(&header.scene, &header.scene_text) {
+            Ok(opened) => {
+                self.settings = settings;
+                self.show(Opening::Scene(Arc::new(opened)));
+            }
+            Err(error) => self.trouble(format!("The run's own scene cannot be read: {error}")),
+        }
+    }
+
+    /// Writes the picture, as far as it is, in the background: the render (`blend` 0), the owners (1) or a blend.
+    pub fn save_picture(&mut self, path: PathBuf, blend: f32) {
+        self.note(format!("Saving {} …", path.display()));
+        let Stage { frame, state, colours, .. } = &self.stage;
+        let (frame, state, colours) = (frame.clone(), state.clone(), colours.clone());
+        self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, blend));
+    }
+
+    /// Writes the run, as far as it is, in the background.
+    pub fn save_run(&mut self, path: PathBuf) {
+        self.note(format!("Saving {} …", path.display()));
+        self.jobs.save_run(path, self.stage.log.clone());
+    }
+
+    /// Writes the run's records to where the user asked for them, if so, before the window closes. A failure is told on
+    /// standard error, since there is no other place for it any more.
+    pub fn keep_log(&self) {
+        if let (Some(path), Performer::Live(_)) = (&self.log_path, &self.stage.performer)
+            && let Err(error) = self.stage.log.save(path)
+        {
+            eprintln!("anel: {error}");
+        }
+    }
+
+    /// Plays a recorded run from its beginning.
+    pub(super) fn play(&mut self, recorded: Recorded) {
+        self.jobs.watch(None);
+        let replay = Replay::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
+        self.set_stage(Performer::Recorded(replay), recorded.log.header.clone());
+        self.recorded = Some(recorded);
+    }
+
+    /// Writes the records in the background to where the user asked for them, if so.
+    pub(super) fn write_log(&self) {
+        if let (Some(path), Performer::Live(_)) = (&self.log_path, &self.stage.performer) {
+            self.jobs.save_run(path.clone(), self.stage.log.clone());
+        }
+    }
+
+    fn load(&mut self, name: String, read: impl FnOnce() -> Result<Opening, String> + Send + 'static) {
+        let job = self.jobs.prepare(read, &self.settings);
+        self.loading = Some(Loading { job, name, since: self.clock });
+    }
+
+    pub(super) fn show_scene(&mut self, prepared: Prepared) {
+        let path = prepared.opened.path.clone();
+        if let Some(path) = &path {
+            self.remember(path.to_string_lossy().into_owned());
+        }
+        self.jobs.watch(path);
+        self.prepared = Some(prepared);
+        self.recorded = None;
+        self.restart();
+    }
+
+    pub(super) fn could_not_open(&mut self, why: String) {
+        if self.stage.phase == Phase::Preparing {
+            self.open("ten-objects");
+        }
+        self.trouble(why);
+    }
+
+    pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.notice = Some(match change {
+            FileChange::Written => Notice::changed(format!("{name} has changed on the disk"), self.clock),
+            FileChange::Gone => {
+                Notice::trouble(format!("{name} is gone from the disk; what is open stays as it is"), self.clock)
+            }
+        });
+    }
+
+    /// The file was opened last.
+    fn remember(&mut self, file: String) {
+        const MOST: usize = 8;
+        self.recent.retain(|other| *other != file);
+        self.recent.insert(0, file);
+        self.recent.truncate(MOST);
+    }
+}

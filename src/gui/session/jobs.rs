@@ -1,0 +1,253 @@
+//! What is done in the background, so that nothing ever blocks the window. Each job is a thread of its own, with a name,
+//! and ends by itself.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
+
+use super::super::opening::Opening;
+use super::super::settings::Settings;
+use crate::driver::probe;
+use crate::output::OutputError;
+use crate::picture::{Frame, Size, write_png};
+use crate::runlog::RunLog;
+use crate::scene::{Opened, Scene};
+use crate::tracer::{Quality, Scratch, Tracer};
+
+/// What a job has come to.
+pub enum Done {
+    /// The job of this number has read and compiled what was asked for, or says why not.
+    Ready(u64, Result<Ready, String>),
+    /// A file is written: a sentence says where, or why not.
+    Saved(Result<String, String>),
+    /// The user has chosen a file in the system's dialog; `None` if not.
+    Chosen(Purpose, Option<PathBuf>),
+    /// A small picture of a scene, by the scene's name or path; or why there is none.
+    Thumbnail(String, Result<Thumbnail, String>),
+    /// The file that is open has changed, or is gone.
+    FileChanged(PathBuf, FileChange),
+}
+
+/// What a path is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To be opened.
+    Open,
+    /// To be written.
+    Save,
+}
+
+/// What happened to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileChange {
+    /// Somebody has written to it.
+    Written,
+    /// It is not there any more.
+    Gone,
+}
+
+/// What can be shown at once.
+pub enum Ready {
+    /// A scene, compiled.
+    Scene(Prepared),
+    /// A recorded run, and what traces its picture again.
+    Run(Recorded),
+}
+
+/// A scene, compiled for a picture.
+#[derive(Clone)]
+pub struct Prepared {
+    /// The scene.
+    pub opened: Arc<Opened>,
+    /// What traces it.
+    pub tracer: Arc<Tracer>,
+    /// Of the picture that it is compiled for.
+    pub size: Size,
+    /// Of the picture that it is compiled for.
+    pub samples: u32,
+    /// The estimated CPU time of the whole picture.
+    pub work: Duration,
+}
+
+/// A recorded run.
+#[derive(Clone)]
+pub struct Recorded {
+    /// Its records.
+    pub log: Arc<RunLog>,
+    /// What traces its picture again.
+    pub tracer: Arc<Tracer>,
+}
+
+impl Prepared {
+    /// Whether it is compiled for the picture that is set.
+    pub fn is_for(&self, settings: &Settings) -> bool {
+        (self.size, self.samples) == (settings.size, settings.samples)
+    }
+}
+
+/// A small picture.
+pub struct Thumbnail {
+    /// Its size.
+    pub size: Size,
+    /// Its pixels, three bytes each.
+    pub rgb: Vec<u8>,
+}
+
+/// Starts jobs and gets what they come to.
+pub struct Jobs {
+    ctx: egui::Context,
+    sender: Sender<Done>,
+    receiver: Receiver<Done>,
+    next: u64,
+    /// Dropping it ends the watch.
+    watch: Option<Sender<()>>,
+}
+
+impl Jobs {
+    /// No job yet; `ctx` is woken by those that end.
+    pub fn new(ctx: egui::Context) -> Self {
+        let (sender, receiver) = unbounded();
+        Self { ctx, sender, receiver, next: 0, watch: None }
+    }
+
+    /// What jobs have come to since.
+    pub fn done(&self) -> Vec<Done> {
+        self.receiver.try_iter().collect()
+    }
+
+    /// Reads and compiles what `read` gives; returns the job's number.
+    pub fn prepare(
+        &mut self,
+        read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
+        settings: &Settings,
+    ) -> u64 {
+        self.next += 1;
+        let (number, size, samples, division) = (self.next, settings.size, settings.samples, settings.division());
+        self.start("prepare", move || {
+            let ready = read().and_then(|opening| match opening {
+                Opening::Scene(opened) => {
+                    let tracer = tracer(&opened.scene, size, samples);
+                    let work = probe(&tracer, division, PROBE).whole;
+                    Ok(Ready::Scene(Prepared { opened, tracer, size, samples, work }))
+                }
+                Opening::Run(log) => {
+                    let scene = Scene::parse(&log.header.scene_text);
+                    let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
+                    let tracer = tracer(&scene, log.header.size, log.header.samples);
+                    Ok(Ready::Run(Recorded { log, tracer }))
+                }
+            });
+            Done::Ready(number, ready)
+        });
+        number
+    }
+
+    /// Writes a picture of these pixels.
+    pub fn save_picture(&self, path: PathBuf, size: Size, pixels: impl FnOnce() -> Vec<u8> + Send + 'static) {
+        self.start("save", move || Done::Saved(told(&path, write_png(&path, size, &pixels()))));
+    }
+
+    /// Writes a run file.
+    pub fn save_run(&self, path: PathBuf, log: RunLog) {
+        self.start("save", move || Done::Saved(told(&path, log.save(&path))));
+    }
+
+    /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
+    pub fn choose(&self, purpose: Purpose, at: PathBuf) {
+        self.start("file dialog", move || {
+            let mut dialog = rfd::FileDialog::new();
+            if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
+                dialog = dialog.set_directory(directory);
+            }
+            let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let chosen = match purpose {
+                Purpose::Open => {
+                    dialog.add_filter("Scenes and runs", &["ron", "anel"]).add_filter("All", &["*"]).pick_file()
+                }
+                Purpose::Save => dialog.set_file_name(name).save_file(),
+            };
+            Done::Chosen(purpose, chosen)
+        });
+    }
+
+    /// Makes small pictures of these scenes, one after the other.
+    pub fn thumbnails(&self, scenes: Vec<String>) {
+        self.start_many("thumbnails", move |tell| {
+            for scene in scenes {
+                let made =
+                    Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
+                tell(Done::Thumbnail(scene, made));
+            }
+        });
+    }
+
+    /// Watches this file instead of the one before.
+    pub fn watch(&mut self, path: Option<PathBuf>) {
+        self.watch = None;
+        let Some(path) = path else { return };
+        let (stop, stopped) = bounded(0);
+        self.watch = Some(stop);
+        self.start_many("watch", move |tell| {
+            let mut known = stamp(&path);
+            while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                let now = stamp(&path);
+                if now != known {
+                    known = now;
+                    let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
+                    tell(Done::FileChanged(path.clone(), change));
+                }
+            }
+        });
+    }
+
+    fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
+        self.start_many(name, move |tell| tell(job()));
+    }
+
+    fn start_many(&self, name: &str, job: impl FnOnce(&dyn Fn(Done)) + Send + 'static) {
+        let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
+        let tell = move |done| {
+            // The window may have closed meanwhile.
+            let _ = sender.send(done);
+            ctx.request_repaint();
+        };
+        if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
+            let _ = self.sender.send(Done::Saved(Err(format!("No thread could be started: {error}"))));
+        }
+    }
+}
+
+/// How much of a picture is traced to know what the whole will cost.
+const PROBE: Duration = Duration::from_millis(120);
+
+/// How often a file that is watched is looked at.
+const LOOK: Duration = Duration::from_millis(700);
+
+fn tracer(scene: &Scene, size: Size, samples: u32) -> Arc<Tracer> {
+    Arc::new(Tracer::new(scene, size, Quality { samples, ..Quality::default() }))
+}
+
+/// What a file looked like; `None` if there is none.
+fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
+    fs::metadata(path).ok().map(|data| (data.modified().ok(), data.len()))
+}
+
+/// How saving went, in a sentence.
+fn told(path: &Path, saved: Result<(), OutputError>) -> Result<String, String> {
+    let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    saved.map(|()| format!("Saved to {}", shown.display())).map_err(|error| error.to_string())
+}
+
+fn thumbnail(scene: &Scene) -> Thumbnail {
+    // Neither side is 0, and there are few pixels.
+    let size = Size::new(224, 168).expect("a possible size");
+    let tracer = tracer(scene, size, 2);
+    let (mut pixels, mut frame) = (Vec::new(), Frame::new(size));
+    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+    frame.place(0..size.pixels(), &pixels);
+    Thumbnail { size, rgb: frame.to_srgb8() }
+}

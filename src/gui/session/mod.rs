@@ -1,0 +1,324 @@
+//! One run after the other, as the window sees them. Here, and nowhere else in `gui`, are threads, channels and clocks:
+//! those of runs behind [`Performer`], those of everything else in [`jobs`].
+
+mod files;
+pub mod jobs;
+mod performer;
+mod stage;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::history::{Gesture, History};
+use super::notice::Notice;
+use super::opening::Opening;
+use super::settings::Settings;
+use crate::balance::NodeId;
+use crate::driver::{Run, cores};
+use crate::palette::Rgb;
+use crate::runlog::Header;
+use crate::scene::Opened;
+use crate::time::Time;
+
+pub use jobs::{Done, Purpose};
+use jobs::{Jobs, Prepared, Ready, Recorded};
+use performer::Performer;
+pub use stage::{Phase, Stage};
+
+/// What the window shows, what is set, and what goes on in the background.
+pub struct Session {
+    stage: Stage,
+    settings: Settings,
+    history: History,
+    /// The scene that live runs trace, once there is one.
+    prepared: Option<Prepared>,
+    /// The run that is played again, if that is what is shown.
+    recorded: Option<Recorded>,
+    loading: Option<Loading>,
+    jobs: Jobs,
+    /// Runs that were asked to end and have threads that have not.
+    ending: Vec<Performer>,
+    notice: Option<Notice>,
+    /// Where each run's records are written when it ends.
+    log_path: Option<PathBuf>,
+    /// The files that were opened last, the latest first.
+    recent: Vec<String>,
+    ground: Rgb,
+    /// egui's clock, in seconds.
+    clock: f64,
+}
+
+/// Something that is being read and compiled.
+struct Loading {
+    job: u64,
+    name: String,
+    since: f64,
+}
+
+impl Session {
+    /// An empty stage; something has to be opened.
+    pub fn new(settings: Settings, log_path: Option<PathBuf>, ctx: &egui::Context, ground: Rgb) -> Self {
+        let header = settings.header("", "", Duration::ZERO, cores());
+        Self {
+            stage: Stage::new(Performer::Nobody, header, ground),
+            settings,
+            history: History::default(),
+            prepared: None,
+            recorded: None,
+            loading: None,
+            jobs: Jobs::new(ctx.clone()),
+            ending: Vec::new(),
+            notice: None,
+            log_path,
+            recent: Vec::new(),
+            ground,
+            clock: 0.0,
+        }
+    }
+
+    /// Ends the run and starts it anew with what is set now; a recorded run begins again.
+    pub fn restart(&mut self) {
+        if let Some(recorded) = self.recorded.clone() {
+            return self.play(recorded);
+        }
+        match &self.prepared {
+            Some(prepared) if prepared.is_for(&self.settings) => self.begin(prepared.clone()),
+            Some(prepared) => self.show(Opening::Scene(Arc::clone(&prepared.opened))),
+            // The first scene is still being prepared; what is set then counts.
+            None => {}
+        }
+    }
+
+    /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
+    /// the system's dialogs, and small pictures.
+    pub fn tick(&mut self, clock: f64) -> Vec<Done> {
+        self.clock = clock;
+        if self.stage.tick() {
+            self.write_log();
+        }
+        self.ending.retain(|performer| !performer.has_ended());
+        if self.notice.as_ref().and_then(|notice| notice.remains(clock)) == Some(0.0) {
+            self.notice = None;
+        }
+        let mut others = Vec::new();
+        for done in self.jobs.done() {
+            match done {
+                Done::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
+                    self.loading = None;
+                    match ready {
+                        Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
+                        Ok(Ready::Run(recorded)) => self.play(recorded),
+                        Err(why) => self.could_not_open(why),
+                    }
+                }
+                // Something else was asked for meanwhile.
+                Done::Ready(..) => {}
+                Done::Saved(Ok(said)) => self.note(said),
+                Done::Saved(Err(why)) => self.trouble(why),
+                Done::FileChanged(path, change) => self.file_changed(&path, change),
+                done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
+            }
+        }
+        others
+    }
+
+    /// Changes what is set: at once, or by starting the run anew if that is needed. What is impossible is said in words.
+    pub fn change(&mut self, gesture: Gesture, change: impl FnOnce(&mut Settings)) {
+        let mut settings = self.settings.clone();
+        change(&mut settings);
+        if settings == self.settings || self.is_recorded() {
+            return;
+        }
+        if let Err(why) = settings.check() {
+            return self.trouble(why);
+        }
+        self.history.keep(self.settings.clone(), gesture);
+        let before = self.apply(settings);
+        if self.settings.needs_restart(&before) {
+            self.note(format!("Started anew: {}", self.settings.difference(&before)));
+        }
+    }
+
+    /// The hand has let go of what it changed.
+    pub fn let_go(&mut self) {
+        self.history.let_go();
+    }
+
+    /// Takes the last change back.
+    pub fn undo(&mut self) {
+        if let Some(settings) = self.history.undo(&self.settings) {
+            let before = self.apply(settings);
+            self.note(format!("Undone; now {}", self.settings.difference(&before)));
+        }
+    }
+
+    /// Makes the change that was taken back.
+    pub fn redo(&mut self) {
+        if let Some(settings) = self.history.redo(&self.settings) {
+            let before = self.apply(settings);
+            self.note(format!("Done again; now {}", self.settings.difference(&before)));
+        }
+    }
+
+    /// Lets the run go on or stand still.
+    pub fn toggle_pause(&mut self) {
+        if self.stage.phase == Phase::Running {
+            self.stage.paused = !self.stage.paused;
+            self.stage.performer.set_paused(self.stage.paused);
+        }
+    }
+
+    /// Lets a machine go on or stand still.
+    pub fn toggle_node_pause(&mut self, node: NodeId) {
+        if let Some(paused) = self.stage.paused_nodes.get_mut(usize::from(node))
+            && self.stage.phase == Phase::Running
+        {
+            *paused = !*paused;
+            self.stage.performer.set_node_paused(node, *paused);
+        }
+    }
+
+    /// What is shown.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// What is shown, to draw it.
+    pub fn stage_mut(&mut self) -> &mut Stage {
+        &mut self.stage
+    }
+
+    /// What is set.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// What the run was asked to do.
+    pub fn header(&self) -> &Header {
+        &self.stage.log.header
+    }
+
+    /// The scene that live runs trace.
+    pub fn opened(&self) -> Option<&Opened> {
+        self.prepared.as_ref().map(|prepared| &*prepared.opened)
+    }
+
+    /// Whether what is shown is a recorded run.
+    pub fn is_recorded(&self) -> bool {
+        self.recorded.is_some()
+    }
+
+    /// The run's clock.
+    pub fn now(&self) -> Time {
+        self.stage.performer.now()
+    }
+
+    /// The speed that a node has or is about to have.
+    pub fn speed(&self, node: NodeId) -> f64 {
+        let index = usize::from(node);
+        let recorded = || self.stage.state.nodes().get(index).map_or(0.0, |node| node.speed);
+        if self.is_recorded() { recorded() } else { self.settings.speeds.get(index).copied().unwrap_or_else(recorded) }
+    }
+
+    /// Whether a node stands still, or is about to.
+    pub fn is_node_paused(&self, node: NodeId) -> bool {
+        let index = usize::from(node);
+        if self.is_recorded() {
+            self.stage.state.nodes().get(index).is_some_and(|node| node.paused)
+        } else {
+            self.stage.paused_nodes.get(index).copied().unwrap_or(false)
+        }
+    }
+
+    /// What was set before, and after.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Jobs, for dialogs and small pictures.
+    pub fn jobs(&self) -> &Jobs {
+        &self.jobs
+    }
+
+    /// What is being read and compiled, and for how many seconds.
+    pub fn loading(&self) -> Option<(&str, f64)> {
+        self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.since))
+    }
+
+    /// What is to be read below the top bar.
+    pub fn notice(&self) -> Option<&Notice> {
+        self.notice.as_ref()
+    }
+
+    /// Away with it.
+    pub fn close_notice(&mut self) {
+        self.notice = None;
+    }
+
+    /// Something was done.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice::note(text, self.clock));
+    }
+
+    /// Something cannot be done.
+    pub fn trouble(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice::trouble(text, self.clock));
+    }
+
+    /// The files that were opened last.
+    pub fn recent(&self) -> &[String] {
+        &self.recent
+    }
+
+    /// The files that were opened in an earlier window.
+    pub fn set_recent(&mut self, recent: Vec<String>) {
+        self.recent = recent;
+    }
+
+    /// How many runs were asked to end and have not, for tests.
+    pub fn runs_ending(&self) -> usize {
+        self.ending.len()
+    }
+
+    /// Sets everything that differs, and returns what was set before.
+    fn apply(&mut self, settings: Settings) -> Settings {
+        let before = std::mem::replace(&mut self.settings, settings);
+        if self.settings.needs_restart(&before) {
+            self.restart();
+            return before;
+        }
+        let speeds = self.settings.speeds.iter().zip(&before.speeds);
+        for (node, (speed, _)) in (0..).zip(speeds).filter(|(_, (speed, before))| speed != before) {
+            self.stage.performer.set_speed(node, *speed);
+        }
+        if self.settings.latency != before.latency {
+            self.stage.performer.set_latency(self.settings.latency_time());
+        }
+        before
+    }
+
+    fn begin(&mut self, prepared: Prepared) {
+        if self.stage.phase == Phase::Running {
+            self.write_log();
+        }
+        let opened = &prepared.opened;
+        let header = self.settings.header(&opened.name, &opened.text, prepared.work, cores());
+        let run = Run::start(Arc::clone(&prepared.tracer), &header);
+        self.set_stage(Performer::Live(run), header);
+    }
+
+    fn set_stage(&mut self, performer: Performer, header: Header) {
+        self.retire();
+        self.stage = Stage::new(performer, header, self.ground);
+    }
+
+    /// Lets whoever performs end in their own time.
+    fn retire(&mut self) {
+        let last = std::mem::replace(&mut self.stage.performer, Performer::Nobody);
+        last.stop();
+        if !last.has_ended() {
+            self.ending.push(last);
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What all these tests need.
+
+use std::path::Path;
+use std::time::Duration;
+
+use anel::gui::{App, Launch, Opening, Session};
+use anel::record::What;
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+pub type Window = Harness<'static, App>;
+
+pub const SIZE: [f32; 2] = [1280.0, 800.0];
+
+/// Opens a window of this size with the demonstration and waits until its run goes on.
+pub fn open(size: [f32; 2]) -> Window {
+    open_with(size, "ten-objects")
+}
+
+/// Opens a window with a scene or a run file and waits until its run goes on.
+pub fn open_with(size: [f32; 2], argument: &str) -> Window {
+    let launch = Launch { opening: Some(Opening::read(argument).expect("it can be read")), log: None };
+    let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
+    let mut window = Harness::builder().with_size(size).build_eframe(build);
+    until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
+    window
+}
+
+/// Lets the app go on until `come` is true; a run that hangs fails here instead of for ever.
+pub fn until(window: &mut Window, what: &str, come: impl Fn(&Window) -> bool) {
+    for _ in 0..3000 {
+        window.step();
+        if come(window) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what} has not come; the notice says {:?}, set is {:?}", notice(window), session(window).settings());
+}
+
+pub fn session(window: &Window) -> &Session {
+    window.state().session()
+}
+
+/// The run's clock, in nanoseconds.
+pub fn now(window: &Window) -> u64 {
+    session(window).now().0
+}
+
+/// How many atoms have been traced.
+pub fn done(window: &Window) -> u32 {
+    session(window).stage().state.done()
+}
+
+/// What the records say, as far as `of` cares.
+pub fn recorded<T>(window: &Window, of: impl Fn(&What) -> Option<T>) -> Vec<T> {
+    session(window).stage().log.records().iter().filter_map(|record| of(&record.what)).collect()
+}
+
+pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {
+    recorded(window, |what| if let What::SpeedSet { node, speed } = what { Some((*node, *speed)) } else { None })
+}
+
+/// What the notice below the top bar says.
+pub fn notice(window: &Window) -> String {
+    session(window).notice().map(|notice| notice.text().to_owned()).unwrap_or_default()
+}
+
+/// Presses the button of this name.
+pub fn press(window: &mut Window, name: &str) {
+    window.get_by_role_and_label(Role::Button, name).click();
+    window.run_steps(3);
+}
+
+/// Presses a key.
+pub fn key(window: &mut Window, key: Key) {
+    window.key_press(key);
+    window.run_steps(3);
+}
+
+/// Presses a key together with Ctrl.
+pub fn ctrl(window: &mut Window, key: Key) {
+    window.key_press_modifiers(Modifiers::COMMAND, key);
+    window.run_steps(3);
+}
+
+/// Types an exact value and Enter.
+pub fn type_number(window: &mut Window, name: &str, text: &str) {
+    window.get_by_role_and_label(Role::SpinButton, name).click();
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.event(Event::Text(text.into()));
+    window.step();
+    window.key_press(Key::Enter);
+    window.run_steps(4);
+}
+
+/// Replaces the text of a field, which has the focus.
+pub fn type_path(window: &mut Window, field: &str, path: &Path) {
+    let path = path.to_str().expect("a plain path");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.step();
+    window.get_by_label(field).type_text(path);
+    window.run_steps(2);
+    assert_eq!(window.get_by_label(field).value().as_deref(), Some(path));
+}
+
+/// Drags the slider of this name to a share of its width, and lets go.
+pub fn drag(window: &mut Window, name: &str, to: f32) {
+    let rect = window.get_by_role_and_label(Role::Slider, name).rect();
+    let radius = rect.height() / 2.5;
+    let x = rect.left() + radius + (rect.width() - 2.0 * radius) * to;
+    window.drag_at(egui::pos2(x, rect.center().y));
+    window.step();
+    window.drop_at(egui::pos2(x, rect.center().y));
+    window.run_steps(3);
+}
+
+/// How long until the window would draw itself anew.
+pub fn rests(window: &Window) -> Duration {
+    window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
+}

@@ -1,0 +1,171 @@
+//! Opening scenes and recorded runs, and files that change, vanish, or are no scenes at all.
+
+use std::path::{Path, PathBuf};
+
+use anel::gui::Phase;
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+use tempfile::TempDir;
+
+use super::driving::*;
+
+const FIELD: &str = "What to open";
+
+/// A scene of one ball in a file of its own.
+fn ball(directory: &TempDir, name: &str) -> PathBuf {
+    let path = directory.path().join(name);
+    std::fs::write(&path, scene("radius: 1")).expect("a file");
+    path
+}
+
+fn scene(radius: &str) -> String {
+    format!("Scene(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), objects: [Sphere({radius})])")
+}
+
+fn open_path(window: &mut Window, path: &Path) {
+    key(window, Key::O);
+    type_path(window, FIELD, path);
+    key(window, Key::Enter);
+}
+
+fn shows(window: &Window, scene: &str) -> bool {
+    session(window).header().scene == scene && session(window).loading().is_none()
+}
+
+#[test]
+fn a_scene_is_opened_from_the_gallery() {
+    let mut window = open(SIZE);
+    press(&mut window, "Scenes");
+    // The tiles are there before their pictures.
+    for name in ["ten-objects", "csg-primer", "glass", "machine-part", "corner"] {
+        window.get_by_label(&format!("Open {name}"));
+    }
+    window.get_by_label("Open csg-primer").click();
+    until(&mut window, "the scene", |window| shows(window, "csg-primer"));
+    until(&mut window, "its atoms", |window| done(window) > 20);
+    assert!(window.query_by_label(FIELD).is_none());
+}
+
+#[test]
+fn a_scene_is_opened_by_its_path_and_remembered() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = ball(&directory, "ball.ron");
+    let mut window = open(SIZE);
+    open_path(&mut window, &path);
+    until(&mut window, "the scene", |window| shows(window, "ball"));
+    key(&mut window, Key::O);
+    window.get_by_label("Open ball");
+    press(&mut window, "Close scenes");
+    assert!(window.query_by_label("Open ball").is_none());
+}
+
+#[test]
+fn a_bad_scene_says_where_and_leaves_what_is_open() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("bad.ron");
+    std::fs::write(&path, format!("\n\n{}", scene("radius: -1"))).expect("a file");
+    let mut window = open(SIZE);
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    open_path(&mut window, &path);
+    until(&mut window, "a sentence", |window| notice(window).contains("bad.ron"));
+    let said = notice(&window);
+    assert!(said.contains("line 3, column") && said.contains("radius"), "{said}");
+    assert!(shows(&window, "ten-objects") && done(&window) > 100);
+    press(&mut window, "Close notice");
+    assert_eq!(notice(&window), "");
+}
+
+#[test]
+fn what_is_no_scene_is_said_in_a_sentence() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    let cases =
+        [(directory.path().join("nothing.ron"), "no such file"), (directory.path().to_owned(), "is a directory")];
+    for (path, why) in cases {
+        open_path(&mut window, &path);
+        until(&mut window, "a sentence", |window| {
+            notice(window).contains(why) || window.query_by_label_contains(why).is_some()
+        });
+        key(&mut window, Key::Escape);
+        assert!(shows(&window, "ten-objects"));
+    }
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_on(window: &mut Window, path: &Path) {
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(path.to_owned())));
+    window.step();
+}
+
+#[test]
+fn a_dropped_scene_is_opened_and_a_dropped_folder_is_not() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = ball(&directory, "ball.ron");
+    let mut window = open(SIZE);
+    drop_on(&mut window, &path);
+    until(&mut window, "the scene", |window| shows(window, "ball"));
+    drop_on(&mut window, directory.path());
+    until(&mut window, "a sentence", |window| notice(window).contains("directory, not a scene"));
+    assert!(shows(&window, "ball"));
+}
+
+#[test]
+fn a_file_that_changes_is_offered_for_reload_and_one_that_vanishes_is_missed() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = ball(&directory, "ball.ron");
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    // The watch must have seen the file as it was.
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    std::fs::write(&path, scene("radius: 0.25")).expect("a file");
+    until(&mut window, "an offer", |window| notice(window) == "ball.ron has changed on the disk");
+    press(&mut window, "Reload");
+    until(&mut window, "the new text", |window| session(window).header().scene_text.contains("0.25"));
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    std::fs::remove_file(&path).expect("a file");
+    until(&mut window, "a sentence", |window| notice(window).contains("ball.ron is gone"));
+    key(&mut window, Key::F5);
+    until(&mut window, "a sentence", |window| notice(window).contains("no such file"));
+    key(&mut window, Key::R);
+    until(&mut window, "atoms of what is open", |window| done(window) > 20);
+}
+
+#[test]
+fn a_recorded_run_is_played_again_and_made_live() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    type_number(&mut window, "Number of machines", "3");
+    press(&mut window, "Full speed");
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    let live = session(&window).stage().log.clone();
+    live.save(&path).expect("a run file");
+
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    assert!(session(&window).is_recorded());
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    let stage = session(&window).stage();
+    assert_eq!(stage.log, live);
+    assert!(stage.frame.pixels().iter().filter(|pixel| **pixel == [0.0; 3]).count() < 100);
+    // Nothing can be changed about what has been.
+    drag(&mut window, "Speed of node 1", 0.2);
+    assert_eq!(session(&window).speed(0), 1.0);
+    key(&mut window, Key::R);
+    assert!(session(&window).is_recorded() && session(&window).stage().phase == Phase::Running);
+    press(&mut window, "Set up");
+    press(&mut window, "Make it live");
+    until(&mut window, "a live run", |window| !session(window).is_recorded() && done(window) > 0);
+    assert_eq!(session(&window).header().speeds.len(), 3);
+}

@@ -1,0 +1,79 @@
+//! Nothing is cut off, whatever the size of the window, and whatever is open.
+
+use egui::{Key, Pos2, Rect};
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+fn rect(window: &Window, name: &str) -> Rect {
+    window.get_by_label(name).rect()
+}
+
+/// The window, with a point to spare.
+fn whole(size: [f32; 2]) -> Rect {
+    Rect::from_min_size(Pos2::ZERO, size.into()).expand(1.0)
+}
+
+#[test]
+fn every_size_shows_everything() {
+    for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
+        let window = open(size);
+        let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
+        for name in buttons.into_iter().chain(["Render or owners", "Speed of node 1", "Pause node 1"]) {
+            let rect = rect(&window, name);
+            assert!(whole(size).contains_rect(rect) && rect.area() > 0.0, "{name} at {size:?}: {rect:?}");
+        }
+        for pair in buttons.windows(2).skip(1) {
+            let (one, other) = (rect(&window, pair[0]), rect(&window, pair[1]));
+            assert!(one.right() <= other.left(), "{pair:?} at {size:?}");
+        }
+        for name in ["Picture", "The ring", "Who has traced how much"] {
+            let rect = rect(&window, name);
+            assert!(whole(size).contains_rect(rect) && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
+        }
+    }
+}
+
+#[test]
+fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
+    for size in [[1024.0, 640.0], [800.0, 500.0]] {
+        let mut window = open(size);
+        key(&mut window, Key::S);
+        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        key(&mut window, Key::Delete);
+        key(&mut window, Key::Enter);
+        let words = window.get_by_label_contains("There is no path").rect();
+        for name in ["Picture", "The ring"] {
+            let rect = rect(&window, name);
+            assert!(rect.top() >= words.bottom() && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
+        }
+        let bar = rect(&window, "Who has traced how much");
+        assert!(["Picture", "The ring"].iter().all(|name| rect(&window, name).bottom() <= bar.top()));
+        assert!(rect(&window, "Picture").right() < rect(&window, "The ring").left());
+        for name in ["Save", "Choose…", "Close", "What to save"] {
+            assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}");
+        }
+        for node in 1..=8 {
+            let row = rect(&window, &format!("Node {node}"));
+            assert!(whole(size).contains_rect(row), "node {node} at {size:?}: {row:?}");
+            for part in ["Speed of node", "Exact speed of node", "Pause node"] {
+                let part = rect(&window, &format!("{part} {node}")).shrink(2.0);
+                assert!(row.contains_rect(part), "{part:?} {row:?} at {size:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_panel_of_settings_leaves_room_for_picture_and_ring() {
+    for size in [[1920.0, 1080.0], [1280.0, 800.0], [1024.0, 640.0]] {
+        let mut window = open(size);
+        key(&mut window, Key::E);
+        for name in ["Picture", "The ring"] {
+            let rect = rect(&window, name);
+            let panel = window.get_by_label("Number of machines").rect();
+            assert!(whole(size).contains_rect(rect) && rect.area() > 20_000.0, "{name} at {size:?}: {rect:?}");
+            assert!(rect.left() > panel.right(), "{name} at {size:?}");
+        }
+    }
+}

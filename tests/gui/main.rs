@@ -1,0 +1,11 @@
+//! The window without a window: drives the app by the accessible names of its widgets, and checks what comes of it in the
+//! state and the records of the run.
+
+mod driving;
+mod files;
+mod layout;
+mod nodes;
+mod remembering;
+mod run;
+mod saving;
+mod setup;

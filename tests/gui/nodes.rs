@@ -1,0 +1,129 @@
+//! One machine: its speed by slider, by value and by key, its pause, its selection, and undo.
+
+use anel::record::What;
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+#[test]
+fn dragging_a_slider_changes_the_speed_before_it_is_let_go() {
+    let mut window = open(SIZE);
+    let slider = window.get_by_label("Speed of node 1").rect();
+    window.drag_at(slider.right_center() - egui::vec2(8.0, 0.0));
+    window.step();
+    window.hover_at(slider.center());
+    until(&mut window, "a record of the new speed", |window| !speeds_set(window).is_empty());
+    let (node, speed) = speeds_set(&window)[0];
+    assert!(node == 0 && speed > 0.4 && speed < 0.6, "{node} {speed}");
+    window.hover_at(slider.left_center());
+    window.step();
+    window.drop_at(slider.left_center());
+    until(&mut window, "a record of speed 0", |window| speeds_set(window).last() == Some(&(0, 0.0)));
+}
+
+#[test]
+fn an_exact_speed_can_be_typed() {
+    let mut window = open(SIZE);
+    type_number(&mut window, "Exact speed of node 2", "37");
+    until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 0.37)));
+    // More than the reference machine there is not.
+    type_number(&mut window, "Exact speed of node 2", "370");
+    until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 1.0)));
+}
+
+#[test]
+fn a_speed_set_during_a_pause_counts_when_the_run_goes_on() {
+    let mut window = open(SIZE);
+    until(&mut window, "a traced atom", |window| done(window) > 5);
+    key(&mut window, Key::Space);
+    drag(&mut window, "Speed of node 8", 0.5);
+    assert_eq!(session(&window).speed(7), 0.5);
+    press(&mut window, "Go on");
+    until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(7, 0.5)));
+}
+
+#[test]
+fn a_machine_stands_still_and_goes_on() {
+    let mut window = open(SIZE);
+    until(&mut window, "a traced atom", |window| done(window) > 5);
+    let pauses = |window: &Window| {
+        recorded(window, |what| match what {
+            What::Paused { node } => Some((*node, true)),
+            What::Resumed { node } => Some((*node, false)),
+            _ => None,
+        })
+    };
+    press(&mut window, "Pause node 2");
+    until(&mut window, "a pause", |window| pauses(window) == [(1, true)]);
+    let then = session(&window).stage().state.nodes()[1].done;
+    assert!(session(&window).is_node_paused(1) && session(&window).stage().state.nodes()[1].paused);
+    until(&mut window, "others' atoms", |window| done(window) > 200);
+    assert!(session(&window).stage().state.nodes()[1].done <= then + 1);
+    press(&mut window, "Pause node 2");
+    until(&mut window, "work", |window| pauses(window) == [(1, true), (1, false)]);
+    until(&mut window, "its atoms", |window| session(window).stage().state.nodes()[1].done > then + 1);
+}
+
+#[test]
+fn a_machine_is_selected_and_changed_with_keys() {
+    let mut window = open(SIZE);
+    key(&mut window, Key::Plus);
+    assert!(notice(&window).contains("select a machine"), "{}", notice(&window));
+    key(&mut window, Key::Num5);
+    assert_eq!(window.state().selected(), Some(4));
+    key(&mut window, Key::Plus);
+    assert_eq!(session(&window).speed(4), 0.2);
+    for _ in 0..3 {
+        key(&mut window, Key::Minus);
+    }
+    assert_eq!(session(&window).speed(4), 0.0);
+    until(&mut window, "records", |window| speeds_set(window).len() == 3);
+    key(&mut window, Key::P);
+    assert!(session(&window).is_node_paused(4));
+    key(&mut window, Key::Num9);
+    assert_eq!(notice(&window), "There is no machine 9");
+    key(&mut window, Key::Num5);
+    assert_eq!(window.state().selected(), None);
+    window.get_by_label("Node 3").click();
+    window.run_steps(2);
+    assert_eq!(window.state().selected(), Some(2));
+    // The notice goes first, then the selection.
+    key(&mut window, Key::Escape);
+    key(&mut window, Key::Escape);
+    assert_eq!(window.state().selected(), None);
+}
+
+#[test]
+fn a_click_on_the_ring_selects_a_machine() {
+    let mut window = open(SIZE);
+    let ring = window.get_by_label("The ring").rect();
+    let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
+    for selected in [Some(0), None] {
+        window.drag_at(top);
+        window.step();
+        window.drop_at(top);
+        window.run_steps(2);
+        assert_eq!(window.state().selected(), selected);
+    }
+}
+
+#[test]
+fn a_change_of_speed_is_undone_and_done_again() {
+    let mut window = open(SIZE);
+    drag(&mut window, "Speed of node 1", 0.3);
+    drag(&mut window, "Speed of node 1", 0.6);
+    let second = session(&window).speed(0);
+    ctrl(&mut window, Key::Z);
+    let first = session(&window).speed(0);
+    assert!(first < 0.5 && second > 0.5, "{first} {second}");
+    press(&mut window, "Undo");
+    assert_eq!(session(&window).speed(0), 1.0);
+    assert_eq!(notice(&window), "Undone; now machine 1 at 100 %");
+    until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(0, 1.0)));
+    ctrl(&mut window, Key::Y);
+    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::Z);
+    window.run_steps(3);
+    assert_eq!(session(&window).speed(0), second);
+    until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(0, second)));
+}

@@ -1,0 +1,85 @@
+//! What is remembered from one window to the next.
+
+use anel::gui::{App, Launch};
+use eframe::App as _;
+use egui::Key;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+/// What a window has written down.
+#[derive(Clone, Default)]
+struct Storage(Option<String>);
+
+impl eframe::Storage for Storage {
+    fn get_string(&self, _key: &str) -> Option<String> {
+        self.0.clone()
+    }
+
+    fn set_string(&mut self, _key: &str, value: String) {
+        self.0 = Some(value);
+    }
+
+    fn remove_string(&mut self, _key: &str) {}
+
+    fn flush(&mut self) {}
+}
+
+/// A window without arguments.
+fn reopen(storage: &Storage) -> Window {
+    let build = |creation: &mut eframe::CreationContext<'static>| {
+        App::new(&creation.egui_ctx, Some(storage), Launch::default())
+    };
+    let mut window = Harness::builder().with_size(SIZE).build_eframe(build);
+    until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
+    window
+}
+
+fn write_down(window: &mut Window) -> Storage {
+    let mut storage = Storage::default();
+    window.state_mut().save(&mut storage);
+    storage
+}
+
+#[test]
+fn a_first_window_opens_with_the_demonstration() {
+    let window = reopen(&Storage::default());
+    assert_eq!(session(&window).header().scene, "ten-objects");
+    assert_eq!(*session(&window).settings(), anel::gui::Settings::default());
+}
+
+#[test]
+fn settings_and_scene_are_remembered() {
+    let mut window = open_with(SIZE, "csg-primer");
+    key(&mut window, Key::E);
+    type_number(&mut window, "Number of machines", "5");
+    drag(&mut window, "Speed of node 2", 0.25);
+    let storage = write_down(&mut window);
+    let again = reopen(&storage);
+    assert_eq!(session(&again).header().scene, "csg-primer");
+    assert_eq!(session(&again).settings(), session(&window).settings());
+    again.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Number of machines");
+}
+
+#[test]
+fn a_scene_that_is_gone_makes_way_for_the_demonstration() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("mine.ron");
+    std::fs::write(&path, anel::scene::built_in("glass").expect("a built-in scene")).expect("a file");
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    let storage = write_down(&mut window);
+    assert_eq!(session(&reopen(&storage)).header().scene, "mine");
+    std::fs::remove_file(&path).expect("the file");
+    let again = reopen(&storage);
+    assert_eq!(session(&again).header().scene, "ten-objects");
+    assert!(notice(&again).contains("mine.ron"), "{}", notice(&again));
+}
+
+#[test]
+fn what_cannot_be_read_or_is_impossible_is_forgotten() {
+    for damaged in ["", "}{", "(settings: 7)", "(settings: (speeds: []))", "(settings: (speeds: [7.0], atom: 0))"] {
+        let window = reopen(&Storage(Some(damaged.into())));
+        assert_eq!(*session(&window).settings(), anel::gui::Settings::default(), "{damaged}");
+    }
+}

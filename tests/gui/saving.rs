@@ -1,0 +1,174 @@
+//! Saving pictures and runs.
+
+use std::path::PathBuf;
+
+use anel::runlog::RunLog;
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+const FIELD: &str = "Where to save";
+
+/// Chooses what to save.
+fn choose(window: &mut Window, kind: &str) {
+    window.get_by_label("What to save").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, kind).click();
+    window.run_steps(3);
+}
+
+fn typed(window: &Window) -> PathBuf {
+    window.get_by_label(FIELD).value().unwrap_or_default().into()
+}
+
+fn file_name(path: &std::path::Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+#[test]
+fn save_writes_the_render_and_says_where() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("rs picture.png");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 100);
+    press(&mut window, "Save…");
+    assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-unfinished.png");
+    // Letters that are keys elsewhere are letters here.
+    type_path(&mut window, FIELD, &path);
+    press(&mut window, "Save");
+    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    let picture = image::open(&path).expect("a PNG").to_rgb8();
+    assert_eq!(picture.dimensions(), (640, 480));
+    let black = picture.pixels().filter(|pixel| pixel.0 == [0; 3]).count();
+    assert!(black > 1000 && black < 640 * 480 - 1000, "{black} black pixels");
+    assert!(window.query_by_label(FIELD).is_none());
+}
+
+#[test]
+fn owners_and_blend_are_other_pictures_under_other_names() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    drag(&mut window, "Render or owners", 0.4);
+    until(&mut window, "traced atoms", |window| done(window) > 300);
+    key(&mut window, Key::Space);
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    window.run_steps(3);
+    let mut pictures = Vec::new();
+    for (kind, ending) in [("render", ""), ("owners", "-owners"), ("blend", "-blend")] {
+        press(&mut window, "Save…");
+        choose(&mut window, kind);
+        assert_eq!(file_name(&typed(&window)), format!("ten-objects-640x480{ending}-unfinished.png"));
+        let path = directory.path().join(format!("{kind}.png"));
+        type_path(&mut window, FIELD, &path);
+        key(&mut window, Key::Enter);
+        until(&mut window, "a file", |window| notice(window).starts_with("Saved to"));
+        pictures.push(image::open(&path).expect("a PNG").to_rgb8().into_raw());
+        key(&mut window, Key::Escape);
+    }
+    let different = |one: &[u8], other: &[u8]| one.iter().zip(other).filter(|(a, b)| a != b).count();
+    for (one, other) in [(0, 1), (1, 2), (0, 2)] {
+        assert!(different(&pictures[one], &pictures[other]) > 1000, "{one} {other}");
+    }
+    // What nobody has traced is black in all of them.
+    assert!(
+        pictures
+            .iter()
+            .all(|picture| picture[picture.len() / 2 - 60_000..][..3] == pictures[0][picture_middle()..][..3])
+    );
+}
+
+/// A place that no node has reached when a few hundred atoms are done.
+fn picture_middle() -> usize {
+    640 * 480 * 3 / 2 - 60_000
+}
+
+#[test]
+fn a_run_file_is_saved_and_can_be_loaded() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 100);
+    key(&mut window, Key::S);
+    choose(&mut window, "run");
+    assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-ring-8-unfinished.anel");
+    type_path(&mut window, FIELD, &path);
+    press(&mut window, "Save");
+    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    let log = RunLog::load(&path).expect("a run file");
+    assert_eq!(log.header, *session(&window).header());
+    assert!(log.records().len() > 100);
+}
+
+#[test]
+fn save_says_why_it_cannot() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let read_only = directory.path().join("old.png");
+    std::fs::write(&read_only, "dear").expect("a file");
+    let mut permissions = std::fs::metadata(&read_only).expect("the file").permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&read_only, permissions).expect("permissions");
+    let cases = [
+        ("/no/such/place/picture.png".into(), "directory does not exist"),
+        (read_only, "read-only"),
+        (directory.path().to_owned(), "is a directory"),
+    ];
+    let mut window = open(SIZE);
+    key(&mut window, Key::S);
+    for (path, why) in cases {
+        type_path(&mut window, FIELD, &path);
+        key(&mut window, Key::Enter);
+        until(&mut window, "a sentence", |window| window.query_by_label_contains(why).is_some());
+    }
+    window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    key(&mut window, Key::Delete);
+    key(&mut window, Key::Enter);
+    window.get_by_label_contains("There is no path");
+}
+
+#[test]
+fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    key(&mut window, Key::S);
+    type_path(&mut window, FIELD, "/no/such/place/picture.png".as_ref());
+    key(&mut window, Key::Enter);
+    until(&mut window, "a sentence", |window| window.query_by_label_contains("directory does not exist").is_some());
+    // The keyboard still belongs to the path.
+    assert!(window.get_by_label(FIELD).is_focused());
+    window.event(egui::Event::Text("r s".into()));
+    let then = done(&window);
+    for letter in [Key::R, Key::Space, Key::S] {
+        key(&mut window, letter);
+    }
+    assert!(file_name(&typed(&window)).ends_with("picture.pngr s"), "{:?}", typed(&window));
+    assert!(done(&window) >= then && !session(&window).stage().paused);
+    key(&mut window, Key::Escape);
+    assert!(window.query_by_label(FIELD).is_none());
+    key(&mut window, Key::Space);
+    assert!(session(&window).stage().paused);
+}
+
+#[test]
+fn a_file_is_replaced_only_when_asked_twice() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("there.png");
+    std::fs::write(&path, "dear").expect("a file");
+    let mut window = open(SIZE);
+    key(&mut window, Key::S);
+    type_path(&mut window, FIELD, &path);
+    key(&mut window, Key::Enter);
+    window.get_by_label("there.png exists; press Save again to replace it");
+    // Another path in between: the question is asked anew.
+    window.event(egui::Event::Text("x".into()));
+    window.step();
+    assert!(window.query_by_label_contains("exists").is_none());
+    key(&mut window, Key::Backspace);
+    press(&mut window, "Save");
+    window.get_by_label_contains("press Save again");
+    assert_eq!(std::fs::read(&path).expect("the file"), b"dear");
+    press(&mut window, "Save");
+    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    assert!(image::open(&path).is_ok());
+}

@@ -1,0 +1,148 @@
+//! What is set for all machines and for the next run.
+
+use std::time::Duration;
+
+use anel::balance::Strategy;
+use anel::gui::{Settings, Tempo};
+use anel::record::What;
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+/// A window with the panel open.
+fn open_setup() -> Window {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    window
+}
+
+/// Whether the run has started anew since it had traced `before` atoms.
+fn begins(window: &Window) -> bool {
+    session(window).loading().is_none() && done(window) < 100
+}
+
+#[test]
+fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    press(&mut window, "All equal");
+    until(&mut window, "a record", |window| speeds_set(window) == [(4, 1.0)]);
+    press(&mut window, "Old laboratory");
+    until(&mut window, "records", |window| session(window).stage().state.nodes()[6].speed == 0.21);
+    press(&mut window, "Random");
+    let random = session(&window).settings().speeds.clone();
+    type_number(&mut window, "Seed", "77");
+    let other = session(&window).settings().speeds.clone();
+    assert_ne!(random, other);
+    type_number(&mut window, "Seed", "1");
+    assert_eq!(session(&window).settings().speeds, random);
+    press(&mut window, "One slow");
+    until(&mut window, "a record", |window| session(window).stage().state.nodes()[4].speed == 0.1);
+    // It is still the same run.
+    assert!(done(&window) > 100);
+}
+
+#[test]
+fn latency_acts_on_the_run_that_goes_on() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    type_number(&mut window, "Latency in milliseconds", "250");
+    let set = |window: &Window| {
+        recorded(window, |what| if let What::LatencySet { latency } = what { Some(*latency) } else { None })
+    };
+    until(&mut window, "a record", |window| set(window).last() == Some(&Duration::from_millis(250)));
+    assert_eq!(session(&window).stage().state.latency(), Duration::from_millis(250));
+    drag(&mut window, "Latency slider", 0.0);
+    until(&mut window, "a record", |window| set(window).last() == Some(&Duration::ZERO));
+    assert!(done(&window) > 100);
+    ctrl(&mut window, Key::Z);
+    assert_eq!(session(&window).settings().latency, 250);
+}
+
+#[test]
+fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    type_number(&mut window, "Number of machines", "32");
+    assert!(begins(&window));
+    assert_eq!(notice(&window), "Started anew: 32 machines");
+    assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state.nodes().len()), (32, 32));
+    window.get_by_label("Node 32");
+    // Nothing starts before the slider is let go.
+    let rect = window.get_by_label("Machines slider").rect();
+    window.drag_at(rect.left_center());
+    window.run_steps(3);
+    assert_eq!(session(&window).header().speeds.len(), 32);
+    window.drop_at(rect.left_center());
+    window.run_steps(3);
+    assert_eq!(session(&window).header().speeds.len(), 1);
+    ctrl(&mut window, Key::Z);
+    ctrl(&mut window, Key::Z);
+    assert_eq!(session(&window).header().speeds.len(), 8);
+    until(&mut window, "atoms", |window| done(window) > 10);
+}
+
+#[test]
+fn picture_atoms_and_strategy_start_the_run_anew() {
+    let mut window = open_setup();
+    type_number(&mut window, "Pixels in an atom", "200");
+    assert_eq!(session(&window).header().division.atom_pixels(), 200);
+    type_number(&mut window, "Least atoms worth sending", "5");
+    assert_eq!(session(&window).header().part, 5);
+    type_number(&mut window, "Width in pixels", "400");
+    until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x480");
+    type_number(&mut window, "Height in pixels", "300");
+    until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x300");
+    type_number(&mut window, "Samples", "2");
+    until(&mut window, "samples", |window| session(window).header().samples == 2);
+    press(&mut window, "Serial");
+    assert_eq!(session(&window).header().strategy, Strategy::Serial);
+    until(&mut window, "atoms of the first", |window| session(window).stage().state.nodes()[0].done > 10);
+    assert_eq!(done(&window), session(&window).stage().state.nodes()[0].done);
+    press(&mut window, "Ring");
+    assert_eq!(session(&window).header().strategy, Strategy::Ring);
+    window.get_by_label("Usual sizes").click();
+    window.run_steps(3);
+    window.get_by_label("320x240").click();
+    until(&mut window, "a usual size", |window| session(window).header().size.to_string() == "320x240");
+    until(&mut window, "atoms", |window| done(window) > 10);
+}
+
+#[test]
+fn the_pace_starts_the_run_anew() {
+    let mut window = open_setup();
+    let pace = session(&window).header().pace;
+    type_number(&mut window, "Seconds of the run", "40");
+    assert_eq!(session(&window).settings().tempo, Tempo::Lasts(40));
+    assert!((session(&window).header().pace / pace - 0.5).abs() < 1e-6);
+    press(&mut window, "Full speed");
+    assert_eq!(session(&window).header().pace, 1.0);
+    assert!(window.query_by_label("Seconds of the run").is_none());
+    press(&mut window, "Slowly");
+    assert!(session(&window).header().pace < 1.0);
+}
+
+#[test]
+fn what_is_impossible_is_said_and_nothing_changes() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    type_number(&mut window, "Pixels in an atom", "1");
+    assert!(notice(&window).contains("307200 atoms; the window shows up to 262144"), "{}", notice(&window));
+    assert!(done(&window) > 100);
+    assert_eq!(session(&window).settings().atom, 50);
+    // The largest that can be typed is the largest that is possible.
+    type_number(&mut window, "Number of machines", "999");
+    assert_eq!(session(&window).header().speeds.len(), Settings::MOST_NODES);
+}
+
+#[test]
+fn the_demonstration_can_be_had_back() {
+    let mut window = open_setup();
+    type_number(&mut window, "Number of machines", "3");
+    press(&mut window, "Back to the demonstration");
+    assert_eq!(*session(&window).settings(), Settings::default());
+    assert_eq!(session(&window).header().speeds.len(), 8);
+    key(&mut window, Key::E);
+    assert!(window.query_by_label("Number of machines").is_none());
+}
