@@ -19,7 +19,7 @@ use tempfile::TempDir;
 const PAIRS: usize = 5;
 
 /// What is set for the runs at full speed: eight equal machines, a picture of some seconds.
-const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), samples: 3, tempo: Full, latency: 0,
+const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), samples: 4, tempo: Full, latency: 0,
     speeds: [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), scene: Some("ten-objects"))"#;
 
 fn main() {
@@ -88,7 +88,7 @@ fn headless() -> f64 {
     let directory = TempDir::new().expect("a temporary directory");
     let log = directory.path().join("run.anel");
     let done = Command::new(env!("CARGO_BIN_EXE_anel"))
-        .args(["render", "ten-objects", "--size", "1280x960", "--samples", "3", "--nodes", "8", "--pace", "full"])
+        .args(["render", "ten-objects", "--size", "1280x960", "--samples", "4", "--nodes", "8", "--pace", "full"])
         .arg("--out")
         .arg(directory.path().join("out.png"))
         .arg("--log")
@@ -107,7 +107,8 @@ fn with_window(display: &Display) -> (f64, f64) {
     let mut window = Window::open(display, directory.path(), Some(&log));
     let mut cpu = None;
     while !log.exists() {
-        sleep(Duration::from_millis(5));
+        // Seldom, since looking costs the run something too.
+        sleep(Duration::from_millis(100));
         let now = [window.cpu_without_nodes(), display.cpu()];
         if cpu.is_none() && window.has_nodes() {
             cpu = Some((now, now));

@@ -1,5 +1,6 @@
 //! A look at what the picture will cost, before it is traced.
 
+use std::thread;
 use std::time::Duration;
 
 use super::meter::Meter;
@@ -43,6 +44,29 @@ pub fn probe(tracer: &Tracer, division: Division, budget: Duration) -> Probe {
     Probe { atoms, whole }
 }
 
+impl Probe {
+    /// What the whole picture costs threads that rest after each atom, as those of slow machines do: they find their
+    /// caches cold and the processor asleep. Some of the probe's atoms are traced once more, with a rest before each.
+    pub fn whole_with_rests(&self, tracer: &Tracer, division: Division) -> Duration {
+        const ATOMS: usize = 63;
+        const REST: Duration = Duration::from_millis(2);
+        let (mut meter, mut scratch, mut pixels) = (Meter::new(), Scratch::default(), Vec::new());
+        let rested = |&(atom, at_once): &(Atom, Duration)| {
+            thread::sleep(REST);
+            pixels.clear();
+            meter.lap();
+            tracer.trace(division.pixels(atom), &mut scratch, &mut pixels);
+            meter.lap().div_duration_f64(at_once)
+        };
+        let mut times: Vec<f64> =
+            self.atoms.iter().filter(|(_, cost)| !cost.is_zero()).take(ATOMS).map(rested).collect();
+        times.sort_by(f64::total_cmp);
+        // The middle one, since others use the processor too.
+        let middle = times.get(times.len() / 2).copied().unwrap_or(1.0);
+        self.whole.mul_f64(middle.clamp(1.0, 4.0))
+    }
+}
+
 /// Every atom once, in van der Corput's order: however many are taken, they are spread evenly.
 fn spread(atoms: u32) -> impl Iterator<Item = Atom> {
     let bits = atoms.next_power_of_two().trailing_zeros();
@@ -84,6 +108,17 @@ mod tests {
         assert_eq!(found.atoms.len(), 24);
         let sum: Duration = found.atoms.iter().map(|(_, cost)| *cost).sum();
         assert!(sum > Duration::ZERO && found.whole.abs_diff(sum) < Duration::from_nanos(100));
+    }
+
+    #[test]
+    fn rests_make_nothing_cheaper() {
+        let size = Size::new(40, 30).unwrap();
+        let (tracer, division) = (tracer(size), Division::new(size.pixels(), 50));
+        let found = probe(&tracer, division, Duration::MAX);
+        let rested = found.whole_with_rests(&tracer, division);
+        assert!(rested >= found.whole && rested <= 4 * found.whole);
+        let none = Probe { atoms: Vec::new(), whole: found.whole };
+        assert_eq!(none.whole_with_rests(&tracer, division), found.whole);
     }
 
     #[test]

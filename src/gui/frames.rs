@@ -10,11 +10,11 @@ use super::session::{Phase, Session};
 const FRAME: Duration = Duration::from_millis(33);
 /// For the clock, and in order to learn when something moves again.
 const LOOK_IN: Duration = Duration::from_millis(250);
-/// Slower than this nobody would call it moving.
-const SLOWEST: Duration = Duration::from_millis(250);
-/// What part of one core the window's own thread takes at most while nobody touches it and the run wants every core.
-/// Where OpenGL is software, its threads take some times as much again.
-const SHARE: f64 = 0.015;
+/// Slower than this one would think that it has stopped.
+const SLOWEST: Duration = Duration::from_millis(400);
+/// What part of one core the window's own thread takes while nobody touches it and the run wants every core. Where
+/// OpenGL is software, its threads and the display's take about ten times as much again.
+const SHARE: f64 = 0.005;
 /// For so long after a touch the window is as quick as it can be, in seconds.
 const TOUCHED: f64 = 1.0;
 
@@ -50,8 +50,9 @@ fn spared(cpu: Option<f32>) -> Duration {
 /// Whether somebody has just moved the mouse or pressed a key.
 fn is_touched(ctx: &Context) -> bool {
     ctx.input(|input| {
-        let last = input.pointer.time_since_last_movement();
-        f64::from(last) < TOUCHED || input.pointer.any_down() || !input.keys_down.is_empty()
+        // A mouse that has never moved has, by egui, moved when its clock began.
+        let moved = input.time > TOUCHED && f64::from(input.pointer.time_since_last_movement()) < TOUCHED;
+        moved || input.pointer.any_down() || !input.keys_down.is_empty()
     })
 }
 
@@ -62,8 +63,8 @@ mod tests {
     #[test]
     fn dear_frames_come_seldom() {
         assert_eq!(spared(None), FRAME);
-        assert_eq!(spared(Some(0.0004)), FRAME);
-        assert_eq!(spared(Some(0.0015)), Duration::from_millis(100));
+        assert_eq!(spared(Some(0.0001)), FRAME);
+        assert_eq!(spared(Some(0.0015)).as_millis(), 300);
         assert_eq!(spared(Some(1.0)), SLOWEST);
     }
 }

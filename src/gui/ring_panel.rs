@@ -54,6 +54,7 @@ pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
 
 /// A title, and below it what there is to say.
 fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: Look) {
+    ui.spacing_mut().interact_size.y = 0.0;
     ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
     egui::Grid::new("more").spacing([2.0 * GRID, 0.25 * GRID]).show(ui, |ui| {
         for (what, how_much) in lines {

@@ -12,7 +12,7 @@ use crate::picture::Size;
 use crate::view::count;
 
 /// How wide the panel is, in points.
-pub const WIDTH: f32 = 38.0 * GRID;
+pub const WIDTH: f32 = 36.0 * GRID;
 
 /// The sizes that are offered; any other can be typed.
 const SIZES: [(u32, u32); 6] = [(320, 240), (640, 480), (800, 600), (1280, 960), (1280, 720), (1920, 1080)];

@@ -20,13 +20,17 @@ pub fn height(ui: &Ui) -> f32 {
 /// Shows all three.
 pub fn show(ui: &mut Ui, session: &Session) {
     let look = Look::of(ui.ctx());
-    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui) - BAR - GRID), Sense::hover());
-    ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        ui.shrink_clip_rect(area.expand(2.0));
-        if session.stage().outcome.is_some() { result(ui, session, look) } else { story(ui, session, look) }
-    });
-    bar(ui, session, look);
+    let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui)), Sense::hover());
+    let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - BAR);
+    let words = &mut ui.new_child(UiBuilder::new().max_rect(above.with_max_y(above.bottom() - GRID)));
+    words.spacing_mut().item_spacing.y = 0.0;
+    words.shrink_clip_rect(above);
+    if session.stage().outcome.is_some() {
+        result(words, session, look)
+    } else {
+        story(words, session, look)
+    }
+    bar(ui, below, session, look);
 }
 
 fn events_shown(ui: &Ui) -> usize {
@@ -59,9 +63,7 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
         ui.add(Label::new(text).wrap());
     });
     let font = theme::regular(theme::SMALL);
-    // The newest is the sentence itself.
-    for (at, event) in stage.narrator.events().rev().skip_while(|(_, event)| *event == sentence).take(events_shown(ui))
-    {
+    for (at, event) in stage.narrator.earlier(session.now()).rev().take(events_shown(ui)) {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, "Event", || event.to_owned());
         let y = line.center().y;
@@ -103,8 +105,8 @@ fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::
 }
 
 /// All atoms in one row: each node's part in its colour, what is still to be done empty.
-fn bar(ui: &mut Ui, session: &Session, look: Look) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), BAR), Sense::hover());
+fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
+    let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
     let state = &session.stage().state;
     let (shares, all) = (shares(state), state.atoms());
     widgets::describe(&response, "Who has traced how much", || {

@@ -78,6 +78,12 @@ impl Narrator {
     pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
         self.events.iter()
     }
+
+    /// Those before what is to be read at `now`.
+    pub fn earlier(&self, now: Time) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+        let told = self.told.as_ref().filter(|told| now < told.at + FRESH).map(|told| told.at);
+        self.events().filter(move |(at, _)| told.is_none_or(|told| *at < told))
+    }
 }
 
 fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {

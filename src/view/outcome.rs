@@ -28,7 +28,7 @@ pub fn figures(outcome: &Outcome) -> [(String, &'static str); 4] {
         (seconds(outcome.makespan), "start to finish"),
         (seconds(outcome.ideal), "shared perfectly"),
         (fraction(outcome.efficiency), "efficiency"),
-        (seconds(outcome.spread), "first to last to finish"),
+        (seconds(outcome.spread), "first to last done"),
     ]
 }
 
@@ -131,7 +131,7 @@ mod tests {
     fn the_figures_say_what_they_are() {
         assert_eq!(
             figures(&OUTCOME).map(|(value, caption)| format!("{value} {caption}")),
-            ["20.4 s start to finish", "19.8 s shared perfectly", "97 % efficiency", "0.3 s first to last to finish"]
+            ["20.4 s start to finish", "19.8 s shared perfectly", "97 % efficiency", "0.3 s first to last done"]
         );
     }
 

@@ -69,7 +69,7 @@ pub struct Prepared {
     pub size: Size,
     /// Of the picture that it is compiled for.
     pub samples: u32,
-    /// The estimated CPU time of the whole picture.
+    /// The estimated CPU time of the whole picture, traced by threads that rest after each atom.
     pub work: Duration,
 }
 
@@ -131,7 +131,7 @@ impl Jobs {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
                     let tracer = tracer(&opened.scene, size, samples);
-                    let work = probe(&tracer, division, PROBE).whole;
+                    let work = probe(&tracer, division, PROBE).whole_with_rests(&tracer, division);
                     Ok(Ready::Scene(Prepared { opened, tracer, size, samples, work }))
                 }
                 Opening::Run(log) => {
