@@ -207,6 +207,20 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
 }
 
 #[test]
+fn what_is_no_run_file_is_refused() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let at = directory.path();
+    fs::write(at.join("scene.ron"), GOOD).expect("a file in it");
+    fs::write(at.join("cut.anel"), "{\"anel_run\":2,\"header\":{\"scene\":\"x").expect("a file in it");
+    assert!(refused(at, &["replay", "nothing.anel"]).contains("cannot read nothing.anel"));
+    assert!(refused(at, &["replay", "."]).contains("this is a directory"));
+    assert!(refused(at, &["replay", "scene.ron"]).contains("this is not a run file of anel"));
+    for arguments in [&["replay", "cut.anel"][..], &["cut.anel"]] {
+        assert!(refused(at, arguments).contains("cut.anel, line 1: "));
+    }
+}
+
+#[test]
 fn no_output_replaces_the_scene() {
     let directory = TempDir::new().expect("a temporary directory");
     let at = directory.path();

@@ -37,6 +37,26 @@ fn without_a_display() {
 }
 
 #[test]
+fn a_recorded_run_is_traced_again_without_a_display() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let anel = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_anel"));
+        command.current_dir(directory.path()).args(arguments);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        let output = command.output().expect("the program can be started");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{said}");
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    };
+    anel(&["render", "glass", "--out", "first.png", "--size", "80x60", "--nodes", "3", "--log", "run.anel"]);
+    // By its own command, and as what the window opens with.
+    assert_eq!(anel(&["replay", "run.anel"]), "glass.png");
+    assert_eq!(anel(&["run.anel"]), "glass-2.png");
+    let picture = |name: &str| fs::read(directory.path().join(name)).expect("a picture");
+    assert!(picture("first.png") == picture("glass.png") && picture("first.png") == picture("glass-2.png"));
+}
+
+#[test]
 fn with_a_display_that_does_not_answer() {
     runs_without_a_window(&[("DISPLAY", ":4242"), ("WAYLAND_DISPLAY", ""), ("WAYLAND_SOCKET", "")]);
 }

@@ -157,16 +157,6 @@ impl App {
         if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
             self.obey(command, ui.ctx());
         }
-        if let Some(shown) = self.session.notice().cloned() {
-            match Panel::top("notice").frame(panel(4, 4)).show(ui, |ui| shown.show(ui)).inner {
-                Some(notice::Click::Close) => self.session.close_notice(),
-                Some(notice::Click::Reload) => self.session.reload(),
-                None => {}
-            }
-        }
-        if let Some(name) = self.session.loading().filter(|(_, secs)| *secs > 0.4).map(|(name, _)| name.to_owned()) {
-            Panel::top("loading").frame(panel(4, 4)).show(ui, |ui| notice::loading(ui, &name));
-        }
         if self.save_bar.is_open() {
             let blend = self.picture.blend_share();
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, blend);
@@ -189,6 +179,19 @@ impl App {
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(words_panel::height(ui) + 18.0);
         words.show(ui, |ui| words_panel::show(ui, &self.session));
         self.heroes(ui);
+    }
+
+    /// What floats over the panels.
+    fn notices(&mut self, ctx: &Context) {
+        if let Some(notice) = self.session.notice().cloned() {
+            match notice.show(ctx) {
+                Some(notice::Click::Close) => self.session.close_notice(),
+                Some(notice::Click::Reload) => self.session.reload(),
+                None => {}
+            }
+        } else if let Some((name, _)) = self.session.loading().filter(|(_, secs)| *secs > 0.4) {
+            notice::loading(ctx, name);
+        }
     }
 
     fn heroes(&mut self, ui: &mut Ui) {
@@ -228,6 +231,7 @@ impl eframe::App for App {
         }
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);
+        self.notices(ui.ctx());
         if self.help && help::show(ui.ctx()) {
             self.help = false;
         }

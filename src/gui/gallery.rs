@@ -104,7 +104,7 @@ impl Gallery {
         let look = Look::of(ui.ctx());
         self.path_row(ui, session, look);
         if let Some(trouble) = &self.trouble {
-            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(ui.visuals().error_fg_color);
+            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(look.trouble);
             ui.add(Label::new(text).wrap());
         }
         ui.add_space(GRID);
@@ -113,9 +113,9 @@ impl Gallery {
 
     fn path_row(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Open").font(theme::strong(theme::LARGE)).color(look.text));
+            ui.label(RichText::new("Scenes").font(theme::strong(theme::LARGE)).color(look.text));
             ui.add_space(GRID);
-            let width = (ui.available_width() - 31.0 * GRID).max(16.0 * GRID);
+            let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
             let hint = RichText::new("path of a scene (.ron) or of a recorded run (.anel)").color(look.quiet);
             let field = TextEdit::singleline(&mut self.path)
                 .desired_width(width)
@@ -182,7 +182,7 @@ impl Gallery {
                 }
                 Picture::None(why) => {
                     let font = theme::regular(theme::SMALL);
-                    let colour = ui.visuals().error_fg_color;
+                    let colour = look.trouble;
                     let galley = painter.layout(why.clone(), font, colour, width - 2.0 * GRID);
                     painter.with_clip_rect(picture).galley(picture.min + vec2(GRID, GRID), galley, colour);
                 }

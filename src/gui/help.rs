@@ -35,7 +35,7 @@ pub fn show(ctx: &egui::Context) -> bool {
 }
 
 fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
-    const WIDTH: f32 = 53.0 * GRID;
+    const WIDTH: f32 = 56.0 * GRID;
     const LINE: f32 = 3.75 * GRID;
     let size = vec2(WIDTH * columns as f32, LINE * lines as f32);
     let (area, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -51,7 +51,7 @@ fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
         );
         ui.painter().rect(cap, 5.0, look.raised, egui::Stroke::new(1.0, look.hairline), StrokeKind::Inside);
         ui.painter().galley(cap.center() - galley.size() / 2.0, galley, look.text);
-        let what = Pos2::new(corner.x + 13.0 * GRID, middle);
+        let what = Pos2::new(corner.x + 12.0 * GRID, middle);
         ui.painter().text(what, Align2::LEFT_CENTER, line.what, theme::regular(theme::BODY), look.text);
     }
 }

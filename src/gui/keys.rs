@@ -57,7 +57,7 @@ const CTRL: Modifiers = Modifiers::COMMAND;
 
 /// Everything that keys do, in the order in which it is listed.
 pub const TABLE: &[Line] = &[
-    Line { shown: "Space", what: "Pause, go on", keys: &[(NONE, Key::Space, Command::Pause)] },
+    Line { shown: "Space", what: "Pause, or go on", keys: &[(NONE, Key::Space, Command::Pause)] },
     Line { shown: "R", what: "Restart with what is set", keys: &[(NONE, Key::R, Command::Restart)] },
     Line {
         shown: "S",
@@ -70,10 +70,10 @@ pub const TABLE: &[Line] = &[
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
-    Line { shown: "E", what: "Set up: machines, picture, strategy", keys: &[(NONE, Key::E, Command::Setup)] },
+    Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
     Line {
         shown: "1 … 9",
-        what: "Select a machine",
+        what: "Select a machine (a click on it, too)",
         keys: &[
             (NONE, Key::Num1, Command::Select(0)),
             (NONE, Key::Num2, Command::Select(1)),
@@ -88,7 +88,7 @@ pub const TABLE: &[Line] = &[
     },
     Line {
         shown: "+  −",
-        what: "The selected machine faster, slower",
+        what: "The selected machine faster, or slower",
         keys: &[
             (NONE, Key::Plus, Command::Faster),
             (NONE, Key::Equals, Command::Faster),
@@ -97,21 +97,25 @@ pub const TABLE: &[Line] = &[
     },
     Line {
         shown: "P",
-        what: "The selected machine stands still, goes on",
+        what: "Pause the selected machine, or let it go on",
         keys: &[(NONE, Key::P, Command::PauseNode)],
     },
-    Line { shown: "Ctrl Z", what: "Undo a change of speed, or of what is set", keys: &[(CTRL, Key::Z, Command::Undo)] },
+    Line {
+        shown: "Ctrl Z",
+        what: "Undo the last change of a speed or a setting",
+        keys: &[(CTRL, Key::Z, Command::Undo)],
+    },
     Line {
         shown: "Ctrl Y",
-        what: "Redo it",
+        what: "Redo",
         keys: &[(CTRL.plus(Modifiers::SHIFT), Key::Z, Command::Redo), (CTRL, Key::Y, Command::Redo)],
     },
     // The keys of the zoom are egui's own.
-    Line { shown: "Ctrl +  −  0", what: "Larger, smaller, as it was", keys: &[] },
+    Line { shown: "Ctrl +  −  0", what: "Zoom in, zoom out, no zoom", keys: &[] },
     Line { shown: "D", what: "Dark or light", keys: &[(NONE, Key::D, Command::Theme)] },
-    Line { shown: "F11", what: "The whole screen", keys: &[(NONE, Key::F11, Command::FullScreen)] },
-    Line { shown: "Esc", what: "Back", keys: &[(NONE, Key::Escape, Command::Back)] },
-    Line { shown: "F1", what: "This page", keys: &[(NONE, Key::F1, Command::Help)] },
+    Line { shown: "F11", what: "Full screen, or a window again", keys: &[(NONE, Key::F11, Command::FullScreen)] },
+    Line { shown: "Esc", what: "Close what is open", keys: &[(NONE, Key::Escape, Command::Back)] },
+    Line { shown: "F1", what: "This list of keys", keys: &[(NONE, Key::F1, Command::Help)] },
     Line { shown: "Ctrl Q", what: "Quit", keys: &[(CTRL, Key::Q, Command::Quit)] },
 ];
 

@@ -1,11 +1,11 @@
 //! A row a node: its number and colour, its speed to drag or to type, what it has done and has left, and what it does.
 
-use egui::{Align2, Color32, Rect, ScrollArea, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align2, Color32, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::history::Gesture;
 use super::icons::{self, Icon};
-use super::row_places::{Grid, HEAD, Places, ROW};
-use super::session::Session;
+use super::row_places::{Grid, HEAD, Places};
+use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::balance::NodeId;
@@ -15,7 +15,8 @@ use crate::view::{Activity, Row, activity_word, count, node_name, rows};
 /// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
     let grid = Grid::new(nodes, ui.available_width() - 4.0 * GRID);
-    grid.height().min((ui.ctx().content_rect().height() * 0.3).max(HEAD + ROW))
+    let most = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
+    grid.height().min(most.max(HEAD + grid.row))
 }
 
 /// Shows all rows, in as many columns as there is room for. A click on a row selects its node.
@@ -30,8 +31,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, selected: &mut Option<NodeId>) {
             head(ui, &Places::new(Rect::from_min_size(corner, vec2(grid.width, HEAD))), look);
         }
         for (i, row) in rows.iter().enumerate() {
-            let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * ROW);
-            let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, ROW)));
+            let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
+            let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)));
             if background(ui, &places, row, *selected == Some(row.node), look) {
                 *selected = if *selected == Some(row.node) { None } else { Some(row.node) };
             }
@@ -69,8 +70,11 @@ fn background(ui: &Ui, places: &Places, row: &Row, selected: bool, look: Look) -
         format!("{} atoms done, {} left, {}{selected}", row.done, row.left, activity_word(row.activity))
     });
     if selected || response.hovered() {
-        let fill = if selected { look.raised } else { look.raised.gamma_multiply(0.5) };
-        ui.painter().rect_filled(places.row.expand2(vec2(0.5 * GRID, -1.0)), 6.0, fill);
+        let place = places.row.expand2(vec2(0.5 * GRID, -0.5));
+        ui.painter().rect_filled(place, 6.0, look.raised.gamma_multiply(0.5));
+        if selected {
+            ui.painter().rect_stroke(place, 6.0, Stroke::new(1.5, look.text), StrokeKind::Inside);
+        }
     }
     response.clicked()
 }
@@ -79,14 +83,15 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     let own = session.stage().colours[usize::from(row.node)];
     let (y, colour) = (places.row.center().y, theme::colour(own));
     let painter = ui.painter();
-    let chip = Rect::from_center_size(pos2(places.row.left() + 1.5 * GRID, y), Vec2::splat(3.0 * GRID));
+    let chip = Rect::from_center_size(pos2(places.row.left() + 1.5 * GRID, y), Vec2::splat(places.side()));
     painter.rect_filled(chip, 6.0, colour);
     let ink = theme::colour(text_on(own));
     let name = node_name(row.node).to_string();
-    painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(theme::BODY), ink);
+    let size = if places.is_dense() { theme::SMALL } else { theme::BODY };
+    painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(size), ink);
     let number = |x: Option<f32>, text: String, colour: Color32| {
         if let Some(x) = x {
-            painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, theme::regular(theme::BODY), colour);
+            painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, theme::regular(size), colour);
         }
     };
     let some = |is: bool| if is { look.text } else { look.quiet };
@@ -96,7 +101,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     number(places.idle, format!("{:.0} %", row.idle * 100.0), look.text);
     let calm = matches!(row.activity, Activity::Idle | Activity::Retired | Activity::Waiting | Activity::Done);
     let now = pos2(places.activity, y);
-    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(theme::BODY), some(!calm));
+    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {
         let upto = |share: f32| bar.with_max_x(bar.left() + bar.width() * share);
         painter.rect_filled(upto(row.left_bar), 4.0, colour.gamma_multiply(0.28));
@@ -108,6 +113,7 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
     let name = node_name(node);
     let colour = theme::colour(session.stage().colours[usize::from(node)]);
     let enabled = !session.is_recorded();
+    let goes_on = enabled && session.stage().phase == Phase::Running;
     let before = (session.speed(node) * 100.0).round();
     let mut percent = before;
     let at = |place: Rect, salt: &str| UiBuilder::new().max_rect(place).id_salt((salt, node));
@@ -130,16 +136,17 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
     let response = ui.interact(places.pause, ui.scope_id().with(("pause", node)), Sense::click());
     response.widget_info(|| {
         let name = format!("Pause node {name}");
-        egui::WidgetInfo::selected(egui::Role::Button, enabled, paused, name)
+        egui::WidgetInfo::selected(egui::Role::Button, goes_on, paused, name)
     });
     let (icon, ink) = match (paused, response.hovered() || response.has_focus()) {
+        _ if !goes_on => (Icon::Pause, look.hairline),
         (true, _) => (Icon::Play, look.accent),
         (false, true) => (Icon::Pause, look.text),
         (false, false) => (Icon::Pause, look.quiet),
     };
-    icons::paint(ui.painter(), icon, Rect::from_center_size(places.pause.center(), Vec2::splat(1.5 * GRID)), ink);
+    icons::paint(ui.painter(), icon, Rect::from_center_size(places.pause.center(), Vec2::splat(1.75 * GRID)), ink);
     let hint = if paused { "Let it go on" } else { "Let this machine stand still" };
-    if response.on_hover_text(hint).clicked() && enabled {
+    if response.on_hover_text(hint).clicked() && goes_on {
         session.toggle_node_pause(node);
     }
 }

@@ -1,6 +1,6 @@
-//! A sentence below the top bar: what was done, what went wrong, what can be done about it.
+//! A sentence that floats below the top bar: what was done, what went wrong, what can be done about it.
 
-use egui::{Label, RichText, Ui};
+use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, RichText, Stroke, Ui};
 
 use super::icons::Icon;
 use super::theme::{self, GRID, Look};
@@ -64,48 +64,59 @@ impl Notice {
     }
 
     /// Shows it, and returns what was pressed.
-    pub fn show(&self, ui: &mut Ui) -> Option<Click> {
-        let look = Look::of(ui.ctx());
-        let mut click = None;
-        ui.horizontal(|ui| {
-            let colour = if self.kind == Kind::Trouble { ui.visuals().error_fg_color } else { look.text };
-            let buttons = if self.kind == Kind::Changed { 22.0 } else { 10.0 };
-            let width = (ui.available_width() - buttons * GRID).max(20.0 * GRID);
+    pub fn show(&self, ctx: &Context) -> Option<Click> {
+        let look = Look::of(ctx);
+        floating(ctx, |ui| {
+            let colour = if self.kind == Kind::Trouble { look.trouble } else { look.text };
             let text = RichText::new(&self.text).font(theme::regular(theme::BODY)).color(colour);
-            ui.allocate_ui(egui::vec2(width, 0.0), |ui| ui.add(Label::new(text).wrap()));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if button(ui, Some(Icon::Close), "Close notice", false, Weight::Quiet).clicked() {
-                    click = Some(Click::Close);
-                }
-                if self.kind == Kind::Changed && button(ui, None, "Reload", true, Weight::Primary).clicked() {
-                    click = Some(Click::Reload);
-                }
+            ui.scope(|ui| {
+                let buttons = if self.kind == Kind::Changed { 17.0 } else { 6.0 };
+                ui.set_max_width(widest(ui) - buttons * GRID);
+                ui.add(Label::new(text).wrap());
             });
-        });
-        click
+            let reload = self.kind == Kind::Changed && button(ui, None, "Reload", true, Weight::Primary).clicked();
+            let close = button(ui, Some(Icon::Close), "Close notice", false, Weight::Quiet).clicked();
+            if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
+        })
     }
 }
 
 /// Says that something is being read and compiled.
-pub fn loading(ui: &mut Ui, name: &str) {
-    let look = Look::of(ui.ctx());
-    ui.horizontal(|ui| {
+pub fn loading(ctx: &Context, name: &str) {
+    let look = Look::of(ctx);
+    floating(ctx, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
         let text = format!("{name} is being read and compiled …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
 
+/// Over everything else, so that nothing moves away under somebody's hand when it comes or goes.
+fn floating<T>(ctx: &Context, content: impl FnOnce(&mut Ui) -> T) -> T {
+    let look = Look::of(ctx);
+    let frame = Frame::NONE.fill(look.raised).stroke(Stroke::new(1.0, look.hairline)).corner_radius(8.0);
+    let area = Area::new(Id::unique("notice")).order(Order::Foreground).anchor(Align2::CENTER_TOP, [0.0, 8.0 * GRID]);
+    let shown = area.show(ctx, |ui| {
+        frame.inner_margin(egui::vec2(1.5 * GRID, GRID)).show(ui, |ui| ui.horizontal(content).inner).inner
+    });
+    shown.inner
+}
+
+/// How wide a notice can be.
+fn widest(ui: &Ui) -> f32 {
+    (ui.ctx().content_rect().width() - 8.0 * GRID).min(110.0 * GRID)
+}
+
 /// Says, over everything, that a file can be dropped.
 pub fn drop_here(ui: &Ui) {
     let look = Look::of(ui.ctx());
-    let painter = ui.ctx().layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop")));
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));
     let area = ui.ctx().content_rect();
     painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
     let frame = area.shrink(3.0 * GRID);
-    painter.rect_stroke(frame, 12.0, egui::Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
+    painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
     let text = "Drop a scene or a recorded run";
-    painter.text(area.center(), egui::Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
+    painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
 }
 
 #[cfg(test)]

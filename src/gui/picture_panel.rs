@@ -22,7 +22,7 @@ pub struct PicturePanel {
 
 impl Default for PicturePanel {
     fn default() -> Self {
-        Self { texture: None, blend: 55.0 }
+        Self { texture: None, blend: 70.0 }
     }
 }
 

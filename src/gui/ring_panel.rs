@@ -49,7 +49,9 @@ pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
     if let Some((title, lines)) = more {
         response.on_hover_ui_at_pointer(|ui| more_words(ui, &title, &lines, look));
     }
-    corner(&painter, rect, state.latency(), look);
+    if state.finished().is_none() {
+        corner(&painter, rect, state.latency(), look);
+    }
 }
 
 /// A title, and below it what there is to say.

@@ -4,8 +4,6 @@ use egui::{Rect, pos2, vec2};
 
 use super::theme::GRID;
 
-/// The height of a row.
-pub const ROW: f32 = 4.0 * GRID;
 /// The height of the line above the rows.
 pub const HEAD: f32 = 2.5 * GRID;
 
@@ -17,24 +15,37 @@ pub struct Grid {
     pub lines: usize,
     /// The width of a column.
     pub width: f32,
+    /// The height of a row.
+    pub row: f32,
 }
 
 impl Grid {
     const GAP: f32 = 4.0 * GRID;
+    /// More rows than this stand closer.
+    const MANY: usize = 16;
 
     /// So many rows in so much room.
     pub fn new(rows: usize, room: f32) -> Self {
-        // Two columns are worth some squeezing, more are not.
+        // Two columns are worth some squeezing, more only where there are many rows.
+        let is_dense = rows > Self::MANY;
         let columns =
             if room < 2.0 * Places::LEAST + Self::GAP { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
+        let columns =
+            if is_dense { (((room + Self::GAP) / (Places::LEAST + Self::GAP)) as usize).max(1) } else { columns };
         let lines = rows.div_ceil(columns).max(1);
         let columns = rows.div_ceil(lines).max(1);
-        Self { columns, lines, width: (room + Self::GAP) / columns as f32 - Self::GAP }
+        let row = if is_dense { 3.0 } else { 4.0 } * GRID;
+        Self { columns, lines, width: (room + Self::GAP) / columns as f32 - Self::GAP, row }
+    }
+
+    /// Whether there are so many rows that they stand closer.
+    pub fn is_dense(&self) -> bool {
+        self.row < 4.0 * GRID
     }
 
     /// The height of all.
     pub fn height(&self) -> f32 {
-        HEAD + self.lines as f32 * ROW
+        HEAD + self.lines as f32 * self.row
     }
 
     /// Where a column begins.
@@ -69,11 +80,12 @@ pub struct Places {
 
 impl Places {
     /// The least width of a row.
-    pub const LEAST: f32 = 41.0 * GRID;
+    pub const LEAST: f32 = 42.0 * GRID;
 
     /// The parts of a row of this width.
     pub fn new(row: Rect) -> Self {
         const NUMBER: f32 = 7.0 * GRID;
+        let rate_width = if row.height() < 4.0 * GRID { 6.5 } else { 7.5 } * GRID;
         let within = |left: f32, width: f32, height: f32| {
             Rect::from_min_size(pos2(left, row.center().y - height / 2.0), vec2(width, height))
         };
@@ -84,12 +96,12 @@ impl Places {
             spare -= if fits { width } else { 0.0 };
             fits
         };
-        let (has_rate, has_idle) = (room(NUMBER), room(6.0 * GRID));
+        let (has_rate, has_idle) = (room(rate_width), room(6.0 * GRID));
         let (has_done, has_bar) = (room(NUMBER), room(9.0 * GRID));
         let slider = within(row.left() + 4.5 * GRID, 8.0 * GRID + (spare * 0.4).clamp(0.0, 7.0 * GRID), 2.5 * GRID);
-        let speed = within(slider.right() + GRID, 7.0 * GRID, 3.5 * GRID);
+        let speed = within(slider.right() + GRID, 7.5 * GRID, row.height() - 0.5 * GRID);
         let pause = within(speed.right() + 0.5 * GRID, 3.0 * GRID, 3.0 * GRID);
-        let activity = row.right() - 9.5 * GRID;
+        let activity = row.right() - 10.0 * GRID;
         // The numbers stand at the right, side by side.
         let mut right = activity - 2.0 * GRID;
         let mut number = |there: bool, width: f32| {
@@ -97,7 +109,7 @@ impl Places {
             right -= if there { width } else { 0.0 };
             there.then_some(end)
         };
-        let (idle, rate) = (number(has_idle, 6.0 * GRID), number(has_rate, NUMBER));
+        let (idle, rate) = (number(has_idle, 6.0 * GRID), number(has_rate, rate_width));
         let left = right;
         right -= NUMBER;
         let done = has_done.then_some(right);
@@ -105,6 +117,16 @@ impl Places {
         let bar = within(pause.right() + 1.5 * GRID, (right - pause.right() - 2.0 * GRID).max(0.0), GRID);
         let bar = (has_bar && bar.width() > 4.0 * GRID).then_some(bar);
         Self { row, slider, speed, pause, bar, done, left, rate, idle, activity }
+    }
+
+    /// Whether text has to be small.
+    pub fn is_dense(&self) -> bool {
+        self.row.height() < 4.0 * GRID
+    }
+
+    /// The side of what is square.
+    pub fn side(&self) -> f32 {
+        (self.row.height() - 0.5 * GRID).min(3.0 * GRID)
     }
 }
 
@@ -116,7 +138,7 @@ mod tests {
     proptest! {
         #[test]
         fn nothing_overlaps_in_a_row_of_any_width(width in Places::LEAST..900.0f32) {
-            let row = Rect::from_min_size(pos2(16.0, 100.0), vec2(width, ROW));
+            let row = Rect::from_min_size(pos2(16.0, 100.0), vec2(width, 4.0 * GRID));
             let places = Places::new(row);
             // The numbers take at most six digits' room to the left of their ends.
             let numbers = [places.done, Some(places.left), places.rate, places.idle];

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{ComboBox, Key, Label, RichText, TextEdit, Ui, WidgetInfo};
 
+use super::icons::Icon;
 use super::session::{Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button};
@@ -86,7 +87,7 @@ impl SaveBar {
             self.choose_kind(ui);
             self.suggest(session);
             ui.label(quiet("as"));
-            let width = (ui.available_width() - 30.0 * GRID).max(20.0 * GRID);
+            let width = (ui.available_width() - 27.0 * GRID).max(20.0 * GRID);
             let field = TextEdit::singleline(&mut self.path).desired_width(width).margin(egui::vec2(GRID, 0.75 * GRID));
             let field = ui.add(field);
             field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Where to save"));
@@ -101,16 +102,16 @@ impl SaveBar {
             if button(ui, None, "Save", true, Weight::Primary).clicked() || entered {
                 self.save(session, blend);
             }
-            if button(ui, None, "Choose…", true, Weight::Quiet).clicked() {
+            if button(ui, None, "Browse…", true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
                 session.jobs().choose(Purpose::Save, typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)));
             }
-            if button(ui, None, "Close", true, Weight::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), "Close save", false, Weight::Quiet).clicked() {
                 self.open = false;
             }
         });
         if let Some(trouble) = &self.trouble {
-            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(ui.visuals().error_fg_color);
+            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(look.trouble);
             ui.add(Label::new(text).truncate());
         }
     }

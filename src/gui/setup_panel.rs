@@ -41,7 +41,7 @@ impl SetupPanel {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
             ui.spacing_mut().item_spacing.y = GRID / 2.0;
-            heading(ui, "At once", look);
+            heading(ui, "Takes effect at once", look);
             at_once(ui, &mut draft, look);
             ui.add_space(GRID);
             heading(ui, "Starts the run anew", look);
@@ -76,11 +76,16 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
     }
 }
 
+/// The width of an exact value.
+const VALUE: f32 = 12.0 * GRID;
+
 fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
     let width = ui.available_width();
+    let on = Preset::ALL.into_iter().find(|preset| draft.has_preset(*preset));
     egui::Grid::new("presets").spacing([GRID / 2.0, GRID / 2.0]).show(ui, |ui| {
         for (i, preset) in Preset::ALL.into_iter().enumerate() {
-            if button(ui, None, preset.name(), true, Weight::Quiet).on_hover_text(preset.hint()).clicked() {
+            let weight = if on == Some(preset) { Weight::On } else { Weight::Quiet };
+            if button(ui, None, preset.name(), true, weight).on_hover_text(preset.hint()).clicked() {
                 draft.set_preset(preset);
             }
             if i % 2 == 1 {
@@ -88,15 +93,15 @@ fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
             }
         }
     });
-    line(ui, "Seed of random speeds", look, |ui| {
+    line(ui, "Random seed", look, |ui| {
         let before = draft.seed;
-        number(ui, &mut draft.seed, 0..=999_999, "", 7.0 * GRID, "Seed");
+        number(ui, &mut draft.seed, 0..=999_999, "", VALUE, "Seed");
         if draft.seed != before {
             draft.set_preset(Preset::Random);
         }
     });
     line(ui, "Latency of a hop", look, |ui| {
-        number(ui, &mut draft.latency, 0..=Settings::MOST_LATENCY, " ms", 9.0 * GRID, "Latency in milliseconds");
+        number(ui, &mut draft.latency, 0..=Settings::MOST_LATENCY, " ms", VALUE, "Latency in milliseconds");
     });
     // Most of what is of interest lies below half a second.
     let mut root = f64::from(draft.latency).sqrt();
@@ -110,7 +115,7 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     let width = ui.available_width();
     let mut nodes = draft.speeds.len() as u32;
     line(ui, "Machines", look, |ui| {
-        number(ui, &mut nodes, 1..=Settings::MOST_NODES as u32, "", 6.0 * GRID, "Number of machines");
+        number(ui, &mut nodes, 1..=Settings::MOST_NODES as u32, "", VALUE, "Number of machines");
     });
     let mut dragged = f64::from(nodes);
     slider(ui, &mut dragged, (1.0..=Settings::MOST_NODES as f64, true), width - GRID, look.accent, "Machines slider");
@@ -129,14 +134,14 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
         }
     });
     ui.add_enabled_ui(draft.strategy == Strategy::Ring, |ui| {
-        line(ui, "Least worth sending", look, |ui| {
+        line(ui, "Smallest parcel", look, |ui| {
             let suffix = if draft.part == 1 { " atom" } else { " atoms" };
-            number(ui, &mut draft.part, 1..=10_000, suffix, 11.0 * GRID, "Least atoms worth sending");
+            number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, "Least atoms worth sending");
         });
     });
     line(ui, "Size", look, |ui| {
         // From right to left.
-        let combo = ComboBox::from_id_salt("size").selected_text("").width(0.0);
+        let combo = ComboBox::from_id_salt("size").selected_text("usual").width(0.0);
         let combo = combo.show_ui(ui, |ui| {
             for (width, height) in SIZES {
                 let size = Size::new(width, height).unwrap_or(draft.size);
@@ -154,10 +159,10 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     });
     line(ui, "Samples a pixel", look, |ui| {
         let suffix = format!(" × {}", draft.samples);
-        number(ui, &mut draft.samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, "Samples");
+        number(ui, &mut draft.samples, 1..=Settings::MOST_SAMPLES, &suffix, VALUE, "Samples");
     });
     line(ui, "An atom is", look, |ui| {
-        number(ui, &mut draft.atom, 1..=100_000, " pixels", 12.0 * GRID, "Pixels in an atom");
+        number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, "Pixels in an atom");
     });
     line(ui, "That makes", look, |ui| {
         let text = format!("{} atoms", count(draft.division().atoms()));
@@ -175,7 +180,7 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     });
     if let Tempo::Lasts(seconds) = &mut draft.tempo {
         line(ui, "The run takes about", look, |ui| {
-            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", 8.0 * GRID, "Seconds of the run");
+            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, "Seconds of the run");
         });
     }
 }

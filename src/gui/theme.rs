@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::epaint::text::{FontTweak, VariationCoords};
-use egui::style::{HandleShape, WidgetVisuals, Widgets};
+use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
 
 use crate::palette::Rgb;
@@ -18,7 +18,7 @@ pub const BODY: f32 = 16.0;
 /// For what is seen from the back of the room.
 pub const LARGE: f32 = 26.0;
 
-/// The colours of one theme. Hues belong to the nodes; the accent is the only other one.
+/// The colours of one theme. Hues belong to the nodes; the accent and what is wrong are the only others.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// What everything lies on.
@@ -35,6 +35,8 @@ pub struct Look {
     pub accent: Color32,
     /// Text on the accent.
     pub on_accent: Color32,
+    /// Text that says what is wrong.
+    pub trouble: Color32,
 }
 
 const DARK: Look = Look {
@@ -45,6 +47,7 @@ const DARK: Look = Look {
     quiet: Color32::from_rgb(0x94, 0x9f, 0xae),
     accent: Color32::from_rgb(0xa3, 0x94, 0xff),
     on_accent: Color32::from_rgb(0x16, 0x10, 0x3a),
+    trouble: Color32::from_rgb(0xff, 0x8b, 0x80),
 };
 
 const LIGHT: Look = Look {
@@ -55,6 +58,7 @@ const LIGHT: Look = Look {
     quiet: Color32::from_rgb(0x5b, 0x66, 0x75),
     accent: Color32::from_rgb(0x5a, 0x46, 0xd6),
     on_accent: Color32::WHITE,
+    trouble: Color32::from_rgb(0xb4, 0x23, 0x18),
 };
 
 impl Look {
@@ -86,6 +90,8 @@ pub fn install(ctx: &egui::Context) {
             spacing.button_padding = egui::vec2(1.5 * GRID, GRID * 0.75);
             spacing.interact_size = egui::vec2(4.0 * GRID, 4.0 * GRID);
             spacing.slider_rail_height = 4.0;
+            // Thin, and seen also where nobody points at it: there is more.
+            style.spacing.scroll = ScrollStyle { dormant_handle_opacity: 0.6, ..ScrollStyle::thin() };
             style.interaction.selectable_labels = false;
         });
     }
@@ -157,6 +163,7 @@ fn visuals(theme: Theme, look: Look) -> Visuals {
     visuals.extreme_bg_color = look.raised;
     visuals.selection.bg_fill = look.accent.gamma_multiply(0.5);
     visuals.selection.stroke = Stroke::new(1.5, look.accent);
+    visuals.error_fg_color = look.trouble;
     visuals.hyperlink_color = look.accent;
     visuals.slider_trailing_fill = true;
     visuals.handle_shape = HandleShape::Circle;

@@ -83,14 +83,18 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
             clicked = Some(command);
         }
     };
+    // The two to press first keep their words.
     let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
-    let weight = if over { Weight::Primary } else { Weight::Quiet };
-    press(Icon::Restart, "Restart", words, weight, Command::Restart, "From the beginning, with what is set (R)");
-    if !over {
-        let paused = session.stage().paused;
-        let (icon, name) = if paused { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
-        press(icon, name, words, Weight::Primary, Command::Pause, "Stand still or go on (space)");
-    }
+    let weight = |first: bool| if first { Weight::Primary } else { Weight::Quiet };
+    press(Icon::Restart, "Restart", true, weight(over), Command::Restart, "From the beginning, with what is set (R)");
+    let paused = session.stage().paused;
+    let (icon, name) = if paused { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
+    ui.add_enabled_ui(!over, |ui| {
+        let button = button(ui, Some(icon), name, true, weight(!over));
+        if button.on_hover_text("Stand still or go on (space)").clicked() {
+            clicked = Some(Command::Pause);
+        }
+    });
     clicked
 }
 
@@ -102,7 +106,8 @@ fn what(ui: &Ui, session: &Session) -> String {
     let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");
-    let all = format!("{size} in {} atoms", count(header.division.atoms()));
+    let (atoms, pixels) = (count(header.division.atoms()), header.division.atom_pixels());
+    let all = format!("{size} in {atoms} atoms of {pixels}");
     let fits = |text: &String| {
         let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::BODY), Color32::PLACEHOLDER);
         galley.size().x <= ui.available_width()

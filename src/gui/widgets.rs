@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::icons::{self, Icon};
-use super::theme::{GRID, Look};
+use super::theme::{self, GRID, Look};
 
 /// What a painted view is called, and what there is to be seen in it, for those who cannot see it.
 pub fn describe(response: &Response, name: &str, seen: impl Fn() -> String) {
@@ -142,8 +142,13 @@ pub fn number<N: egui::emath::Numeric>(
     name: &str,
 ) -> Response {
     ui.scope(|ui| {
-        ui.spacing_mut().interact_size = vec2(width, 3.5 * GRID);
-        ui.spacing_mut().button_padding = vec2(0.75 * GRID, 0.25 * GRID);
+        // In a low row the text is small.
+        let height = ui.available_height().min(3.5 * GRID);
+        ui.spacing_mut().interact_size = vec2(width, height);
+        ui.spacing_mut().button_padding = vec2(0.75 * GRID, 0.0);
+        if height < 3.0 * GRID {
+            ui.style_mut().override_font_id = Some(theme::regular(theme::SMALL));
+        }
         let speed = (range.end().to_f64() - range.start().to_f64()).clamp(10.0, 2000.0) / 400.0;
         let response = ui.add(DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed));
         let exact = value.to_f64();

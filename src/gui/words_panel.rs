@@ -62,15 +62,20 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
         ui.set_min_height(SENTENCE);
         ui.add(Label::new(text).wrap());
     });
+    events(ui, session, events_shown(ui), look);
+}
+
+/// The last events before that of the moment.
+fn events(ui: &mut Ui, session: &Session, most: usize, look: Look) {
     let font = theme::regular(theme::SMALL);
-    for (at, event) in stage.narrator.earlier(session.now()).rev().take(events_shown(ui)) {
+    for (at, event) in session.stage().narrator.earlier(session.now()).rev().take(most) {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, "Event", || event.to_owned());
         let y = line.center().y;
         let time = format!("{:.1} s", at.secs());
-        ui.painter().text(pos2(line.left() + 5.5 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
-        let galley = one_line(ui, event, &font, look, line.width() - 7.0 * GRID);
-        ui.painter().galley(pos2(line.left() + 6.5 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
+        ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
+        let galley = one_line(ui, event, &font, look, line.width() - 6.0 * GRID);
+        ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
     }
 }
 
@@ -79,23 +84,36 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let stage = session.stage();
     let Some(outcome) = stage.outcome else { return };
     let area = ui.available_rect_before_wrap();
-    let (value, caption) = (theme::strong(theme::LARGE), theme::regular(theme::SMALL));
+    let response = ui.interact(area, ui.scope_id().with("result"), Sense::hover());
+    widgets::describe(&response, "Result", || stage.result.clone());
+    // Where there is no room below a figure, what it means stands beside it.
+    let is_high = area.height() > 5.5 * GRID;
+    let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
     let mut x = area.left();
     for (figure, means) in figures(&outcome) {
         let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
-        let means = ui.painter().layout_no_wrap(means.to_owned(), caption.clone(), look.quiet);
-        let width = figure.size().x.max(means.size().x);
-        ui.painter().galley(pos2(x, area.top() - 0.5 * GRID), figure, look.text);
-        ui.painter().galley(pos2(x, area.top() + 3.25 * GRID), means, look.quiet);
-        x += width + 3.0 * GRID;
+        let means = ui.painter().layout_no_wrap(means.to_owned(), theme::regular(theme::SMALL), look.quiet);
+        let (figure_size, means_size) = (figure.size(), means.size());
+        let below = pos2(x, area.top() + 3.25 * GRID);
+        let beside = pos2(x + figure_size.x + 0.75 * GRID, area.top() + figure_size.y - means_size.y - 2.0);
+        ui.painter().galley(pos2(x, area.top() - if is_high { 0.5 * GRID } else { 0.0 }), figure, look.text);
+        ui.painter().galley(if is_high { below } else { beside }, means, look.quiet);
+        x = if is_high { x + figure_size.x.max(means_size.x) } else { beside.x + means_size.x } + 3.0 * GRID;
     }
-    let words = &stage.result;
     let place = Rect::from_min_max(pos2(x + GRID, area.top()), area.max);
-    let lines = |size: f32| ui.painter().layout(words.clone(), theme::regular(size), look.text, place.width()).size().y;
-    let size = [theme::BODY, 14.0].into_iter().find(|&size| lines(size) <= place.height()).unwrap_or(theme::SMALL);
-    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-        ui.add(Label::new(RichText::new(words).font(theme::regular(size)).color(look.text)).wrap());
-    });
+    // Where there is more room than the figures need, the last events still stand there.
+    let rest = area.with_min_y(area.top() + 7.0 * GRID);
+    let lines = (rest.height().max(0.0) / EVENT) as usize;
+    ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| events(ui, session, lines, look));
+    let height =
+        |size: f32| ui.painter().layout(stage.parts.clone(), theme::regular(size), look.text, place.width()).size().y;
+    // Rather not at all than cut: the bar below tells it too.
+    let fits = [theme::BODY, theme::SMALL].into_iter().find(|&size| height(size) <= place.height());
+    if let Some(size) = fits.filter(|_| place.width() > 12.0 * GRID) {
+        ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+            ui.add(Label::new(RichText::new(&stage.parts).font(theme::regular(size)).color(look.text)).wrap());
+        });
+    }
 }
 
 fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::sync::Arc<egui::Galley> {
@@ -114,6 +132,11 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
     });
     ui.painter().rect_filled(rect, 4.0, look.raised);
+    let end = shares.last().map_or(0.0, |share| share.end);
+    if rect.width() * (1.0 - end) > 26.0 * GRID {
+        let (at, font) = (pos2(rect.right() - GRID, rect.center().y), theme::regular(theme::SMALL));
+        ui.painter().text(at, Align2::RIGHT_CENTER, "who has traced how much", font, look.quiet);
+    }
     let last = shares.iter().rposition(|share| share.end > share.start);
     for (i, share) in shares.iter().enumerate() {
         let part = Rect::from_x_y_ranges(

@@ -35,7 +35,7 @@ pub use hover::{atom_words, flight_words, node_words, parent_words};
 pub use narrator::Narrator;
 pub use node::{Activity, NodeState, Parcels, Slot};
 pub use nodes::{Row, Share, rows, shares};
-pub use outcome::{Outcome, figures, result_words};
+pub use outcome::{Outcome, figures, parts_words, result_words};
 pub use place::Place;
 pub use ring::{Overlay, Spot, parcel_at, ring, ring_at};
 pub use state::{Arrived, RunState};

@@ -117,7 +117,7 @@ impl NodeState {
         self.rate.per_second(self.band_at.unwrap_or_default(), now)
     }
 
-    /// How long it has had nothing to trace, from the run's beginning until `now`.
+    /// How long it has had nothing to trace, since its band came until `now`.
     pub fn idle(&self, now: Time) -> Duration {
         self.idle + self.idle_since.map_or(Duration::ZERO, |since| now.since(since))
     }
@@ -145,18 +145,23 @@ impl NodeState {
             offer_out: false,
             last_results: None,
             idle: Duration::ZERO,
-            idle_since: Some(Time::ZERO),
+            idle_since: None,
             rate: Rate::default(),
             ran: 0.0,
             speed_since: Time::ZERO,
         }
     }
 
+    /// The same node before it got so many atoms.
+    pub(super) fn without(&self, atoms: u32) -> Self {
+        Self { left: (self.left - i64::from(atoms)).max(0), ..self.clone() }
+    }
+
     pub(super) fn give(&mut self, atoms: u32, at: Time) {
         self.left += i64::from(atoms);
-        if self.left > 0
-            && let Some(since) = self.idle_since.take()
-        {
+        if self.left <= 0 {
+            self.idle_since.get_or_insert(at);
+        } else if let Some(since) = self.idle_since.take() {
             self.idle += at.since(since);
         }
     }

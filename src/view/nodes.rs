@@ -1,5 +1,7 @@
 //! A row a node, and who did how much.
 
+use std::borrow::Cow;
+
 use super::node::{Activity, NodeState};
 use super::state::RunState;
 use crate::balance::NodeId;
@@ -46,21 +48,24 @@ pub struct Share {
 /// A row for each node at `now`.
 pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
     let until = state.finished().map_or(now, |end| now.min(end));
-    let most = state.nodes().iter().map(|node| node.done + node.left()).max().unwrap_or(0).max(1) as f32;
+    let seen: Vec<_> = (0..state.nodes().len() as NodeId).map(|node| (node, state.seen(node, now))).collect();
+    // Twice an equal share, unless somebody has more: then the bars keep their length.
+    let share = state.atoms().div_ceil(seen.len().max(1) as u32);
+    let most = seen.iter().map(|(_, node)| node.done + node.left()).max().unwrap_or(0).max(2 * share).max(1) as f32;
     let over_all = state.finished().filter(|&end| end > Time::ZERO);
-    let row = |(node, of): (NodeId, &NodeState)| Row {
-        node,
+    let row = |(node, of): &(NodeId, Cow<'_, NodeState>)| Row {
+        node: *node,
         done: of.done,
         left: of.left(),
         done_bar: of.done as f32 / most,
         left_bar: (of.done + of.left()) as f32 / most,
         idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
-        activity: state.activity(node, now),
+        activity: state.activity(*node, now),
         speed: of.speed,
         paused: of.paused,
         rate: over_all.map_or_else(|| of.rate(now), |end| f64::from(of.done) / end.secs()),
     };
-    (0..).zip(state.nodes()).map(row).collect()
+    seen.iter().map(row).collect()
 }
 
 /// Who has done which part of all atoms, one after the other; what is missing to 1 is still to be done.

@@ -47,7 +47,7 @@ pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
     }
     words += &format!(". {machines} machines were done within {}", seconds(spread));
     if let Some(parts) = parts_words(state) {
-        words += &format!(": {parts}");
+        words += &format!(". {parts}");
     }
     words
 }
@@ -57,8 +57,8 @@ fn seconds(length: Duration) -> String {
     if length < Duration::from_millis(95) { duration(length) } else { format!("{:.1} s", length.as_secs_f64()) }
 }
 
-/// Who did most and least, and why; `None` if all did about the same.
-fn parts_words(state: &RunState) -> Option<String> {
+/// Who did most and least of the work, and why; `None` if all did about the same.
+pub fn parts_words(state: &RunState) -> Option<String> {
     let nodes = || (0..).zip(state.nodes());
     // Of equals the first is named.
     let (most, fast): (NodeId, _) = nodes().min_by_key(|(_, node)| Reverse(node.done))?;
@@ -67,7 +67,7 @@ fn parts_words(state: &RunState) -> Option<String> {
         return None;
     }
     let words = format!(
-        "{} traced most, {} {}, {} least, {} {}",
+        "{} traced most: {} {}; {} least: {} {}",
         node_name(most),
         atoms_words(fast.done),
         at_speed(state, fast),
@@ -143,10 +143,10 @@ mod tests {
         assert_eq!(ended(&[(1.0, 50, 1), (1.0, 51, 1)]), two);
         assert_eq!(
             ended(&[(0.1, 5, 1), (1.0, 50, 1)]),
-            format!("{two}: 2 traced most, 50 atoms at 100 %, 1 least, 5 at 10 %")
+            format!("{two}. 2 traced most: 50 atoms at 100 %; 1 least: 5 at 10 %")
         );
         let dearer = ended(&[(1.0, 50, 1), (1.0, 25, 2)]);
-        assert!(dearer.ends_with("2 least, 25 at 100 % (its atoms took longer)"), "{dearer}");
+        assert!(dearer.ends_with("2 least: 25 at 100 % (its atoms took longer)"), "{dearer}");
     }
 
     #[test]
@@ -161,6 +161,6 @@ mod tests {
             state.apply(&Record { at: Time::from_secs(at), what });
         }
         let words = result_words(&state, &OUTCOME);
-        assert!(words.ends_with("1 traced most, 1 atom at 100 %, 2 least, 0 at 50 % on average"), "{words}");
+        assert!(words.ends_with("1 traced most: 1 atom at 100 %; 2 least: 0 at 50 % on average"), "{words}");
     }
 }

@@ -49,6 +49,19 @@ impl Plan {
         self.node * Self::TRACK + self.track_width()
     }
 
+    /// The ends of the way between two nodes, or from the parent to a node: at their rims, so that nothing hides a
+    /// number.
+    pub(super) fn between(&self, from: Point, to: Point) -> (Point, Point) {
+        let bend = self.bend(from, to);
+        let towards = |start: Point, by: f32| {
+            let way = [bend[0] - start[0], bend[1] - start[1]];
+            let length = way[0].hypot(way[1]).max(1.0);
+            [start[0] + way[0] * by / length, start[1] + way[1] * by / length]
+        };
+        let start = if from == self.centre { self.parent } else { self.reach() };
+        (towards(from, start), towards(to, self.reach()))
+    }
+
     /// Radius of the room within the nodes.
     pub(super) fn interior(&self) -> f32 {
         self.seats - self.reach()

@@ -43,7 +43,8 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
     spokes(&plan, &mut marks);
     traffic::results(&plan, state, now, &mut marks);
     traffic::offers(&plan, state, now, &mut marks);
-    for (node, of) in (0..).zip(state.nodes()) {
+    for node in 0..state.nodes().len() as NodeId {
+        let of = &*state.seen(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
         machine(&plan, (node, of), activity, is_selected, &mut marks);
         if is_labelled(&plan, is_selected) {

@@ -1,5 +1,6 @@
 //! What is seen of a run at some time: what moves, and what each node does.
 
+use std::borrow::Cow;
 use std::time::Duration;
 
 use super::flight::{Cargo, Flight};
@@ -23,6 +24,19 @@ impl RunState {
         const FADE: Duration = Duration::from_millis(250);
         let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
         1.0 - (after.as_secs_f64() / FADE.as_secs_f64()).min(1.0) as f32
+    }
+
+    /// A node as it is seen at `now`: parcels are drawn slower than they travel, and what is in one that is still drawn
+    /// on its way does not count as the node's yet.
+    pub(super) fn seen(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
+        let state = &self.nodes[usize::from(node)];
+        let lands =
+            |flight: &&Flight| flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now);
+        let landing: u32 = match self.finished {
+            None => self.flights.iter().filter(lands).map(|flight| flight.cargo.atoms()).sum(),
+            Some(_) => 0,
+        };
+        if landing == 0 { Cow::Borrowed(state) } else { Cow::Owned(state.without(landing)) }
     }
 
     /// Whether atoms are on their way to a machine.

@@ -43,7 +43,7 @@ pub(super) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -
         _ => "is still busy".into(),
     };
     let atoms = if atoms == 1 { "one atom".into() } else { atoms_words(atoms) };
-    format!("{offerer} has finished and offers help; {giver} {busy}: gives it {atoms}")
+    format!("{giver} {busy}: it gives {atoms} to {offerer}, which has finished and offers help")
 }
 
 /// So slow that the others notice.

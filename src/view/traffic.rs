@@ -118,10 +118,14 @@ fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'
     let mut transfers = 0;
     let parcel = |flight: &'a Flight| {
         let (from, to, node) = match (flight.from, flight.to, &flight.cargo) {
-            (Party::Parent, Party::Node(to), Cargo::Band(_)) => (plan.centre, plan.seat(to), to),
+            (Party::Parent, Party::Node(to), Cargo::Band(_)) => {
+                let (from, to_rim) = plan.between(plan.centre, plan.seat(to));
+                (from, to_rim, to)
+            }
             (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
                 transfers += 1;
-                (plan.seat(from), plan.seat(to), from)
+                let (rim, to_rim) = plan.between(plan.seat(from), plan.seat(to));
+                (rim, to_rim, from)
             }
             _ => return None,
         };

@@ -70,6 +70,8 @@ pub fn notice(window: &Window) -> String {
 
 /// Presses the button of this name.
 pub fn press(window: &mut Window, name: &str) {
+    // What floats has its place only in its second frame.
+    window.run_steps(2);
     window.get_by_role_and_label(Role::Button, name).click();
     window.run_steps(3);
 }

@@ -70,20 +70,20 @@ fn a_machine_is_selected_and_changed_with_keys() {
     let mut window = open(SIZE);
     key(&mut window, Key::Plus);
     assert!(notice(&window).contains("select a machine"), "{}", notice(&window));
-    key(&mut window, Key::Num5);
-    assert_eq!(window.state().selected(), Some(4));
+    key(&mut window, Key::Num8);
+    assert_eq!(window.state().selected(), Some(7));
     key(&mut window, Key::Plus);
-    assert_eq!(session(&window).speed(4), 0.2);
+    assert_eq!(session(&window).speed(7), 0.2);
     for _ in 0..3 {
         key(&mut window, Key::Minus);
     }
-    assert_eq!(session(&window).speed(4), 0.0);
+    assert_eq!(session(&window).speed(7), 0.0);
     until(&mut window, "records", |window| speeds_set(window).len() == 3);
     key(&mut window, Key::P);
-    assert!(session(&window).is_node_paused(4));
+    assert!(session(&window).is_node_paused(7));
     key(&mut window, Key::Num9);
     assert_eq!(notice(&window), "There is no machine 9");
-    key(&mut window, Key::Num5);
+    key(&mut window, Key::Num8);
     assert_eq!(window.state().selected(), None);
     window.get_by_label("Node 3").click();
     window.run_steps(2);

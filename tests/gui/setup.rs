@@ -27,7 +27,7 @@ fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
     press(&mut window, "All equal");
-    until(&mut window, "a record", |window| speeds_set(window) == [(4, 1.0)]);
+    until(&mut window, "a record", |window| speeds_set(window) == [(7, 1.0)]);
     press(&mut window, "Old laboratory");
     until(&mut window, "records", |window| session(window).stage().state.nodes()[6].speed == 0.21);
     press(&mut window, "Random");
@@ -38,7 +38,7 @@ fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     type_number(&mut window, "Seed", "1");
     assert_eq!(session(&window).settings().speeds, random);
     press(&mut window, "One slow");
-    until(&mut window, "a record", |window| session(window).stage().state.nodes()[4].speed == 0.1);
+    until(&mut window, "a record", |window| session(window).stage().state.nodes()[7].speed == 0.1);
     // It is still the same run.
     assert!(done(&window) > 100);
 }

@@ -115,7 +115,7 @@ impl Session {
         if self.stage.phase == Phase::Preparing {
             self.open("ten-objects");
         }
-        self.trouble(why);
+        self.trouble(format!("Not opened. {why}"));
     }
 
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {

@@ -244,7 +244,7 @@ fn told(path: &Path, saved: Result<(), OutputError>) -> Result<String, String> {
 
 fn thumbnail(scene: &Scene) -> Thumbnail {
     // Neither side is 0, and there are few pixels.
-    let size = Size::new(224, 168).expect("a possible size");
+    let size = Size::new(400, 300).expect("a possible size");
     let tracer = tracer(scene, size, 2);
     let (mut pixels, mut frame) = (Vec::new(), Frame::new(size));
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);

@@ -209,9 +209,9 @@ impl Session {
         self.recorded.is_some()
     }
 
-    /// The run's clock.
+    /// The run's clock, the same for a whole frame.
     pub fn now(&self) -> Time {
-        self.stage.performer.now()
+        self.stage.now
     }
 
     /// The speed that a node has or is about to have.

@@ -5,7 +5,7 @@ use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
 use crate::runlog::{Header, RunLog, metrics};
 use crate::time::Time;
-use crate::view::{Canvas, Narrator, Outcome, RunState, result_words};
+use crate::view::{Canvas, Narrator, Outcome, RunState, parts_words, result_words};
 
 use super::performer::Performer;
 
@@ -15,6 +15,8 @@ pub struct Stage {
     pub performer: Performer,
     /// How far it is.
     pub phase: Phase,
+    /// Its clock, as of the last tick: everything in a frame shows the same time.
+    pub now: Time,
     /// Whether its clock stands still because it was asked to.
     pub paused: bool,
     /// Which machines were asked to stand still.
@@ -32,6 +34,8 @@ pub struct Stage {
     pub outcome: Option<Outcome>,
     /// The same in words.
     pub result: String,
+    /// Who did most and least of it.
+    pub parts: String,
     /// The nodes' colours.
     pub colours: Vec<Rgb>,
 }
@@ -57,6 +61,7 @@ impl Stage {
         Self {
             phase: if matches!(performer, Performer::Nobody) { Phase::Preparing } else { Phase::Running },
             performer,
+            now: Time::ZERO,
             paused: false,
             paused_nodes: vec![false; nodes],
             state: RunState::new(&header),
@@ -65,6 +70,7 @@ impl Stage {
             canvas: Canvas::new(header.size, header.division, colours.clone(), ground),
             outcome: None,
             result: String::new(),
+            parts: String::new(),
             log: RunLog::new(header),
             colours,
         }
@@ -72,6 +78,7 @@ impl Stage {
 
     /// Takes in what has happened since the last call. Returns whether the run has just come to its end.
     pub fn tick(&mut self) -> bool {
+        self.now = self.performer.now();
         // One batch for the log, which would else sort its end for each party's.
         let (mut told, mut ends) = (Vec::new(), false);
         while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
@@ -102,7 +109,9 @@ impl Stage {
         self.log.add(told);
         if ends {
             self.outcome = outcome(&self.log);
+            // Sums over all atoms, so not for every frame.
             self.result = self.outcome.map(|outcome| result_words(&self.state, &outcome)).unwrap_or_default();
+            self.parts = parts_words(&self.state).unwrap_or_default();
         }
         for atoms in self.state.take_touched() {
             self.canvas.paint(atoms, &self.state);
@@ -119,7 +128,7 @@ impl Stage {
     /// The run's clock; it stops when the picture is complete, or nothing more happens.
     pub fn lasted(&self) -> Time {
         let end = (self.phase == Phase::Finished).then(|| self.state.head());
-        self.state.finished().or(end).unwrap_or_else(|| self.performer.now())
+        self.state.finished().or(end).unwrap_or(self.now)
     }
 }
 
