@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{Align2, Color32, ColorImage, Key, Label, Rect, RichText, ScrollArea, Sense, StrokeKind, TextEdit};
+use egui::{Align2, Color32, ColorImage, Label, Rect, RichText, ScrollArea, Sense, StrokeKind};
 use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
@@ -10,7 +10,7 @@ use super::save_bar::resolve;
 use super::session::jobs::Thumbnail;
 use super::session::{Purpose, Session};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button};
+use super::widgets::{Weight, button, path_field};
 use crate::scene::BUILT_IN;
 
 /// The page of scenes.
@@ -116,21 +116,12 @@ impl Gallery {
             ui.label(RichText::new("Scenes").font(theme::strong(theme::LARGE)).color(look.text));
             ui.add_space(GRID);
             let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
-            let hint = RichText::new("path of a scene (.ron) or of a recorded run (.anel)").color(look.quiet);
-            let field = TextEdit::singleline(&mut self.path)
-                .desired_width(width)
-                .hint_text(hint)
-                .margin(vec2(GRID, 0.75 * GRID));
-            let field = ui.add(field);
-            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "What to open"));
-            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if std::mem::take(&mut self.wants_focus) || entered {
-                field.request_focus();
-            }
-            if field.changed() {
+            let hint = "path of a scene (.ron) or of a recorded run (.anel)";
+            let field = path_field(ui, (&mut self.path, hint), width, "What to open", &mut self.wants_focus);
+            if field.changed {
                 self.trouble = None;
             }
-            if button(ui, None, "Open", true, Weight::Primary).clicked() || entered {
+            if button(ui, None, "Open", true, Weight::Primary).clicked() || field.entered {
                 match resolve(&self.path, std::env::home_dir()) {
                     Ok(path) => {
                         self.open = false;

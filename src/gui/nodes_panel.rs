@@ -49,7 +49,7 @@ fn head(ui: &Ui, places: &Places, look: Look) {
     };
     words(places.slider.left(), Align2::LEFT_CENTER, "speed");
     if let Some(bar) = places.bar {
-        words(bar.left(), Align2::LEFT_CENTER, "atoms");
+        words(bar.left(), Align2::LEFT_CENTER, "progress");
     }
     for (x, text) in
         [(places.done, "done"), (Some(places.left), "left"), (places.rate, "atoms/s"), (places.idle, "idle")]

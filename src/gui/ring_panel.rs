@@ -69,7 +69,11 @@ fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: 
 
 /// What there is to know of the drawing itself, in its lower right corner.
 fn corner(painter: &Painter, rect: Rect, latency: Duration, look: Look) {
-    let lines = [format!("{} a hop", duration(latency)), "parcels drawn slower than they travel".to_owned()];
+    let lines = [
+        "some atoms take longer than others".to_owned(),
+        format!("an offer takes {} a hop", duration(latency)),
+        "parcels are drawn slower than they travel".to_owned(),
+    ];
     let galleys = lines.map(|line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet));
     // Where the corner is narrow the second line would run into the lowest node's label.
     let room = rect.width() / 2.0 - 64.0;

@@ -85,7 +85,7 @@ impl Places {
     /// The parts of a row of this width.
     pub fn new(row: Rect) -> Self {
         const NUMBER: f32 = 7.0 * GRID;
-        let rate_width = if row.height() < 4.0 * GRID { 6.5 } else { 7.5 } * GRID;
+        let rate_width = if row.height() < 4.0 * GRID { 6.5 } else { 8.0 } * GRID;
         let within = |left: f32, width: f32, height: f32| {
             Rect::from_min_size(pos2(left, row.center().y - height / 2.0), vec2(width, height))
         };

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{ComboBox, Key, Label, RichText, TextEdit, Ui, WidgetInfo};
+use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
 use super::icons::Icon;
 use super::session::{Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button};
+use super::widgets::{Weight, button, path_field};
 use crate::output::check_writable;
 use crate::runlog::Header;
 
@@ -88,18 +88,11 @@ impl SaveBar {
             self.suggest(session);
             ui.label(quiet("as"));
             let width = (ui.available_width() - 27.0 * GRID).max(20.0 * GRID);
-            let field = TextEdit::singleline(&mut self.path).desired_width(width).margin(egui::vec2(GRID, 0.75 * GRID));
-            let field = ui.add(field);
-            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Where to save"));
-            // A field gives up the focus on Enter; but whoever has mistyped goes on typing.
-            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if std::mem::take(&mut self.wants_focus) || entered {
-                field.request_focus();
-            }
-            if field.changed() {
+            let field = path_field(ui, (&mut self.path, ""), width, "Where to save", &mut self.wants_focus);
+            if field.changed {
                 (self.warned, self.trouble) = (None, None);
             }
-            if button(ui, None, "Save", true, Weight::Primary).clicked() || entered {
+            if button(ui, None, "Save", true, Weight::Primary).clicked() || field.entered {
                 self.save(session, blend);
             }
             if button(ui, None, "Browse…", true, Weight::Quiet).clicked() {

@@ -107,14 +107,14 @@ fn what(ui: &Ui, session: &Session) -> String {
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");
     let (atoms, pixels) = (count(header.division.atoms()), header.division.atom_pixels());
-    let all = format!("{size} in {atoms} atoms of {pixels}");
+    let all = format!("{size} in {atoms} atoms of {pixels} pixels");
     let fits = |text: &String| {
-        let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::BODY), Color32::PLACEHOLDER);
+        let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::SMALL), Color32::PLACEHOLDER);
         galley.size().x <= ui.available_width()
     };
     [all, size, machines].into_iter().find(fits).unwrap_or_default()
 }
 
 fn quiet(text: String, colour: Color32) -> RichText {
-    RichText::new(text).font(theme::regular(theme::BODY)).color(colour)
+    RichText::new(text).font(theme::regular(theme::SMALL)).color(colour)
 }

@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 
 use egui::{
-    Color32, DragValue, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Color32, DragValue, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::icons::{self, Icon};
@@ -89,6 +90,34 @@ pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, on: T, all: &[(T, &str, &str)]) 
         }
     });
     pressed
+}
+
+/// What was done with a field of text.
+pub struct Typed {
+    /// Something was typed.
+    pub changed: bool,
+    /// Enter was pressed.
+    pub entered: bool,
+}
+
+/// A field for a path, with a hint while it is empty. It gets the focus if it `wants_focus`, and keeps it on Enter:
+/// whoever has mistyped goes on typing. `name` is its accessible name.
+pub fn path_field(
+    ui: &mut Ui,
+    (path, hint): (&mut String, &str),
+    width: f32,
+    name: &str,
+    wants_focus: &mut bool,
+) -> Typed {
+    let hint = RichText::new(hint).color(Look::of(ui.ctx()).quiet);
+    let field = TextEdit::singleline(path).desired_width(width).hint_text(hint).margin(vec2(GRID, 0.75 * GRID));
+    let field = ui.add(field);
+    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    if std::mem::take(wants_focus) || entered {
+        field.request_focus();
+    }
+    Typed { changed: field.changed(), entered }
 }
 
 /// A slim slider, in steps of 1 if `whole`, its filled part in `colour`. `name` is its accessible name.

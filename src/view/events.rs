@@ -67,8 +67,9 @@ impl Events {
             }
             What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
                 // Later offers are told by what comes of them.
-                if state.nodes().get(usize::from(*who)).is_some_and(|node| node.offers == 1) {
-                    self.tell(at, Event::Offer(*who), sentences::offer(*who, true, *done));
+                if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
+                    let whole = node.given.atoms == 0;
+                    self.tell(at, Event::Offer(*who), sentences::offer(*who, whole, *done));
                 }
             }
             What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {

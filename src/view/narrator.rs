@@ -123,7 +123,7 @@ mod tests {
         let says = |part: &str| heard.iter().any(|sentence| sentence.contains(part));
         assert!(says("The parent gives each of 3 machines an equal band"), "{heard:#?}");
         assert!(says("3 machines compute; 3 is slow (10 %)"), "{heard:#?}");
-        assert!(says("3 is slow (10 %): it gives "), "{heard:#?}");
+        assert!(says("from 3, which is slow (10 %)"), "{heard:#?}");
         assert_eq!(heard.last().map(String::as_str), Some("The picture is complete"));
         assert!(heard.iter().all(|sentence| sentence.chars().count() <= 95), "{heard:#?}");
     }
@@ -160,10 +160,10 @@ mod tests {
             narrator.apply(&Record { at, what }, &state);
             narrator.sentence(&state, at)
         };
-        assert!(say(0, 1, 20).starts_with("2 is still busy: it gives 20 atoms to "));
-        assert!(say(100, 1, 30).contains("gives 20 atoms"));
-        assert!(say(200, 2, 200).starts_with("3 is slow (10 %): it gives 200 atoms to "));
-        assert!(say(300, 1, 20).contains("gives 200 atoms"));
+        assert!(say(0, 1, 20).ends_with("takes over 20 atoms from 2, which is still busy"));
+        assert!(say(100, 1, 30).contains("takes over 20 atoms"));
+        assert!(say(200, 2, 200).ends_with("takes over 200 atoms from 3, which is slow (10 %)"));
+        assert!(say(300, 1, 20).contains("takes over 200 atoms"));
     }
 
     #[test]

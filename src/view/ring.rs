@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_parcel_is_found_where_it_is_drawn() {
-        let (state, now) = moment(&[1.0, 1.0, 0.1], 0.5);
+        let (state, now) = moment(&[1.0, 1.0, 0.1], 0.7);
         let marks = ring(&state, &Overlay::default(), now, SIZE);
         let label = |mark: &Mark| match mark {
             Mark::Label { at, text, .. } if text.starts_with('×') => Some((*at, text.clone())),
@@ -290,6 +290,8 @@ mod tests {
     #[test]
     fn a_pause_the_selection_and_the_pipe_are_seen() {
         let (mut state, now) = moment(&[1.0, 1.0, 0.1], 0.4);
+        // The bands have left each other by then, and so have their counts.
+        let now = now + Duration::from_millis(400);
         // Slots are as high as wide, bars higher, parcels wider.
         let boxes = |marks: &[Mark], shape: Ordering| {
             let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);

@@ -23,13 +23,13 @@ pub(super) fn bands(state: &RunState, first: &Range<Atom>) -> String {
     }
 }
 
-/// A machine that has nothing left to trace offers help, for the first time or again.
-pub(super) fn offer(who: NodeId, first: bool, done: u32) -> String {
+/// A machine that has nothing left to trace offers help; `whole` if it has traced its whole band itself.
+pub(super) fn offer(who: NodeId, whole: bool, done: u32) -> String {
     let name = node_name(who);
-    match (first, done) {
+    match (whole, done) {
         (_, 0) => format!("{name} has nothing to trace and offers help round the ring"),
         (true, _) => format!("{name} has finished its band and offers help round the ring"),
-        (false, _) => format!("{name} has finished and offers help round the ring"),
+        (false, _) => format!("{name} has no atoms left and offers help round the ring"),
     }
 }
 
@@ -43,7 +43,7 @@ pub(super) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -
         _ => "is still busy".into(),
     };
     let atoms = if atoms == 1 { "one atom".into() } else { atoms_words(atoms) };
-    format!("{giver} {busy}: it gives {atoms} to {offerer}, which has finished and offers help")
+    format!("{offerer} has finished and takes over {atoms} from {giver}, which {busy}")
 }
 
 /// So slow that the others notice.

@@ -129,8 +129,10 @@ fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'
             }
             _ => return None,
         };
-        let is_followed = transfers <= FOLLOWED;
-        let strength = if is_followed { 1.0 } else { HINT };
+        // Bands begin in a heap: each has its count once it has left it.
+        let in_heap = matches!(flight.cargo, Cargo::Band(_)) && flight.progress(now) < CLEAR;
+        let is_followed = transfers <= FOLLOWED && !in_heap;
+        let strength = if is_followed || in_heap { 1.0 } else { HINT };
         Some(Parcel { flight, from, to, node, is_followed, strength: strength * seen_at(state, flight, now) })
     };
     flights.into_iter().filter_map(parcel).collect()
@@ -177,3 +179,5 @@ impl Parcel<'_> {
 /// People follow four to six things at a time: more of a kind are only hinted at.
 const FOLLOWED: usize = 6;
 const HINT: f32 = 0.3;
+/// How far bands are on their way when they have left each other.
+const CLEAR: f32 = 0.45;
