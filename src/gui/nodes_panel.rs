@@ -28,11 +28,11 @@ pub fn show(ui: &mut Ui, session: &mut Session, selected: &mut Option<NodeId>) {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
         for column in 0..grid.columns {
             let corner = area.min + vec2(grid.left(column), 0.0);
-            head(ui, &Places::new(Rect::from_min_size(corner, vec2(grid.width, HEAD))), look);
+            head(ui, &Places::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()), look);
         }
         for (i, row) in rows.iter().enumerate() {
             let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
-            let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)));
+            let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
             if background(ui, &places, row, *selected == Some(row.node), look) {
                 *selected = if *selected == Some(row.node) { None } else { Some(row.node) };
             }
@@ -87,7 +87,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     painter.rect_filled(chip, 6.0, colour);
     let ink = theme::colour(text_on(own));
     let name = node_name(row.node).to_string();
-    let size = if places.is_dense() { theme::SMALL } else { theme::BODY };
+    let size = if places.is_dense { theme::SMALL } else { theme::BODY };
     painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(size), ink);
     let number = |x: Option<f32>, text: String, colour: Color32| {
         if let Some(x) = x {

@@ -76,16 +76,18 @@ pub struct Places {
     pub idle: Option<f32>,
     /// The left end of what it does.
     pub activity: f32,
+    /// Whether rows stand close, so that text has to be small.
+    pub is_dense: bool,
 }
 
 impl Places {
     /// The least width of a row.
     pub const LEAST: f32 = 42.0 * GRID;
 
-    /// The parts of a row of this width.
-    pub fn new(row: Rect) -> Self {
+    /// The parts of a row of this width, or of the line above such rows.
+    pub fn new(row: Rect, is_dense: bool) -> Self {
         const NUMBER: f32 = 7.0 * GRID;
-        let rate_width = if row.height() < 4.0 * GRID { 6.5 } else { 8.0 } * GRID;
+        let rate_width = if is_dense { 6.5 } else { 8.0 } * GRID;
         let within = |left: f32, width: f32, height: f32| {
             Rect::from_min_size(pos2(left, row.center().y - height / 2.0), vec2(width, height))
         };
@@ -116,12 +118,7 @@ impl Places {
         right -= if has_done { NUMBER } else { 0.0 };
         let bar = within(pause.right() + 1.5 * GRID, (right - pause.right() - 2.0 * GRID).max(0.0), GRID);
         let bar = (has_bar && bar.width() > 4.0 * GRID).then_some(bar);
-        Self { row, slider, speed, pause, bar, done, left, rate, idle, activity }
-    }
-
-    /// Whether text has to be small.
-    pub fn is_dense(&self) -> bool {
-        self.row.height() < 4.0 * GRID
+        Self { row, slider, speed, pause, bar, done, left, rate, idle, activity, is_dense }
     }
 
     /// The side of what is square.
@@ -139,7 +136,7 @@ mod tests {
         #[test]
         fn nothing_overlaps_in_a_row_of_any_width(width in Places::LEAST..900.0f32) {
             let row = Rect::from_min_size(pos2(16.0, 100.0), vec2(width, 4.0 * GRID));
-            let places = Places::new(row);
+            let places = Places::new(row, false);
             // The numbers take at most six digits' room to the left of their ends.
             let numbers = [places.done, Some(places.left), places.rate, places.idle];
             let ends: Vec<f32> = numbers.into_iter().flatten().collect();
