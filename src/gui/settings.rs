@@ -76,7 +76,7 @@ impl Settings {
     /// In milliseconds.
     pub const MOST_LATENCY: u32 = 2000;
     /// Of a side of the picture, in pixels.
-    pub const LONGEST_SIDE: u32 = 8192;
+    pub const LONGEST_SIDE: u32 = 4096;
     /// Of a run in the window, which keeps every record.
     pub const MOST_ATOMS: u32 = 1 << 18;
     /// Seconds that a run may be asked to last.

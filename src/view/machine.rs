@@ -8,6 +8,8 @@ use super::plan::Plan;
 use super::words::node_name;
 use crate::balance::NodeId;
 
+/// From this radius on a machine's number can be read.
+const NUMBER_SEEN: f32 = 4.0;
 /// Below this radius of a node what its pipe holds could not be told.
 const PIPE_SEEN: f32 = 20.0;
 
@@ -40,13 +42,15 @@ pub(super) fn machine(
         _ => {}
     }
     let has_pipe = plan.node >= PIPE_SEEN && !matches!(activity, Activity::Retired | Activity::Done);
-    marks.push(Mark::Label {
-        at: [centre[0], centre[1] - if has_pipe { 0.2 * radius } else { 0.0 }],
-        anchor: Anchor::Centre,
-        text: node_name(node).to_string(),
-        size: TextSize::Fit((0.86 * plan.node).min(1.05 * radius)),
-        ink: hue.full(),
-    });
+    if plan.node >= NUMBER_SEEN {
+        marks.push(Mark::Label {
+            at: [centre[0], centre[1] - if has_pipe { 0.2 * radius } else { 0.0 }],
+            anchor: Anchor::Centre,
+            text: node_name(node).to_string(),
+            size: TextSize::Fit((0.86 * plan.node).min(1.05 * radius)),
+            ink: hue.full(),
+        });
+    }
     if has_pipe {
         pipe(plan, [centre[0], centre[1] + 0.55 * radius], of, hue, marks);
     }

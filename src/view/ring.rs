@@ -76,12 +76,16 @@ pub fn parcel_at(state: &RunState, now: Time, size: Point, point: Point) -> Opti
     traffic::parcel_at(&Plan::new(state.nodes().len(), size), state, now, point)
 }
 
+/// Arrowheads on the rail, and spokes.
+const MOST_LINES: usize = 64;
+
 fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
     let ink = Hue::Hairline.full();
     marks.push(Mark::Line { points: Plan::arc(plan.centre, plan.rail, 0.0, TAU), width: 1.5, ink });
     // Arrowheads half-way between neighbours say which way offers go.
     let wing = (plan.rail * 0.022).clamp(3.0, 8.0);
-    for node in 0..plan.nodes {
+    // As many as can be told apart.
+    for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
         let angle = plan.angle(node as NodeId) - plan.step() / 2.0;
         let back = wing / plan.rail;
         let points = vec![
@@ -95,7 +99,7 @@ fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
 
 /// The ways between parent and nodes.
 fn spokes(plan: &Plan, marks: &mut Vec<Mark>) {
-    for node in 0..plan.nodes {
+    for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
         let angle = plan.angle(node as NodeId);
         let (inner, outer) = (plan.at(angle, plan.parent), plan.at(angle, plan.seats - plan.node * 1.3));
         marks.push(Mark::Line { points: vec![inner, outer], width: 1.0, ink: Hue::Hairline.faint(0.7) });

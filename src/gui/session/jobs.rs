@@ -135,6 +135,7 @@ impl Jobs {
                     Ok(Ready::Scene(Prepared { opened, tracer, size, samples, work }))
                 }
                 Opening::Run(log) => {
+                    check_size(log.header.size)?;
                     let scene = Scene::parse(&log.header.scene_text);
                     let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
                     let tracer = tracer(&scene, log.header.size, log.header.samples);
@@ -229,6 +230,15 @@ const LOOK: Duration = Duration::from_millis(700);
 
 fn tracer(scene: &Scene, size: Size, samples: u32) -> Arc<Tracer> {
     Arc::new(Tracer::new(scene, size, Quality { samples, ..Quality::default() }))
+}
+
+/// Whether a window can hold a recorded picture.
+fn check_size(size: Size) -> Result<(), String> {
+    let most = Settings::LONGEST_SIDE * Settings::LONGEST_SIDE;
+    if size.pixels() <= most {
+        return Ok(());
+    }
+    Err(format!("This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels"))
 }
 
 /// What a file looked like; `None` if there is none.
