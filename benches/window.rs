@@ -10,7 +10,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use anel::gui::{App, Launch, Opening, Phase};
-use anel::runlog::{RunLog, metrics};
+use anel::runlog::{RunLog, Tally};
 use cpu_time::ThreadTime;
 use egui::Key;
 use egui_kittest::Harness;
@@ -151,7 +151,7 @@ fn at_rest(display: &Display) {
 
 fn makespan(log: &Path) -> f64 {
     let log = RunLog::load(log).expect("a run file");
-    metrics::makespan(log.records()).expect("a whole run").as_secs_f64()
+    Tally::of(&log).makespan().expect("a whole run").as_secs_f64()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

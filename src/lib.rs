@@ -18,21 +18,25 @@ pub mod csg; // primitives, boolean spans along a ray, bounds
 
 // Floor 3: what goes in, and what comes out.
 pub mod record; // what can happen in a run
+pub mod scenario; // what is done to a run while it goes on
 pub mod scene; // scene, camera, light, material, the scene file, the built-in scenes
 
 // Floor 4: made of what lies below.
 pub mod runlog; // a run's header, its file, its metrics
 pub mod tracer; // a scene compiled to what it needs, and the article's equation
 
-// Floor 5: two ends that never name each other.
+// Floor 5: machines and links as they are emulated.
+pub mod sim; // machines, links, and whole runs in virtual time
+
+// Floor 6: two ends that never name each other.
 pub mod driver; // executes the protocol on threads, as emulated machines on links
 pub mod view; // pure functions from records to what is drawn; no egui
 
-// Floor 6: what leaves the program.
+// Floor 7: what leaves the program.
 pub mod export; // scenes for POV-Ray
 
-// Floor 7: what the user sees.
+// Floor 8: what the user sees.
 pub mod gui; // the window: paints what `view` returns
 
-// Floor 8: what the user types.
+// Floor 9: what the user types.
 pub mod cli; // arguments, the headless commands

@@ -45,6 +45,8 @@ pub enum What {
         /// The receiver.
         by: Party,
     },
+    /// The parent begins to sample what the picture costs; when it has done so, it sends the bands.
+    Estimating,
     /// A worker began an atom.
     AtomStarted {
         /// Whose worker.

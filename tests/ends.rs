@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use anel::balance::{Message, NodeId, Party, Strategy};
 use anel::driver::{Replay, Run, Update};
-use anel::picture::{Colour, Division, Size};
+use anel::picture::{Colour, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Header, Link, RunLog};
 use anel::time::Time;
@@ -34,21 +34,10 @@ fn fifty_of_each_in_a_row_leave_nothing_running() {
 
 fn header(number: u32) -> Header {
     let size = Size::new(1000, 100).expect("a size");
-    Header {
-        scene: "endless".into(),
-        scene_text: String::new(),
-        size,
-        samples: 1,
-        division: Division::new(size.pixels(), [10, 50_000][number as usize % 2]),
-        strategy: Strategy::Ring,
-        // Every third node stands still from the start.
-        speeds: (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect(),
-        pace: 1.0,
-        link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, bandwidth: None },
-        handling: Duration::ZERO,
-        part: 1,
-        cores: 2,
-    }
+    // Every third node stands still from the start.
+    let speeds = (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect();
+    let plain = Header::plain(size, [10, 50_000][number as usize % 2], Strategy::Ring, speeds);
+    Header { link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link }, ..plain }
 }
 
 /// The whole picture would take three minutes.

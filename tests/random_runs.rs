@@ -8,13 +8,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use anel::balance::{Action, Message, NodeId, Party, Strategy};
+use anel::balance::{NodeId, Rules, Strategy};
 use anel::driver::{Run, Update};
 use anel::picture::{Atom, Colour, Division, Size};
 use anel::record::What;
-use anel::runlog::{Header, Link, RunLog, metrics};
+use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::scenario::Command;
+use anel::time::Time;
 use anel::tracer::Scratch;
-use virtual_time::Setup;
 
 const MS: Duration = Duration::from_millis(1);
 
@@ -63,30 +64,41 @@ fn with_seeds(seeds: Range<u64>, test: impl Fn(&mut Random)) {
 fn nine_hundred_in_virtual_time() {
     with_seeds(0..900, |random| {
         let nodes = random.one_of(&[1, 2, 3, 4, 7, 8, 16, 32]);
-        let mut swings = Vec::new();
+        let mut script = Vec::new();
         for _ in 0..random.below(8) {
             let (at, node) = (random.below(3000) as f64 * 1e-3, random.below(nodes) as NodeId);
             // A node that stops goes on again some time.
-            swings.push((at, node, random.one_of(&[0.0, 0.1, 1.0])));
-            swings.push((3.0 + at, node, random.speed()));
+            script.push((Time::from_secs(at), Command::Speed { node, speed: random.one_of(&[0.0, 0.1, 1.0]) }));
+            script.push((Time::from_secs(3.0 + at), Command::Speed { node, speed: random.speed() }));
+            script.push((Time::from_secs(at), Command::Pause { node, paused: random.below(2) == 0 }));
+            script.push((Time::from_secs(4.0 + at), Command::Pause { node, paused: false }));
+            script.push((Time::from_secs(at), Command::Latency(random.one_of(&[0, 2, 300]) * MS)));
         }
         let costs: [fn(Atom) -> f64; 3] =
             [|_| 1e-3, |atom| if atom < 20 { 0.05 } else { 1e-5 }, |atom| f64::from(atom % 7) * 1e-3];
-        let setup = Setup {
-            // Often fewer atoms than nodes.
-            division: Division::new(1 + random.below(500) as u32, 1 + random.below(50) as u32),
-            speeds: (0..nodes).map(|_| random.speed()).collect(),
-            swings,
-            cost: random.one_of(&costs),
-            latency: random.one_of(&[0, 1, 40, 1000]) * MS,
-            part: random.one_of(&[0, 1, 1, 5]),
+        // Often fewer atoms than nodes.
+        let size = Size::new(1 + random.below(50) as u32, 1 + random.below(10) as u32).unwrap();
+        let speeds: Vec<f64> = (0..nodes).map(|_| random.speed()).collect();
+        let plain = Header::plain(size, 1 + random.below(50) as u32, random.one_of(&Strategy::ALL), speeds);
+        let header = Header {
+            rules: Rules {
+                part: random.one_of(&[0, 1, 1, 5, plain.rules.part]),
+                batch: random.one_of(&[None, Some(Duration::ZERO), Some(Rules::BATCH)]),
+                ..plain.rules
+            },
+            pace: random.one_of(&[1.0, 0.3]),
+            link: Link {
+                latency: random.one_of(&[0, 1, 40, 1000]) * MS,
+                bandwidth: random.one_of(&[None, Some(1e4), Some(1e6)]),
+                shared: random.below(2) == 0,
+            },
+            handling: random.one_of(&[0, 0, 1, 20]) * MS,
+            ..plain
         };
-        let outcome = virtual_time::run(&setup);
-        let results = outcome.log.iter().filter_map(|(_, _, action)| match action {
-            Action::Send { to: Party::Parent, message: Message::Results(ranges) } => Some(ranges.clone()),
-            _ => None,
-        });
-        assert_each_once(results.flatten(), setup.division);
+        let cost = random.one_of(&costs);
+        let log = virtual_time::run(&header, &script, cost);
+        assert_stands_still(&log);
+        assert_eq!(virtual_time::run(&header, &script, cost), log, "the same run is another");
     });
 }
 
@@ -95,16 +107,18 @@ fn one_hundred_on_threads() {
     with_seeds(0..100, |random| {
         let size = Size::new(1 + random.below(40) as u32, 1 + random.below(20) as u32).unwrap();
         let speeds = (0..random.one_of(&[1, 2, 3, 5, 8, 20])).map(|_| random.speed()).collect();
+        let plain = Header::plain(size, random.one_of(&[1, 10, 50, 1000]), random.one_of(&Strategy::ALL), speeds);
         let header = Header {
-            strategy: random.one_of(&[Strategy::Ring, Strategy::Ring, Strategy::Ring, Strategy::Serial]),
+            driver: random.one_of(&[Driver::Threads, Driver::Threads, Driver::Sim]),
+            rules: Rules { part: random.one_of(&[1, 3, plain.rules.part]), ..plain.rules },
             pace: random.one_of(&[1.0, 0.5]),
             link: Link {
                 latency: random.one_of(&[0, 0, 1, 5]) * MS,
                 bandwidth: random.one_of(&[None, None, Some(1e7)]),
+                shared: random.below(2) == 0,
             },
             handling: random.one_of(&[0, 0, 100]) * Duration::from_micros(1),
-            part: random.one_of(&[1, 1, 3]),
-            ..header(size, random.one_of(&[1, 10, 50, 1000]), speeds)
+            ..plain
         };
         // All the cost in one corner.
         let run =
@@ -257,9 +271,9 @@ fn finish(run: &Run, header: &Header) -> RunLog {
     let mut placed = Vec::new();
     while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
     assert_each_once(placed.into_iter(), header.division);
-    let traced: u32 = metrics::atoms_by_node(header, log.records()).iter().sum();
-    assert_eq!(traced, header.division.atoms());
-    assert!(metrics::makespan(log.records()).is_some());
+    let tally = Tally::of(&log);
+    assert_eq!(tally.atoms_by_node().iter().sum::<u32>(), header.division.atoms());
+    assert!(tally.makespan().is_some());
     log
 }
 
@@ -318,18 +332,5 @@ fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Divisio
 
 /// Machines of these speeds at full pace, on perfect links.
 fn header(size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
-    Header {
-        scene: "random".into(),
-        scene_text: "x".repeat(100),
-        size,
-        samples: 1,
-        division: Division::new(size.pixels(), atom_pixels),
-        strategy: Strategy::Ring,
-        speeds,
-        pace: 1.0,
-        link: Link { latency: Duration::ZERO, bandwidth: None },
-        handling: Duration::ZERO,
-        part: 1,
-        cores: 2,
-    }
+    Header::plain(size, atom_pixels, Strategy::Ring, speeds)
 }

@@ -89,20 +89,8 @@ fn received(log: &RunLog) -> Vec<Atom> {
 
 fn header(speeds: &[f64]) -> Header {
     let size = Size::new(80, 50).unwrap();
-    Header {
-        scene: "csg-primer".into(),
-        scene_text: String::new(),
-        size,
-        samples: 1,
-        division: Division::new(size.pixels(), 40),
-        strategy: Strategy::Ring,
-        speeds: speeds.to_vec(),
-        pace: 1.0,
-        link: Link { latency: MS, bandwidth: None },
-        handling: Duration::ZERO,
-        part: 1,
-        cores: 2,
-    }
+    let plain = Header::plain(size, 40, Strategy::Ring, speeds.to_vec());
+    Header { scene: "csg-primer".into(), link: Link { latency: MS, ..plain.link }, ..plain }
 }
 
 fn tracer(header: &Header) -> Arc<Tracer> {

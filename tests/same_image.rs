@@ -1,12 +1,11 @@
 //! However the work is shared, the picture is that of a plain loop over all pixels, byte for byte.
 
 use std::sync::Arc;
-use std::time::Duration;
 
 use anel::balance::Strategy;
 use anel::driver::{Run, Update};
-use anel::picture::{Colour, Division, Frame, Size};
-use anel::runlog::{Header, Link};
+use anel::picture::{Colour, Frame, Size};
+use anel::runlog::Header;
 use anel::scene::{Scene, built_in};
 use anel::tracer::{Quality, Scratch, Tracer};
 
@@ -68,18 +67,5 @@ fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
 }
 
 fn header(strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
-    Header {
-        scene: "ten-objects".into(),
-        scene_text: String::new(),
-        size,
-        samples: 1,
-        division: Division::new(size.pixels(), atom_pixels),
-        strategy,
-        speeds,
-        pace: 1.0,
-        link: Link { latency: Duration::ZERO, bandwidth: None },
-        handling: Duration::ZERO,
-        part: 1,
-        cores: 2,
-    }
+    Header { scene: "ten-objects".into(), ..Header::plain(size, atom_pixels, strategy, speeds) }
 }

@@ -25,6 +25,10 @@ pub enum Party {
 pub enum Message {
     /// The parent gives a node the scene and its first share; it may be empty.
     Band(Range<Atom>),
+    /// In a farm: the sender has no more atoms and asks the parent for some.
+    Request,
+    /// In a farm: the parent's answer, consecutive atoms; an empty one says that there are no more.
+    Part(Range<Atom>),
     /// The token: `who` is done, and has traced `done` atoms since the start.
     Offer {
         /// The node that offers; the sender is another node where the offer is passed on.
@@ -50,7 +54,8 @@ impl Message {
         ENVELOPE
             + match self {
                 Self::Band(_) => RANGE + scene_bytes,
-                Self::Offer { .. } | Self::Shutdown => 0,
+                Self::Part(_) => RANGE,
+                Self::Offer { .. } | Self::Request | Self::Shutdown => 0,
                 Self::Transfer(ranges) => RANGE * ranges.len() as u64,
                 Self::Results(ranges) => {
                     let pixels = ranges.iter().map(|range| u64::from(division.pixels_in(range)));
@@ -65,6 +70,9 @@ impl Message {
 pub enum Event {
     /// The run begins: the parent's first event, and no node's.
     Started,
+    /// The parent has what it asked for with [`Action::Estimate`]: what the sample of each stretch costs
+    /// ([`estimate`](super::estimate)), in CPU time.
+    Estimated(Vec<Duration>),
     /// A message has arrived.
     Message {
         /// Who sent it (not who wrote it: an offer may have been passed on).
@@ -93,6 +101,9 @@ pub enum Action {
         /// What.
         message: Message,
     },
+    /// Only the parent's: trace a coarse sample of the picture to learn what it costs, and hand over
+    /// [`Event::Estimated`] when that is done. It takes the parent as long as it takes the reference machine.
+    Estimate,
     /// Put an atom into the worker's pipe; atoms are traced in the order in which they are put in.
     Trace(Atom),
     /// Hand the party [`Event::Timer`] at this time; a later one replaces it.

@@ -3,14 +3,16 @@
 //! A party is handed an [`Event`] and the time, and answers with [`Action`]s; a driver carries them out. The
 //! parties are one [`Parent`] and its nodes; what a node does is its [`Strategy`].
 
+pub mod estimate;
+mod farm;
 mod message;
 mod parent;
 mod queue;
 pub mod ring;
-mod serial;
+mod solo;
 mod strategy;
 mod work;
 
 pub use message::{Action, Event, Message, NodeId, Party};
 pub use parent::Parent;
-pub use strategy::{Node, Strategy};
+pub use strategy::{Node, Rules, Strategy};

@@ -1,14 +1,18 @@
-//! The parent (§8): hands out bands once, assembles the picture, sends shutdown; decides nothing else.
+//! The parent (§8): hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm.
 
+use std::ops::Range;
+
+use super::estimate;
+use super::farm::Parts;
 use super::message::{Action, Event, Message, NodeId, Party};
-use super::strategy::Strategy;
+use super::strategy::{Rules, Strategy};
 use crate::picture::{Atom, Division};
 use crate::time::Time;
 
 /// The parent of a run.
 #[derive(Debug)]
 pub struct Parent {
-    strategy: Strategy,
+    sharing: Sharing,
     division: Division,
     nodes: NodeId,
     /// By atom: whether its pixels are in the picture.
@@ -16,31 +20,68 @@ pub struct Parent {
     missing: u32,
 }
 
+/// What the parent does to share the atoms.
+#[derive(Debug)]
+enum Sharing {
+    /// The first node gets all.
+    Serial,
+    /// Equal bands.
+    Bands,
+    /// Bands of equal cost, as far as a sample tells.
+    Estimate,
+    /// A part for whoever asks.
+    Farm(Parts),
+}
+
 impl Parent {
     /// The parent of `nodes` nodes (at least one), which are to trace the atoms of `division`.
-    pub fn new(strategy: Strategy, division: Division, nodes: NodeId) -> Self {
+    pub fn new(rules: &Rules, division: Division, nodes: NodeId) -> Self {
         assert!(nodes > 0, "a run needs a node");
         let missing = division.atoms();
-        Self { strategy, division, nodes, placed: vec![false; missing as usize], missing }
+        let farm = |by_speed| Sharing::Farm(Parts::new(missing, nodes, rules.part, by_speed));
+        let sharing = match rules.strategy {
+            Strategy::Serial => Sharing::Serial,
+            Strategy::Static | Strategy::Ring => Sharing::Bands,
+            Strategy::StaticEstimate => Sharing::Estimate,
+            Strategy::Farm => farm(false),
+            Strategy::FarmBySpeed => farm(true),
+        };
+        Self { sharing, division, nodes, placed: vec![false; missing as usize], missing }
     }
 
-    /// Answers `event` by appending to `actions`; the time does not matter to a parent.
+    /// Answers `event`, which happens at `now`, by appending to `actions`.
     ///
     /// # Panics
     /// If the event is impossible: an atom that has been placed before, or a message that no node sends here.
-    pub fn handle(&mut self, _now: Time, event: Event, actions: &mut Vec<Action>) {
+    pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
             Event::Started => {
-                let bands = self.strategy.bands(self.division, self.nodes);
-                for (node, band) in (0..self.nodes).zip(bands) {
-                    actions.push(Action::Send { to: Party::Node(node), message: Message::Band(band) });
+                let nodes = usize::from(self.nodes);
+                match &mut self.sharing {
+                    Sharing::Serial => {
+                        let all = self.division.atoms();
+                        hand_out((0..nodes).map(|node| if node == 0 { 0..all } else { all..all }), actions);
+                    }
+                    Sharing::Bands => hand_out(self.division.bands(nodes), actions),
+                    Sharing::Estimate => actions.push(Action::Estimate),
+                    Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node, now)), actions),
                 }
+            }
+            Event::Estimated(costs) => {
+                hand_out(estimate::bands(&costs, self.division, usize::from(self.nodes)), actions);
             }
             Event::Message { message: Message::Results(ranges), .. } => {
                 ranges.into_iter().flatten().for_each(|atom| self.place(atom));
                 if self.missing == 0 {
                     self.shut_down(actions);
                 }
+            }
+            Event::Message { from: Party::Node(node), message: Message::Request } => {
+                let Sharing::Farm(parts) = &mut self.sharing else {
+                    unreachable!("node {node} asks for atoms, and there is no farm");
+                };
+                let message = Message::Part(parts.next(node, now));
+                actions.push(Action::Send { to: Party::Node(node), message });
             }
             other => unreachable!("a parent is never handed {other:?}"),
         }
@@ -60,6 +101,12 @@ impl Parent {
     }
 }
 
+/// Gives each node its first share, and the scene with it.
+fn hand_out(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
+    let to_node = |(node, band)| Action::Send { to: Party::Node(node), message: Message::Band(band) };
+    actions.extend((0..).zip(bands).map(to_node));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,7 +114,8 @@ mod tests {
     #[test]
     #[should_panic(expected = "atom 2 was traced twice")]
     fn an_atom_is_placed_only_once() {
-        let mut parent = Parent::new(Strategy::Ring, Division::new(100, 10), 2);
+        let division = Division::new(100, 10);
+        let mut parent = Parent::new(&Rules::usual(Strategy::Ring, division, 2), division, 2);
         let message = Message::Results(vec![1..3, 2..4]);
         parent.handle(Time::ZERO, Event::Message { from: Party::Node(0), message }, &mut Vec::new());
     }

@@ -1,47 +1,84 @@
 //! The strategies, as arms of one enum: all answer the same events, so that every driver and chart serves them all.
 
 use std::fmt;
-use std::ops::Range;
 use std::str::FromStr;
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::message::{Action, Event, NodeId};
-use super::{ring, serial};
-use crate::picture::{Atom, Division};
+use super::work::Work;
+use super::{farm, ring, solo};
+use crate::picture::Division;
 use crate::time::Time;
 
 /// How the atoms are shared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Strategy {
     /// The first node traces all; the others, if there are any, do nothing.
     Serial,
+    /// A band for each node, as equal as can be, and no help (§6.1).
+    Static,
+    /// A band for each node that costs about the same, by an estimate that costs time itself (§6.1).
+    StaticEstimate,
+    /// Many equal parts; a free node asks the parent for the next (§6.2).
+    Farm,
+    /// A farm whose parts are smaller for nodes that prove slow (§6.2).
+    FarmBySpeed,
     /// The article's ring (§7).
     Ring,
 }
 
+/// The rules by which a run's atoms are shared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rules {
+    /// How the atoms are shared.
+    pub strategy: Strategy,
+    /// In a ring, an offer is worth taking if it moves at least this many atoms. In a farm, the atoms of a part.
+    pub part: u32,
+    /// How long a traced atom waits at most for others to travel to the parent with; `None`: until its node has no atoms
+    /// left, as in the article (§7).
+    pub batch: Option<Duration>,
+}
+
 impl Strategy {
     /// Every strategy, in the order in which they are named to the user.
-    pub const ALL: [Self; 2] = [Self::Serial, Self::Ring];
+    pub const ALL: [Self; 6] =
+        [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Serial => "serial",
+            Self::Static => "static",
+            Self::StaticEstimate => "static-estimate",
+            Self::Farm => "farm",
+            Self::FarmBySpeed => "farm-by-speed",
             Self::Ring => "ring",
         }
     }
 
-    /// What the parent gives each of `nodes` nodes first.
-    pub(super) fn bands(self, division: Division, nodes: NodeId) -> Vec<Range<Atom>> {
-        match self {
-            Self::Serial => {
-                let all = division.atoms();
-                (0..nodes).map(|node| if node == 0 { 0..all } else { all..all }).collect()
-            }
-            Self::Ring => division.bands(usize::from(nodes)).collect(),
-        }
+    /// Whether the parent is asked for parts of the picture.
+    pub fn is_farm(self) -> bool {
+        matches!(self, Self::Farm | Self::FarmBySpeed)
+    }
+
+    /// What [`Rules::part`] is unless somebody wants otherwise: 1 in a ring; in a farm what makes about 16 parts a node.
+    pub fn usual_part(self, division: Division, nodes: usize) -> u32 {
+        let parts = 16 * nodes.max(1) as u64;
+        // No more than there are atoms, whose number is a u32.
+        if self.is_farm() { (u64::from(division.atoms()) / parts).max(1) as u32 } else { 1 }
+    }
+}
+
+impl Rules {
+    /// How long a traced atom usually waits. *Ours:* in small batches the picture fills in while one watches.
+    pub const BATCH: Duration = Duration::from_millis(15);
+
+    /// The rules of a strategy, unless somebody wants otherwise.
+    pub fn usual(strategy: Strategy, division: Division, nodes: usize) -> Self {
+        Self { strategy, part: strategy.usual_part(division, nodes), batch: Some(Self::BATCH) }
     }
 }
 
@@ -70,16 +107,19 @@ pub struct Node {
 
 #[derive(Debug)]
 enum Role {
-    Serial(serial::Node),
+    Solo(solo::Node),
+    Farm(farm::Node),
     Ring(ring::Node),
 }
 
 impl Node {
-    /// Node `id` of `nodes`. An offer is worth taking if it moves at least `part` atoms (0 counts as 1).
-    pub fn new(strategy: Strategy, id: NodeId, nodes: NodeId, part: u32) -> Self {
-        let role = match strategy {
-            Strategy::Serial => Role::Serial(serial::Node::default()),
-            Strategy::Ring => Role::Ring(ring::Node::new(id, nodes, part)),
+    /// Node `id` of `nodes`.
+    pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
+        let work = Work::new(rules.batch);
+        let role = match rules.strategy {
+            Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(solo::Node::new(work)),
+            Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::Node::new(work)),
+            Strategy::Ring => Role::Ring(ring::Node::new(id, nodes, rules.part, work)),
         };
         Self { role }
     }
@@ -90,31 +130,9 @@ impl Node {
     /// If the event is impossible: something that no parent or node of the same run can have sent.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match &mut self.role {
-            Role::Serial(node) => node.handle(now, event, actions),
+            Role::Solo(node) => node.handle(now, event, actions),
+            Role::Farm(node) => node.handle(now, event, actions),
             Role::Ring(node) => node.handle(now, event, actions),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_read_back_and_unknown_ones_list_the_known() {
-        for strategy in Strategy::ALL {
-            assert_eq!(strategy.to_string().parse(), Ok(strategy));
-        }
-        let error = "round".parse::<Strategy>().unwrap_err();
-        assert_eq!(error, "there is no strategy `round`; there are: serial, ring");
-    }
-
-    #[test]
-    fn bands_of_every_strategy_hold_each_atom_once() {
-        for strategy in Strategy::ALL {
-            let bands = strategy.bands(Division::new(1000, 7), 5);
-            assert_eq!(bands.len(), 5);
-            assert!(bands.into_iter().flatten().eq(0..143), "{strategy}");
         }
     }
 }

@@ -12,13 +12,10 @@ use crate::time::Time;
 /// worker nor node waits for the other (§8).
 const PIPE: u32 = 2;
 
-/// How long a traced atom waits at most for others to travel with. *Ours:* the article sends results only when a
-/// node runs out of atoms; in small batches the picture fills in while one watches.
-const BATCH: Duration = Duration::from_millis(15);
-
 /// The atoms of a node: those that wait, those in the pipe, and those traced but not yet sent.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Work {
+    batch: Option<Duration>,
     queue: Queue,
     in_pipe: u32,
     traced: u32,
@@ -26,6 +23,11 @@ pub(super) struct Work {
 }
 
 impl Work {
+    /// No atoms yet; traced ones leave after [`Rules::batch`](super::Rules::batch).
+    pub fn new(batch: Option<Duration>) -> Self {
+        Self { batch, queue: Queue::default(), in_pipe: 0, traced: 0, unsent: Vec::new() }
+    }
+
     /// How many atoms wait in the queue; those in the pipe are the worker's and never leave it untraced.
     pub fn waiting(&self) -> u32 {
         self.queue.len()
@@ -59,8 +61,11 @@ impl Work {
         self.in_pipe -= 1;
         self.traced += 1;
         self.fill_pipe(actions);
-        if self.unsent.is_empty() && !self.is_idle() {
-            actions.push(Action::SetTimer(now + BATCH));
+        if let Some(batch) = self.batch
+            && self.unsent.is_empty()
+            && !self.is_idle()
+        {
+            actions.push(Action::SetTimer(now + batch));
         }
         match self.unsent.last_mut() {
             Some(last) if last.end == atom => last.end += 1,

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use clap::{Parser, Subcommand};
 
-use crate::balance::Strategy;
-use crate::driver::auto_pace;
+use super::sharing::Sharing;
 use crate::picture::Size;
+use crate::runlog::Driver;
 
 #[derive(Debug, Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
@@ -58,33 +58,46 @@ pub(super) struct RenderArgs {
     /// Samples a pixel, n × n
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub samples: u32,
-    /// Nodes of the ring [default: as many as speeds, else 4; 1 for serial]
+    /// Nodes [default: as many as speeds, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
-    /// How the atoms are shared: serial or ring
+    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, or rayon
     #[arg(long, default_value = "ring")]
-    pub strategy: Strategy,
+    pub strategy: Sharing,
+    /// Who executes it: threads (real time), pairs (two threads a node, at full speed), or sim (virtual time)
+    #[arg(long, default_value = "threads", value_parser = driver)]
+    pub driver: Driver,
     /// A speed for each node, 1 being the reference machine [default: all 1]
     #[arg(long, value_name = "1,1,0.1", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
     pub speeds: Vec<f64>,
+    /// Random speeds from 0.1 to 1, the same for the same number
+    #[arg(long, value_name = "S", conflicts_with = "speeds")]
+    pub seed: Option<u64>,
     /// What part of a core the reference machine gets: auto, full, or a number up to 1
     #[arg(long, default_value = "auto", value_parser = pace)]
     pub pace: Pace,
     /// Pixels in an atom
     #[arg(long, value_name = "PIXELS", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..))]
     pub atom: u32,
-    /// The least number of atoms worth sending to a node that offers help
-    #[arg(long, value_name = "ATOMS", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
-    pub part: u32,
+    /// Ring: the least atoms worth sending to a node that offers help [default: 1]; farm: the atoms of a part [default:
+    /// for about 16 parts a node]
+    #[arg(long, value_name = "ATOMS", value_parser = clap::value_parser!(u32).range(1..))]
+    pub part: Option<u32>,
     /// How long a message travels, in milliseconds
     #[arg(long, value_name = "MS", default_value = "0", value_parser = milliseconds)]
     pub latency: Duration,
     /// How fast a message is put on its link, in bytes a second [default: unlimited]
     #[arg(long, value_name = "BYTES_PER_S", value_parser = bandwidth)]
     pub bandwidth: Option<f64>,
+    /// All messages share one wire, as on an old Ethernet, instead of a link for each pair
+    #[arg(long)]
+    pub shared_wire: bool,
     /// How long the parent is busy with each message, in milliseconds
     #[arg(long, value_name = "MS", default_value = "0", value_parser = milliseconds)]
     pub handling: Duration,
+    /// With --driver sim: what atoms cost, as measured in this recorded run [default: 0.1 µs a ray]
+    #[arg(long, value_name = "LOG")]
+    pub costs: Option<PathBuf>,
     /// Write the run's records here
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
@@ -100,35 +113,12 @@ pub(super) enum Pace {
     Of(f64),
 }
 
-impl RenderArgs {
-    /// A speed for each node.
-    pub fn node_speeds(&self) -> Result<Vec<f64>, String> {
-        let usual = match (self.strategy, self.speeds.len()) {
-            (Strategy::Serial, 0) => 1,
-            (_, 0) => 4,
-            (_, speeds) => speeds,
-        };
-        let nodes = self.nodes.map_or(usual, usize::from);
-        if self.strategy == Strategy::Serial && nodes != 1 {
-            return Err(format!("serial is one node that traces all; it cannot have {nodes} nodes"));
-        }
-        match self.speeds.len() {
-            0 => Ok(vec![1.0; nodes]),
-            speeds if speeds != nodes => {
-                Err(format!("there are {nodes} nodes but {speeds} speeds; give each node one speed, or none at all"))
-            }
-            _ if nodes > 1024 => Err(format!("{nodes} nodes are too many; at most 1024 are possible")),
-            _ => Ok(self.speeds.clone()),
-        }
-    }
-
-    /// The pace for these speeds on a computer with so many cores.
-    pub fn pace_of(&self, speeds: &[f64], cores: usize) -> f64 {
-        match self.pace {
-            Pace::Auto => auto_pace(speeds, cores),
-            Pace::Of(pace) => pace,
-        }
-    }
+fn driver(text: &str) -> Result<Driver, String> {
+    let known = [Driver::Threads, Driver::Pairs, Driver::Sim];
+    known.into_iter().find(|driver| driver.name() == text).ok_or_else(|| {
+        let known = known.map(Driver::name).join(", ");
+        format!("there is no driver `{text}`; there are: {known}")
+    })
 }
 
 fn speed(text: &str) -> Result<f64, String> {

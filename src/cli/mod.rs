@@ -3,6 +3,7 @@
 mod args;
 mod render;
 mod report;
+mod sharing;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -127,7 +128,7 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     check_outputs("", &[&out])?;
     let quality = Quality { samples: header.samples, ..Quality::default() };
     let tracer = Arc::new(Tracer::new(&scene, header.size, quality));
-    render::run_and_save(&tracer, &header, &render::Outputs { out: &out, log: log.as_deref(), json: false })
+    render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 
 fn export(argument: &str, pov: &Path, size: Size) -> Result<(), Failure> {

@@ -9,15 +9,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::args::RenderArgs;
 use super::report::Report;
+use super::sharing;
 use super::{Failure, check_outputs, open, print};
-use crate::driver::{Run, Update, cores, probe};
-use crate::picture::{Division, Frame, write_png};
-use crate::record::What;
-use crate::runlog::{Header, Link, RunLog, metrics};
+use crate::driver::{Run, Update, Whole, probe};
+use crate::picture::{Frame, write_png};
+use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::sim::Sim;
 use crate::tracer::{Quality, RayCounts, Tracer};
-
-/// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
-const MAX_ATOMS: u32 = 1 << 24;
 
 /// Where a run's results go.
 pub(super) struct Outputs<'a> {
@@ -36,46 +34,31 @@ struct Outcome {
 
 pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let opened = open(&args.scene)?;
-    let speeds = args.node_speeds().map_err(Failure::Refused)?;
+    let header = sharing::header(args, &opened).map_err(Failure::Refused)?;
     let outputs: Vec<&Path> =
         [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&args.scene, &outputs)?;
-    let division = Division::new(args.size.pixels(), args.atom);
-    if division.atoms() > MAX_ATOMS {
-        return Err(Failure::Refused(format!(
-            "{} atoms of {} pixels are too many; at most {MAX_ATOMS} are possible (--atom makes them larger)",
-            division.atoms(),
-            args.atom
-        )));
-    }
-    let cores = cores();
-    let header = Header {
-        scene: opened.name,
-        scene_text: opened.text,
-        size: args.size,
-        samples: args.samples,
-        division,
-        strategy: args.strategy,
-        pace: args.pace_of(&speeds, cores),
-        speeds,
-        link: Link { latency: args.latency, bandwidth: args.bandwidth },
-        handling: args.handling,
-        part: args.part,
-        cores,
-    };
+    let costs = args.costs.as_deref().map(|path| measured_costs(path, &header)).transpose()?;
     let quality = Quality { samples: args.samples, ..Quality::default() };
     let tracer = Arc::new(Tracer::new(&opened.scene, args.size, quality));
-    run_and_save(&tracer, &header, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
+    run_and_save(&tracer, &header, costs, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
 }
 
-/// Does the run that `header` describes, and says how it was.
-pub(super) fn run_and_save(tracer: &Arc<Tracer>, header: &Header, to: &Outputs<'_>) -> Result<(), Failure> {
-    let outcome = run(tracer, header)?;
+/// Does the run that `header` describes, and says how it was; in virtual time, atoms have these `costs`, if any are given.
+pub(super) fn run_and_save(
+    tracer: &Arc<Tracer>,
+    header: &Header,
+    costs: Option<Vec<Duration>>,
+    to: &Outputs<'_>,
+) -> Result<(), Failure> {
+    let outcome = if header.driver == Driver::Sim { simulate(tracer, header, costs)? } else { run(tracer, header)? };
     write_png(to.out, header.size, &outcome.frame.to_srgb8()).map_err(|error| Failure::Failed(error.to_string()))?;
     if let Some(log) = to.log {
         outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
     }
-    let report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead(tracer, &outcome.log), tracer);
+    // In virtual time nothing is contended for.
+    let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
+    let report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
     if to.json {
         return print(&report.json());
     }
@@ -88,9 +71,7 @@ pub(super) fn run_and_save(tracer: &Arc<Tracer>, header: &Header, to: &Outputs<'
 fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
     let begun = Instant::now();
     let run = Run::start(Arc::clone(tracer), header);
-    let bar = ProgressBar::new(u64::from(header.division.atoms()));
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = progress(header);
     let mut frame = Frame::new(header.size);
     // One batch for the log, which would else sort its end for each party's.
     let mut told = Vec::new();
@@ -122,18 +103,57 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
     }
 }
 
+/// Traces the picture, then runs its sharing in virtual time as fast as this computer can.
+#[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+fn simulate(tracer: &Arc<Tracer>, header: &Header, costs: Option<Vec<Duration>>) -> Result<Outcome, Failure> {
+    let begun = Instant::now();
+    let bar = progress(header);
+    let whole = Whole::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
+    bar.finish_and_clear();
+    let mut frame = Frame::new(header.size);
+    frame.place(0..header.size.pixels(), &whole.pixels);
+    let costs = costs.unwrap_or_else(|| whole.costs());
+    let mut records = Vec::new();
+    let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
+    sim.run(&mut |record| records.push(record));
+    let mut log = RunLog::new(header.clone());
+    log.add(records);
+    Ok(Outcome { frame, log, rays: whole.counts, wall: begun.elapsed() })
+}
+
+/// What each atom cost in a recorded run of the same picture.
+fn measured_costs(path: &Path, header: &Header) -> Result<Vec<Duration>, Failure> {
+    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    if log.header.division != header.division {
+        return Err(Failure::Refused(format!(
+            "{} is of a picture of {} in atoms of {} pixels, not of {} in atoms of {}",
+            path.display(),
+            log.header.size,
+            log.header.division.atom_pixels(),
+            header.size,
+            header.division.atom_pixels()
+        )));
+    }
+    log.costs().into_iter().collect::<Option<_>>().ok_or_else(|| {
+        Failure::Refused(format!("in {} not all atoms were traced, so that their costs are not known", path.display()))
+    })
+}
+
+/// A bar that counts atoms.
+fn progress(header: &Header) -> ProgressBar {
+    let bar = ProgressBar::new(u64::from(header.division.atoms()));
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
 /// How much dearer atoms were in the run than one after another on one thread, from a sample of them: contention for
 /// caches and cores hides in an atom's cost, and so in the efficiency.
 fn overhead(tracer: &Tracer, log: &RunLog) -> Option<f64> {
-    let mut costs = vec![Duration::ZERO; log.header.division.atoms() as usize];
-    for record in log.records() {
-        if let What::AtomDone { atom, cost, .. } = record.what {
-            costs[atom as usize] = cost;
-        }
-    }
-    let budget = (metrics::work(log.records()) / 10).min(Duration::from_secs(1));
+    let costs = log.costs();
+    let budget = (Tally::of(log).work() / 10).min(Duration::from_secs(1));
     let serial = probe(tracer, log.header.division, budget).atoms;
-    let in_run: Duration = serial.iter().map(|(atom, _)| costs[*atom as usize]).sum();
+    let in_run: Duration = serial.iter().map(|(atom, _)| costs[*atom as usize].unwrap_or_default()).sum();
     let alone: Duration = serial.iter().map(|(_, cost)| *cost).sum();
     (!alone.is_zero()).then(|| in_run.as_secs_f64() / alone.as_secs_f64())
 }

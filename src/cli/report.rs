@@ -5,8 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::runlog::RunLog;
-use crate::runlog::metrics::{self, Messages};
+use crate::runlog::{Messages, RunLog, Tally};
 use crate::tracer::{Compiled, RayCounts, Tracer};
 
 /// The run in figures; times are in seconds.
@@ -42,29 +41,29 @@ pub(super) struct Report {
 
 impl Report {
     pub fn new(log: &RunLog, rays: RayCounts, wall: Duration, overhead: Option<f64>, tracer: &Tracer) -> Self {
-        let (header, records) = (&log.header, log.records());
+        let (header, tally) = (&log.header, Tally::of(log));
         let seconds = |time: Option<Duration>| time.unwrap_or_default().as_secs_f64();
         Self {
             scene: header.scene.clone(),
             width: header.size.width(),
             height: header.size.height(),
             samples: header.samples,
-            strategy: header.strategy.name(),
-            driver: "threads",
+            strategy: header.strategy_name(),
+            driver: header.driver.name(),
             nodes: header.speeds.len(),
             speeds: header.speeds.clone(),
             pace: header.pace,
             wall_s: wall.as_secs_f64(),
-            makespan_s: seconds(metrics::makespan(records)),
-            work_s: metrics::work(records).as_secs_f64(),
-            ideal_s: seconds(metrics::ideal(header, records)),
-            efficiency: metrics::efficiency(header, records).unwrap_or_default(),
+            makespan_s: seconds(tally.makespan()),
+            work_s: tally.work().as_secs_f64(),
+            ideal_s: seconds(tally.ideal()),
+            efficiency: tally.efficiency().unwrap_or_default(),
             overhead,
-            finish_spread_s: metrics::finish_spread(records).as_secs_f64(),
+            finish_spread_s: tally.finish_spread().as_secs_f64(),
             rays,
             atoms: header.division.atoms(),
-            atoms_by_node: metrics::atoms_by_node(header, records),
-            messages: metrics::messages(records),
+            atoms_by_node: tally.atoms_by_node(),
+            messages: tally.messages(),
             compiled: tracer.compiled(),
         }
     }
@@ -88,10 +87,15 @@ impl fmt::Display for Report {
         if let Some(overhead) = self.overhead {
             writeln!(f, "  tracing took {:.3} s of CPU time, {overhead:.3} times that of one thread", self.work_s)?;
         }
-        let Messages { offers, hops, transfers, atoms_moved, .. } = self.messages;
-        let (offers, hops) = (plural(offers, "offer"), plural(hops, "hop"));
-        let (transfers, moved) = (plural(transfers, "transfer"), plural(atoms_moved, "atom"));
-        writeln!(f, "  {offers}, {hops}, {transfers} of {moved}")?;
+        let Messages { requests, parts, offers, hops, transfers, atoms_moved, .. } = self.messages;
+        if requests > 0 {
+            writeln!(f, "  {}, {}", plural(requests, "request"), plural(parts, "answer"))?;
+        }
+        if offers > 0 {
+            let (offers, hops) = (plural(offers, "offer"), plural(hops, "hop"));
+            let (transfers, moved) = (plural(transfers, "transfer"), plural(atoms_moved, "atom"));
+            writeln!(f, "  {offers}, {hops}, {transfers} of {moved}")?;
+        }
         let shares: Vec<_> = self.atoms_by_node.iter().map(u32::to_string).collect();
         writeln!(f, "  atoms by node: {}", shares.join(" "))
     }

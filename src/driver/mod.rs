@@ -13,23 +13,25 @@
 
 mod clock;
 mod jobs;
-mod link;
-mod machine;
 mod meter;
 mod node_thread;
+mod pace;
 mod parent_thread;
 mod port;
 mod probe;
 mod replay;
 mod run;
 mod shared;
+mod sim_thread;
 mod supervisor;
 mod teller;
+mod whole;
 
-pub use machine::{auto_pace, cores};
+pub use pace::{auto_pace, cores};
 pub use probe::{Probe, probe};
 pub use replay::Replay;
 pub use run::Run;
+pub use whole::{RAY, Whole};
 
 use std::ops::Range;
 

@@ -8,15 +8,15 @@ use std::mem;
 use std::ops::Range;
 use std::time::Duration;
 
-use super::machine::Machine;
 use super::meter::{Batch, Meter};
 use super::port::{Incoming, Port, Stopped};
-use super::shared::Command;
 use super::{TracePixels, Update};
 use crate::balance::{Action, Event, Message, Node, NodeId};
 use crate::picture::{Atom, Colour, Division};
 use crate::record::What;
 use crate::runlog::Header;
+use crate::scenario::Command;
+use crate::sim::Machine;
 use crate::time::Time;
 use crate::tracer::Scratch;
 
@@ -63,7 +63,7 @@ impl<'run> NodeThread<'run> {
     pub fn new(id: NodeId, header: &Header, port: Port<'run>, trace: &'run TracePixels) -> Self {
         Self {
             id,
-            node: Node::new(header.strategy, id, header.speeds.len() as NodeId, header.part),
+            node: Node::new(&header.rules, id, header.speeds.len() as NodeId),
             port,
             trace,
             division: header.division,
@@ -138,12 +138,12 @@ impl<'run> NodeThread<'run> {
     fn obey(&mut self, command: Command) {
         let (node, at) = (self.id, self.port.time());
         let what = match command {
-            Command::Speed(speed) => {
+            Command::Speed { speed, .. } => {
                 self.machine.set_speed(speed, at);
                 What::SpeedSet { node, speed }
             }
-            Command::Pause(paused) if paused == self.machine.is_paused() => return,
-            Command::Pause(paused) => {
+            Command::Pause { paused, .. } if paused == self.machine.is_paused() => return,
+            Command::Pause { paused, .. } => {
                 self.machine.set_paused(paused, at);
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
@@ -243,6 +243,7 @@ impl<'run> NodeThread<'run> {
             Action::SetTimer(at) => self.port.set_timer(at),
             Action::Retire => _ = self.port.record(What::Retired { node: self.id }),
             Action::Finish => self.finished = true,
+            Action::Estimate => unreachable!("only the parent estimates"),
         }
     }
 

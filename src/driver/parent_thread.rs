@@ -2,20 +2,30 @@
 
 use std::mem;
 use std::ops::Range;
+use std::time::Duration;
 
-use super::Update;
+use super::meter::Meter;
 use super::port::{Incoming, Port, Stopped};
-use super::shared::Command;
-use crate::balance::{Action, Event, Message, NodeId, Parent};
-use crate::picture::{Atom, Colour};
+use super::{TracePixels, Update};
+use crate::balance::{Action, Event, Message, NodeId, Parent, estimate};
+use crate::picture::{Atom, Colour, Division};
 use crate::record::What;
 use crate::runlog::Header;
+use crate::scenario::Command;
+use crate::sim::Machine;
+use crate::tracer::Scratch;
 
 /// What the parent's thread holds.
 pub(super) struct ParentThread<'run> {
     parent: Parent,
     port: Port<'run>,
+    trace: &'run TracePixels,
+    division: Division,
+    /// Traces for an estimate, as fast as the reference machine.
+    machine: Machine,
     placed: Placed,
+    /// Whether the parent has asked for an estimate.
+    estimate: bool,
     finished: bool,
 }
 
@@ -39,9 +49,11 @@ impl Placed {
 
 impl<'run> ParentThread<'run> {
     /// The parent of the run that `header` describes.
-    pub fn new(header: &Header, port: Port<'run>) -> Self {
-        let parent = Parent::new(header.strategy, header.division, header.speeds.len() as NodeId);
-        Self { parent, port, placed: Placed::default(), finished: false }
+    pub fn new(header: &Header, port: Port<'run>, trace: &'run TracePixels) -> Self {
+        let parent = Parent::new(&header.rules, header.division, header.speeds.len() as NodeId);
+        let machine = Machine::new(1.0, header.pace);
+        let (division, placed) = (header.division, Placed::default());
+        Self { parent, port, trace, division, machine, placed, estimate: false, finished: false }
     }
 
     /// Runs the parent until the picture is complete, or until the run is stopped.
@@ -53,6 +65,10 @@ impl<'run> ParentThread<'run> {
     fn assemble(&mut self) -> Result<(), Stopped> {
         self.port.advance(self.port.shared.clock.now());
         self.hand_over(Event::Started);
+        if self.estimate {
+            let costs = self.estimate()?;
+            self.hand_over(Event::Estimated(costs));
+        }
         while !self.finished {
             let now = self.port.step(|port| flush(port, &mut self.placed))?;
             match self.port.next(now) {
@@ -72,6 +88,34 @@ impl<'run> ParentThread<'run> {
         Ok(())
     }
 
+    /// Samples what the picture costs, and waits until the reference machine would have done as much.
+    fn estimate(&mut self) -> Result<Vec<Duration>, Stopped> {
+        self.port.record(What::Estimating);
+        let (mut meter, mut scratch, mut pixels) = (Meter::new(), Scratch::default(), Vec::new());
+        let mut costs = Vec::new();
+        for samples in estimate::samples(self.division) {
+            self.port.step(Port::flush)?;
+            meter.lap();
+            for pixel in samples {
+                (self.trace)(pixel..pixel + 1, &mut scratch, &mut pixels);
+            }
+            costs.push(meter.lap());
+            pixels.clear();
+        }
+        if self.machine.is_full() {
+            self.port.advance(self.port.shared.clock.now());
+            return Ok(costs);
+        }
+        self.machine.begin(self.port.time(), costs.iter().sum());
+        // The reference machine never stands still.
+        let due = self.machine.due().unwrap_or(self.port.time());
+        while self.port.step(Port::flush)? < due {
+            self.port.wait(Some(due));
+        }
+        self.port.advance(due);
+        Ok(costs)
+    }
+
     fn hand_over(&mut self, event: Event) {
         let mut actions = Vec::new();
         self.parent.handle(self.port.time(), event, &mut actions);
@@ -82,6 +126,7 @@ impl<'run> ParentThread<'run> {
                     self.port.record(What::Finished);
                     self.finished = true;
                 }
+                Action::Estimate => self.estimate = true,
                 other => unreachable!("a parent never asks for {other:?}"),
             }
         }

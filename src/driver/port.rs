@@ -7,12 +7,13 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
-use super::link::Link;
-use super::shared::{Command, Content, Parcel, Shared};
+use super::shared::{Content, Parcel, Shared};
 use crate::balance::{Event, Message, Party};
 use crate::picture::Colour;
 use crate::record::{Record, What};
 use crate::runlog::Header;
+use crate::scenario::Command;
+use crate::sim::Link;
 use crate::time::Time;
 
 /// How long records (and placed pixels) wait at most before they leave their thread.
@@ -67,7 +68,7 @@ impl<'run> Port<'run> {
             timer: None,
             handling: if me == Party::Parent { header.handling } else { Duration::ZERO },
             // Emulated machines make up for threads that wake late. Where all are this computer itself, late is late.
-            backdates: header.pace < 1.0 || header.speeds.iter().any(|&speed| speed < 1.0),
+            backdates: !header.is_full_speed(),
             time: Time::ZERO,
             updates,
             records: Vec::new(),
@@ -101,7 +102,7 @@ impl<'run> Port<'run> {
         let shared = self.shared;
         let bytes = message.bytes(shared.division, shared.scene_bytes);
         let receiver = shared.index(to);
-        let arrives = self.links[receiver].arrival(self.time, bytes, shared.latency(), shared.bandwidth);
+        let arrives = shared.arrival(&mut self.links[receiver], self.time, bytes);
         let content = Content::Message { from: self.me, message: message.clone(), pixels };
         let id = shared.deliver(receiver, arrives, content);
         self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
@@ -207,7 +208,7 @@ mod tests {
 
     /// Of two emulated nodes.
     fn header(handling: Duration, latency: Duration) -> Header {
-        Header { handling, link: Network { latency, bandwidth: None }, ..examples::header(&[0.5, 0.5]) }
+        Header { handling, link: Network { latency, bandwidth: None, shared: false }, ..examples::header(&[0.5, 0.5]) }
     }
 
     /// Sends results (empty ones) from each node to the parent, the second node's 1 ms before the first's; then what
@@ -250,11 +251,11 @@ mod tests {
         let mut parent = Port::new(Party::Parent, &header, &shared, inboxes.pop().unwrap(), updates);
         // The clock stands still, so that the command is due then.
         shared.clock.pause();
-        shared.set_latency(MS);
+        shared.command(Command::Latency(MS));
         let now = shared.clock.now();
         assert!(matches!(parent.next(now), Some(Incoming::Command(Command::Latency(MS)))));
         assert_eq!(parent.time(), now);
-        shared.set_latency(MS);
+        shared.command(Command::Latency(MS));
         assert!(parent.next(now + MS).is_none(), "nothing has changed");
     }
 

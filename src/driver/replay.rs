@@ -8,8 +8,8 @@ use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
 use super::jobs::plan;
-use super::machine::cores;
 use super::node_thread::PIECE;
+use super::pace::cores;
 use super::supervisor::{Supervisor, Threads};
 use super::teller::{Note, Teller};
 use super::{TracePixels, Update};

@@ -10,19 +10,27 @@ use crossbeam_channel::{Receiver, Sender};
 use super::node_thread::NodeThread;
 use super::parent_thread::ParentThread;
 use super::port::Port;
-use super::shared::{Command, Parcel, Shared};
+use super::shared::{Parcel, Shared};
+use super::sim_thread;
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};
 use crate::balance::{NodeId, Party};
 use crate::picture::Colour;
-use crate::runlog::Header;
+use crate::runlog::{Driver, Header};
+use crate::scenario::Command;
 use crate::time::Time;
 use crate::tracer::{Scratch, Tracer};
 
 /// A run that goes on in its own threads. Dropping it stops them and waits for them.
 pub struct Run {
-    shared: Arc<Shared>,
+    control: Control,
     supervisor: Supervisor,
+}
+
+/// What acts on the run, by its driver.
+enum Control {
+    Parties(Arc<Shared>),
+    Sim(Arc<sim_thread::Shared>),
 }
 
 impl Run {
@@ -42,13 +50,22 @@ impl Run {
     ) -> Self {
         let nodes = header.speeds.len();
         assert!((1..=usize::from(NodeId::MAX)).contains(&nodes), "a run of {nodes} nodes is impossible");
-        let (shared, inboxes) = Shared::new(header);
-        let shared = Arc::new(shared);
-        let supervisor = {
-            let (shared, header) = (shared.clone(), header.clone());
-            Supervisor::start("run", move |updates| supervise(&header, &shared, inboxes, &trace, updates))
-        };
-        Self { shared, supervisor }
+        let its_header = header.clone();
+        match header.driver {
+            Driver::Sim => {
+                let (shared, orders) = sim_thread::Shared::new();
+                let (shared, its) = twice(shared);
+                let play =
+                    move |updates: &Sender<Update>| sim_thread::play(&its_header, &its, &orders, &trace, updates);
+                Self { control: Control::Sim(shared), supervisor: Supervisor::start("run", play) }
+            }
+            Driver::Threads | Driver::Pairs | Driver::WorkStealing => {
+                let (shared, inboxes) = Shared::new(header);
+                let (shared, its) = twice(shared);
+                let supervise = move |updates: &Sender<Update>| supervise(&its_header, &its, inboxes, &trace, updates);
+                Self { control: Control::Parties(shared), supervisor: Supervisor::start("run", supervise) }
+            }
+        }
     }
 
     /// What has happened since, oldest first.
@@ -58,7 +75,18 @@ impl Run {
 
     /// The run's clock; it stands still while the run is paused.
     pub fn now(&self) -> Time {
-        self.shared.clock.now()
+        match &self.control {
+            Control::Parties(shared) => shared.clock.now(),
+            Control::Sim(shared) => shared.now(),
+        }
+    }
+
+    /// Does something to the run at once; what it does to a node that has ended, or to a parent that has, is void.
+    pub fn command(&self, command: Command) {
+        match &self.control {
+            Control::Parties(shared) => shared.command(command),
+            Control::Sim(shared) => shared.command(command),
+        }
     }
 
     /// Changes a node's speed (0 to 1) at once, in the middle of an atom too. At 0 its worker stands still, but the
@@ -66,36 +94,45 @@ impl Run {
     pub fn set_speed(&self, node: NodeId, speed: f64) {
         // NaN is not above 0 either.
         let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
-        self.shared.command(node, Command::Speed(speed));
+        self.command(Command::Speed { node, speed });
     }
 
     /// Makes a node's worker stand still at once, in the middle of an atom too, or go on at the node's speed; the node
     /// still answers messages. A speed that is set meanwhile counts when the worker goes on. A node that has ended does
     /// not mind.
     pub fn set_paused(&self, node: NodeId, paused: bool) {
-        self.shared.command(node, Command::Pause(paused));
+        self.command(Command::Pause { node, paused });
     }
 
     /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one. The
     /// parent records a change, unless it has ended.
     pub fn set_latency(&self, latency: Duration) {
-        self.shared.set_latency(latency);
+        self.command(Command::Latency(latency));
     }
 
     /// Stops the run's clock, and with it all machines and all messages.
     pub fn pause(&self) {
-        self.shared.clock.pause();
+        match &self.control {
+            Control::Parties(shared) => shared.clock.pause(),
+            Control::Sim(shared) => shared.clock.pause(),
+        }
     }
 
     /// Lets the run go on after [`Run::pause`].
     pub fn resume(&self) {
-        self.shared.clock.resume();
+        match &self.control {
+            Control::Parties(shared) => shared.clock.resume(),
+            Control::Sim(shared) => shared.resume(),
+        }
     }
 
     /// Tells all threads to end and returns at once. The last update is then [`Update::Failed`], unless the run was
     /// over.
     pub fn stop(&self) {
-        self.shared.stop();
+        match &self.control {
+            Control::Parties(shared) => shared.stop(),
+            Control::Sim(shared) => shared.stop(),
+        }
     }
 
     /// Whether all threads of the run have ended: nothing is left to wait for.
@@ -109,6 +146,12 @@ impl Drop for Run {
         self.stop();
         self.supervisor.join();
     }
+}
+
+/// A thing for two to share.
+fn twice<T>(thing: T) -> (Arc<T>, Arc<T>) {
+    let thing = Arc::new(thing);
+    (thing.clone(), thing)
 }
 
 /// Runs all parties on threads of their own until all have ended.
@@ -131,7 +174,7 @@ fn supervise(
                 let node = move || NodeThread::new(id, header, port(Party::Node(id)), trace).run();
                 threads.start(&format!("node {index}"), node);
             } else {
-                threads.start("parent", move || ParentThread::new(header, port(Party::Parent)).run());
+                threads.start("parent", move || ParentThread::new(header, port(Party::Parent), trace).run());
             }
         }
         threads.join()

@@ -2,14 +2,17 @@
 
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicU64};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Message, Party};
 use crate::picture::{Colour, Division};
 use crate::runlog::Header;
+use crate::scenario::Command;
+use crate::sim::{Link, Wire};
 use crate::time::Time;
 
 /// What all parties of a run share.
@@ -20,7 +23,9 @@ pub(super) struct Shared {
     next_id: AtomicU64,
     /// Of every link, in nanoseconds.
     latency: AtomicU64,
-    pub bandwidth: Option<f64>,
+    bandwidth: Option<f64>,
+    /// What all links share, if they do.
+    wire: Option<Mutex<Wire>>,
     pub division: Division,
     pub scene_bytes: u64,
 }
@@ -45,17 +50,6 @@ pub(super) enum Content {
     Wake,
 }
 
-/// What the user does to a run while it goes on.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Command {
-    /// Gives a node's machine another speed.
-    Speed(f64),
-    /// Makes a node's worker stand still, or go on.
-    Pause(bool),
-    /// The latency is another now: the parent notes it down.
-    Latency(Duration),
-}
-
 impl Shared {
     /// What the parties share, and their inboxes: by node, and the parent's last.
     pub fn new(header: &Header) -> (Self, Vec<Receiver<Parcel>>) {
@@ -67,6 +61,7 @@ impl Shared {
             next_id: AtomicU64::new(0),
             latency: AtomicU64::new(nanoseconds(header.link.latency)),
             bandwidth: header.link.bandwidth,
+            wire: header.link.shared.then(Mutex::default),
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,
         };
@@ -86,24 +81,33 @@ impl Shared {
         }
     }
 
-    /// The latency of every link for the messages that leave now.
-    pub fn latency(&self) -> Duration {
-        Duration::from_nanos(self.latency.load(atomic::Ordering::Relaxed))
+    /// When a message of `bytes` arrives that leaves by `link` at `at`.
+    pub fn arrival(&self, link: &mut Link, at: Time, bytes: u64) -> Time {
+        let latency = Duration::from_nanos(self.latency.load(atomic::Ordering::Relaxed));
+        // A thread that panicked meanwhile has left the wire whole.
+        let mut wire = self.wire.as_ref().map(|wire| wire.lock().unwrap_or_else(PoisonError::into_inner));
+        link.arrival(at, bytes, latency, self.bandwidth, wire.as_deref_mut())
+    }
+
+    /// Gives a command now: a node's to the node (one that has ended, or never was, does not mind), and a change of the
+    /// latency to the parent, to be noted down.
+    pub fn command(&self, command: Command) {
+        match command {
+            Command::Latency(latency) => self.set_latency(latency),
+            Command::Speed { node, .. } | Command::Pause { node, .. } => {
+                if usize::from(node) + 1 < self.inboxes.len() {
+                    self.deliver(usize::from(node), self.clock.now(), Content::Command(command));
+                }
+            }
+        }
     }
 
     /// Sets the latency of every link for the messages that leave from now on, and tells the parent of a change.
-    pub fn set_latency(&self, latency: Duration) {
+    fn set_latency(&self, latency: Duration) {
         let nanoseconds = nanoseconds(latency);
         if self.latency.swap(nanoseconds, atomic::Ordering::Relaxed) != nanoseconds {
             let command = Content::Command(Command::Latency(latency));
             self.deliver(self.index(Party::Parent), self.clock.now(), command);
-        }
-    }
-
-    /// Gives a node a command now; one that has ended, or never was, does not mind.
-    pub fn command(&self, node: NodeId, command: Command) {
-        if usize::from(node) + 1 < self.inboxes.len() {
-            self.deliver(usize::from(node), self.clock.now(), Content::Command(command));
         }
     }
 

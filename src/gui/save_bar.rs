@@ -185,7 +185,7 @@ fn file_name(header: &Header, kind: Kind, done: bool) -> String {
         Kind::Render => String::new(),
         Kind::Owners => "-owners".into(),
         Kind::Blend => "-blend".into(),
-        Kind::Run => format!("-{}-{}", header.strategy, header.speeds.len()),
+        Kind::Run => format!("-{}-{}", header.strategy_name(), header.speeds.len()),
     };
     let unfinished = if done { "" } else { "-unfinished" };
     let ending = if kind == Kind::Run { "anel" } else { "png" };

@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::balance::Strategy;
+use crate::balance::{Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::picture::{Division, Size};
-use crate::runlog::{Header, Link};
+use crate::runlog::{Driver, Header, Link};
 
 /// What the user has set. Speeds and latency act at once, everything else when a run starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -168,12 +168,12 @@ impl Settings {
             size: self.size,
             samples: self.samples,
             division: self.division(),
-            strategy: self.strategy,
+            driver: Driver::Threads,
+            rules: Rules { strategy: self.strategy, part: self.part, batch: Some(Rules::BATCH) },
             speeds: self.speeds.clone(),
             pace: self.pace(work, cores),
-            link: Link { latency: self.latency_time(), bandwidth: None },
+            link: Link { latency: self.latency_time(), bandwidth: None, shared: false },
             handling: Duration::ZERO,
-            part: self.part,
             cores,
         }
     }
@@ -184,8 +184,8 @@ impl Settings {
             size: header.size,
             samples: header.samples,
             atom: header.division.atom_pixels(),
-            strategy: header.strategy,
-            part: header.part,
+            strategy: header.rules.strategy,
+            part: header.rules.part,
             tempo: if header.pace < 1.0 { tempo } else { Tempo::Full },
             speeds: header.speeds.clone(),
             latency: u32::try_from(header.link.latency.as_millis()).unwrap_or(u32::MAX),
@@ -228,7 +228,7 @@ impl Settings {
         const BUSY: f64 = 0.85;
         let sum: f64 = match self.strategy {
             Strategy::Serial => self.speeds[0],
-            Strategy::Ring => self.speeds.iter().sum(),
+            _ => self.speeds.iter().sum(),
         };
         match self.tempo {
             Tempo::Full => 1.0,

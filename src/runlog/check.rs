@@ -44,7 +44,7 @@ pub(super) fn record(header: &Header, record: &Record) -> Result<(), String> {
             node(header, *id)
         }
         What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
-        What::LatencySet { .. } | What::Finished => Ok(()),
+        What::LatencySet { .. } | What::Estimating | What::Finished => Ok(()),
     }
 }
 
@@ -53,10 +53,10 @@ fn message(header: &Header, message: &Message) -> Result<(), String> {
         ensure(range.start <= range.end && range.end <= header.division.atoms(), "there are no such atoms")
     };
     match message {
-        Message::Band(range) => possible(range),
+        Message::Band(range) | Message::Part(range) => possible(range),
         Message::Transfer(ranges) | Message::Results(ranges) => ranges.iter().try_for_each(possible),
         Message::Offer { who, .. } => node(header, *who),
-        Message::Shutdown => Ok(()),
+        Message::Request | Message::Shutdown => Ok(()),
     }
 }
 

@@ -2,29 +2,18 @@
 
 use std::time::Duration;
 
-use super::{Header, Link};
+use super::Header;
 use crate::balance::{Message, NodeId, Party, Strategy};
-use crate::picture::{Atom, Division, Size};
+use crate::picture::{Atom, Size};
 use crate::record::{Record, What};
 use crate::time::Time;
 
 /// A run of 10 × 10 pixels in atoms of 5 on nodes of these speeds, at full pace on 2 cores.
 pub fn header(speeds: &[f64]) -> Header {
-    Header {
-        scene: "test".into(),
-        scene_text: "x".repeat(100),
-        // Neither side is 0.
-        size: Size::new(10, 10).unwrap(),
-        samples: 1,
-        division: Division::new(100, 5),
-        strategy: Strategy::Ring,
-        speeds: speeds.to_vec(),
-        pace: 1.0,
-        link: Link { latency: Duration::ZERO, bandwidth: None },
-        handling: Duration::ZERO,
-        part: 1,
-        cores: 2,
-    }
+    // Neither side is 0.
+    let size = Size::new(10, 10).unwrap();
+    let plain = Header::plain(size, 5, Strategy::Ring, speeds.to_vec());
+    Header { scene: "test".into(), scene_text: "x".repeat(100), cores: 2, ..plain }
 }
 
 /// `what` at `at` seconds.

@@ -12,7 +12,7 @@ use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 
 /// The version of the format that this program writes, and the only one that it reads.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// How every run file begins.
 const START: [u8; 12] = *br#"{"anel_run":"#;
@@ -152,10 +152,10 @@ fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Link;
     use super::super::examples::{done, header};
+    use super::super::{Driver, Link};
     use super::*;
-    use crate::balance::{Message, Party, Strategy as Sharing};
+    use crate::balance::{Message, Party, Rules, Strategy as Sharing};
     use crate::record::What;
     use crate::time::Time;
     use proptest::prelude::*;
@@ -174,6 +174,8 @@ mod tests {
         let range = || (0..=ATOMS, 0..=ATOMS).prop_map(|(a, b)| a.min(b)..a.max(b));
         prop_oneof![
             range().prop_map(Message::Band),
+            Just(Message::Request),
+            range().prop_map(Message::Part),
             (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::Offer { who, done }),
             prop::collection::vec(range(), 0..4).prop_map(Message::Transfer),
             prop::collection::vec(range(), 0..4).prop_map(Message::Results),
@@ -195,20 +197,23 @@ mod tests {
             (0..NODES).prop_map(|node| What::Resumed { node }),
             any::<Duration>().prop_map(|latency| What::LatencySet { latency }),
             (0..NODES).prop_map(|node| What::Retired { node }),
+            Just(What::Estimating),
             Just(What::Finished),
         ]
     }
 
     fn headers() -> impl Strategy<Value = Header> {
         let numbers = (prop::array::uniform4(0.0..=1.0f64), 1e-6..=1.0f64, prop::option::of(1.0..1e12f64));
-        (".*", any::<(Duration, Duration, u32)>(), numbers).prop_map(
-            |(scene, (latency, handling, part), (speeds, pace, bandwidth))| Header {
+        let batch = prop::option::of(any::<Duration>());
+        let shared = any::<bool>();
+        (".*", any::<(Duration, Duration, u32)>(), numbers, batch, shared).prop_map(
+            |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, shared)| Header {
                 scene,
-                strategy: Sharing::Serial,
+                driver: Driver::Sim,
+                rules: Rules { strategy: Sharing::FarmBySpeed, part, batch },
                 pace,
-                link: Link { latency, bandwidth },
+                link: Link { latency, bandwidth, shared },
                 handling,
-                part,
                 ..header(&speeds)
             },
         )
@@ -257,12 +262,12 @@ mod tests {
         assert_eq!(complaint(b"{\"anel_run\":\xff"), "line 1: this is not a run file of anel");
         assert_eq!(
             with(1, r#"{"anel_run":1,"header":null}"#),
-            "line 1: the file is from an older anel (its format's version is 1; this program reads version 2); make \
+            "line 1: the file is from an older anel (its format's version is 1; this program reads version 3); make \
              the run anew"
         );
         assert_eq!(
             with(1, r#"{"anel_run":7,"header":null}"#),
-            "line 1: the file is from a newer anel (its format's version is 7; this program reads version 2); open it \
+            "line 1: the file is from a newer anel (its format's version is 7; this program reads version 3); open it \
              with that one"
         );
         assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::balance::Strategy;
+use crate::balance::{Rules, Strategy};
 use crate::picture::{Division, Size};
 
 /// What a run was asked to do.
@@ -20,28 +20,88 @@ pub struct Header {
     pub samples: u32,
     /// How the picture is cut into atoms.
     pub division: Division,
-    /// How the atoms are shared.
-    pub strategy: Strategy,
+    /// Who executes the run.
+    pub driver: Driver,
+    /// How the atoms are shared; [`Driver::WorkStealing`] has rules of its own.
+    pub rules: Rules,
     /// A node a speed, as fractions of the reference machine (1 = 100 %).
     pub speeds: Vec<f64>,
     /// What fraction of one real core the reference machine gets, above 0 and at most 1. At pace 1 a node of
     /// speed 1 never waits.
     pub pace: f64,
-    /// The link between any two parties.
+    /// The network.
     pub link: Link,
     /// How long the parent is busy with each message.
     pub handling: Duration,
-    /// An offer is worth taking if it moves at least this many atoms.
-    pub part: u32,
-    /// Cores of the computer that emulates the machines.
+    /// Cores of the computer that emulates the machines; in virtual time as many as there are machines.
     pub cores: usize,
 }
 
-/// Latency and bandwidth between any two parties, the parent included; each pair has a link of its own.
+/// Who executes a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Driver {
+    /// Real time: a thread for each node, which is both its handler and its worker.
+    Threads,
+    /// Real time: a thread for each node's handler and one for its worker, as the article has it (§8). At full speed only.
+    Pairs,
+    /// Virtual time.
+    Sim,
+    /// Real time: rayon's work stealing over the atoms, a thread for each node; no strategy of ours.
+    WorkStealing,
+}
+
+impl Driver {
+    /// The name in reports and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Threads => "threads",
+            Self::Pairs => "pairs",
+            Self::Sim => "sim",
+            Self::WorkStealing => "rayon",
+        }
+    }
+}
+
+impl Header {
+    /// A run of a picture in atoms of `atom_pixels`, on nodes of these speeds, as plain as can be: threads at full pace, on
+    /// links that take no time and a core for each machine, with the strategy's usual rules.
+    pub fn plain(size: Size, atom_pixels: u32, strategy: Strategy, speeds: Vec<f64>) -> Self {
+        let division = Division::new(size.pixels(), atom_pixels);
+        Self {
+            scene: String::new(),
+            scene_text: String::new(),
+            size,
+            samples: 1,
+            division,
+            driver: Driver::Threads,
+            rules: Rules::usual(strategy, division, speeds.len()),
+            pace: 1.0,
+            link: Link { latency: Duration::ZERO, bandwidth: None, shared: false },
+            handling: Duration::ZERO,
+            cores: speeds.len(),
+            speeds,
+        }
+    }
+
+    /// What shares the atoms, by its name on the command line.
+    pub fn strategy_name(&self) -> &'static str {
+        if self.driver == Driver::WorkStealing { self.driver.name() } else { self.rules.strategy.name() }
+    }
+
+    /// Whether no machine is slower than this computer, and so none has to wait.
+    pub fn is_full_speed(&self) -> bool {
+        self.pace >= 1.0 && self.speeds.iter().all(|&speed| speed >= 1.0)
+    }
+}
+
+/// Latency and bandwidth between any two parties, the parent included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
-    /// How long the first byte travels.
+    /// How long the last byte travels once it has left.
     pub latency: Duration,
     /// Bytes a second; `None` is unlimited.
     pub bandwidth: Option<f64>,
+    /// Whether all share one wire, as an Ethernet of 1997 was; else each pair has one of its own.
+    pub shared: bool,
 }

@@ -1,7 +1,9 @@
 //! The run log: what a run was asked to do, and what happened, in the order of time.
 
+use std::time::Duration;
+
 use super::Header;
-use crate::record::Record;
+use crate::record::{Record, What};
 
 /// A run's records under its header.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +25,19 @@ impl RunLog {
         &self.records
     }
 
+    /// What each atom cost, in CPU time; `None` for those that are not traced.
+    pub fn costs(&self) -> Vec<Option<Duration>> {
+        let mut costs = vec![None; self.header.division.atoms() as usize];
+        for record in &self.records {
+            if let What::AtomDone { atom, cost, .. } = record.what
+                && let Some(known) = costs.get_mut(atom as usize)
+            {
+                *known = Some(cost);
+            }
+        }
+        costs
+    }
+
     /// Sorts records in: a batch of one party's, which are in the order of time, or several such one after the other.
     /// Parties deliver theirs a little late, so that only the log's end is touched, and sorting what is made of sorted
     /// runs takes nearly linear time. Still that end is long where many parties say much: whoever has several batches at
@@ -40,7 +55,6 @@ mod tests {
     use super::super::examples::header;
     use super::*;
     use crate::balance::Party;
-    use crate::record::What;
     use crate::time::Time;
     use proptest::prelude::*;
 

@@ -6,8 +6,9 @@ pub(crate) mod examples;
 mod file;
 mod header;
 mod log;
-pub mod metrics;
+mod tally;
 
 pub use file::{LogError, is_run_file};
-pub use header::{Header, Link};
+pub use header::{Driver, Header, Link};
 pub use log::RunLog;
+pub use tally::{Messages, Tally};

@@ -47,6 +47,13 @@ pub struct RayCounts {
     pub refracted: u64,
 }
 
+impl RayCounts {
+    /// Rays of all kinds.
+    pub fn total(&self) -> u64 {
+        self.primary + self.shadow + self.reflected + self.refracted
+    }
+}
+
 impl AddAssign for RayCounts {
     fn add_assign(&mut self, other: Self) {
         self.primary += other.primary;

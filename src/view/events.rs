@@ -93,7 +93,11 @@ impl Events {
             }
             What::Retired { node } => self.retired(at, *node),
             What::Finished => self.tell(at, Event::End, sentences::COMPLETE.into()),
-            What::Sent { .. } | What::Received { .. } | What::AtomStarted { .. } | What::AtomDone { .. } => {}
+            What::Sent { .. }
+            | What::Received { .. }
+            | What::Estimating
+            | What::AtomStarted { .. }
+            | What::AtomDone { .. } => {}
         }
     }
 

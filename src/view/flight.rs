@@ -36,6 +36,10 @@ pub enum Cargo {
         /// The node that offers.
         who: NodeId,
     },
+    /// A request for atoms.
+    Request,
+    /// Atoms for the node that asked; none if there are no more.
+    Part(Range<Atom>),
     /// Atoms for the node that offered.
     Transfer(Vec<Range<Atom>>),
     /// Traced atoms for the parent.
@@ -50,6 +54,8 @@ impl Flight {
         let cargo = match message {
             Message::Band(band) => Cargo::Band(band.clone()),
             Message::Offer { who, .. } => Cargo::Offer { who: *who },
+            Message::Request => Cargo::Request,
+            Message::Part(part) => Cargo::Part(part.clone()),
             Message::Transfer(ranges) => Cargo::Transfer(ranges.clone()),
             Message::Results(ranges) => Cargo::Results(ranges.clone()),
             Message::Shutdown => Cargo::Shutdown,
@@ -91,9 +97,9 @@ impl Cargo {
     /// How many atoms it holds.
     pub fn atoms(&self) -> u32 {
         match self {
-            Self::Band(band) => band.len() as u32,
+            Self::Band(atoms) | Self::Part(atoms) => atoms.len() as u32,
             Self::Transfer(ranges) | Self::Results(ranges) => atoms_in(ranges),
-            Self::Offer { .. } | Self::Shutdown => 0,
+            Self::Offer { .. } | Self::Request | Self::Shutdown => 0,
         }
     }
 
@@ -104,6 +110,8 @@ impl Cargo {
             Self::Band(_) => Duration::from_millis(900),
             Self::Transfer(_) => Duration::from_millis(1000),
             Self::Results(_) => Duration::from_millis(500),
+            Self::Part(_) => Duration::from_millis(700),
+            Self::Request => Duration::from_millis(300),
             Self::Offer { .. } | Self::Shutdown => Duration::ZERO,
         }
     }
@@ -112,8 +120,8 @@ impl Cargo {
     const fn fade(&self) -> Duration {
         match self {
             Self::Offer { .. } => Duration::from_millis(700),
-            Self::Band(_) | Self::Transfer(_) => Duration::from_millis(300),
-            Self::Results(_) | Self::Shutdown => Duration::ZERO,
+            Self::Band(_) | Self::Part(_) | Self::Transfer(_) => Duration::from_millis(300),
+            Self::Results(_) | Self::Request | Self::Shutdown => Duration::ZERO,
         }
     }
 }

@@ -70,6 +70,9 @@ pub fn flight_words(flight: &Flight) -> String {
     let (from, to, atoms) = (name(flight.from), name(flight.to), atoms_words(flight.cargo.atoms()));
     match &flight.cargo {
         Cargo::Band(_) => format!("{atoms} for {to}, its band"),
+        Cargo::Request => format!("{from} asks {to} for atoms"),
+        Cargo::Part(_) if flight.cargo.atoms() == 0 => format!("{from} has no more atoms for {to}"),
+        Cargo::Part(_) => format!("{atoms} for {to}, which asked for them"),
         Cargo::Transfer(_) => format!("{atoms} from {from} to {to}"),
         Cargo::Offer { who } => format!("The offer of {}, on its way from {from} to {to}", node_name(*who)),
         Cargo::Results(_) => format!("{atoms} that {from} has traced, for {to}"),

@@ -41,16 +41,16 @@ impl RunState {
 
     /// Whether atoms are on their way to a machine.
     pub(super) fn has_atoms_under_way(&self) -> bool {
-        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Band(_) | Cargo::Transfer(_));
+        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_));
         self.pending.values().any(carries)
     }
 
     /// The message in which `atom` is on its way to a node.
     pub fn carrier(&self, atom: Atom) -> Option<&Flight> {
         let carries = |flight: &&Flight| match &flight.cargo {
-            Cargo::Band(band) => band.contains(&atom),
+            Cargo::Band(atoms) | Cargo::Part(atoms) => atoms.contains(&atom),
             Cargo::Transfer(ranges) => ranges.iter().any(|range| range.contains(&atom)),
-            Cargo::Offer { .. } | Cargo::Results(_) | Cargo::Shutdown => false,
+            Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => false,
         };
         self.pending.values().find(carries)
     }

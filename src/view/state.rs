@@ -90,6 +90,7 @@ impl RunState {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
+            What::Estimating => {}
             What::Finished => self.finished = Some(at),
         }
     }
@@ -178,7 +179,8 @@ impl RunState {
                     sender.offer_out = true;
                 }
                 Cargo::Offer { .. } => sender.hops += 1,
-                Cargo::Band(_) | Cargo::Results(_) | Cargo::Shutdown => {}
+                Cargo::Request => sender.offer_out = true,
+                Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
             }
         }
         if self.is_drawn(&flight) {
@@ -232,12 +234,16 @@ impl RunState {
                 state.band_at = Some(at);
                 vec![band]
             }
+            Cargo::Part(part) => {
+                state.offer_out = false;
+                vec![part]
+            }
             Cargo::Transfer(ranges) => {
                 state.offer_out = false;
                 state.got.add(atoms_in(&ranges));
                 ranges
             }
-            Cargo::Offer { .. } | Cargo::Results(_) | Cargo::Shutdown => return,
+            Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => return,
         };
         state.give(atoms_in(&ranges), at);
         for range in ranges {
@@ -276,7 +282,7 @@ mod tests {
             | What::Paused { node }
             | What::Resumed { node }
             | What::Retired { node } => Party::Node(*node),
-            What::LatencySet { .. } | What::Finished => Party::Parent,
+            What::LatencySet { .. } | What::Estimating | What::Finished => Party::Parent,
         }
     }
 

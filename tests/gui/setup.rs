@@ -89,7 +89,7 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     type_number(&mut window, "Pixels in an atom", "200");
     assert_eq!(session(&window).header().division.atom_pixels(), 200);
     type_number(&mut window, "Least atoms worth sending", "5");
-    assert_eq!(session(&window).header().part, 5);
+    assert_eq!(session(&window).header().rules.part, 5);
     type_number(&mut window, "Width in pixels", "400");
     until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x480");
     type_number(&mut window, "Height in pixels", "300");
@@ -97,11 +97,11 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     type_number(&mut window, "Samples", "2");
     until(&mut window, "samples", |window| session(window).header().samples == 2);
     press(&mut window, "Serial");
-    assert_eq!(session(&window).header().strategy, Strategy::Serial);
+    assert_eq!(session(&window).header().rules.strategy, Strategy::Serial);
     until(&mut window, "atoms of the first", |window| session(window).stage().state.nodes()[0].done > 10);
     assert_eq!(done(&window), session(&window).stage().state.nodes()[0].done);
     press(&mut window, "Ring");
-    assert_eq!(session(&window).header().strategy, Strategy::Ring);
+    assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
     window.get_by_label("Usual sizes").click();
     window.run_steps(3);
     window.get_by_label("320x240").click();

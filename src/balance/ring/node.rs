@@ -37,11 +37,12 @@ enum State {
 }
 
 impl Node {
-    /// Node `id` of `nodes`. An offer is worth taking if it moves at least `part` atoms (0 counts as 1).
-    pub fn new(id: NodeId, nodes: NodeId, part: u32) -> Self {
+    /// Node `id` of `nodes`, with its work, which is none yet. An offer is worth taking if it moves at least `part` atoms
+    /// (0 counts as 1).
+    pub(in crate::balance) fn new(id: NodeId, nodes: NodeId, part: u32, work: Work) -> Self {
         assert!(id < nodes, "node {id} is not in a ring of {nodes}");
         let left = if id == 0 { nodes - 1 } else { id - 1 };
-        Self { id, left, part: part.max(1), work: Work::default(), state: State::Waiting { early: Vec::new() } }
+        Self { id, left, part: part.max(1), work, state: State::Waiting { early: Vec::new() } }
     }
 
     /// Answers `event`, which happens at `now`, by appending to `actions`.
@@ -59,7 +60,7 @@ impl Node {
                 }
             }
             Event::Timer => self.work.send_results(actions),
-            Event::Started => unreachable!("only the parent is started"),
+            other => unreachable!("a node of the ring is never handed {other:?}"),
         }
     }
 
@@ -93,7 +94,7 @@ impl Node {
                 }
             }
             Message::Shutdown => actions.push(Action::Finish),
-            Message::Results(_) => unreachable!("results go to the parent"),
+            other => unreachable!("a node of the ring is never sent {other:?}"),
         }
     }
 

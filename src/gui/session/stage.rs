@@ -3,7 +3,7 @@
 use crate::driver::Update;
 use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
-use crate::runlog::{Header, RunLog, metrics};
+use crate::runlog::{Header, RunLog, Tally};
 use crate::time::Time;
 use crate::view::{Canvas, Narrator, Outcome, RunState, parts_words, result_words};
 
@@ -134,8 +134,7 @@ impl Stage {
 
 /// What the run amounts to, if it came to its end.
 fn outcome(log: &RunLog) -> Option<Outcome> {
-    let makespan = metrics::makespan(log.records())?;
-    let ideal = metrics::ideal(&log.header, log.records())?;
-    let efficiency = metrics::efficiency(&log.header, log.records())?;
-    Some(Outcome { makespan, ideal, efficiency, spread: metrics::finish_spread(log.records()) })
+    let tally = Tally::of(log);
+    let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
+    Some(Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() })
 }

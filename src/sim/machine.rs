@@ -1,6 +1,5 @@
 //! The emulated machine: how long its worker takes for what the thread has already done.
 
-use std::thread;
 use std::time::Duration;
 
 use crate::time::Time;
@@ -9,23 +8,10 @@ use crate::time::Time;
 /// a while; more than this means that the computer is too slow for the machines, and then the run takes longer.
 const MOST_LATE: Duration = Duration::from_millis(50);
 
-/// Cores of this computer.
-pub fn cores() -> usize {
-    thread::available_parallelism().map_or(1, usize::from)
-}
-
-/// The pace that lets machines of these `speeds` be emulated on a computer of `cores` cores: 1, no waiting at all, if
-/// every speed is 1; else what leaves 0.6 of the computer idle, since at twice that load the threads get in each
-/// other's way and that alone costs 1–2 %.
-pub fn auto_pace(speeds: &[f64], cores: usize) -> f64 {
-    let sum: f64 = speeds.iter().sum();
-    if speeds.iter().all(|&speed| speed == 1.0) { 1.0 } else { (0.4 * cores as f64 / sum).min(1.0) }
-}
-
 /// One machine's worker. Work is measured in CPU seconds of this computer, of which the machine does
 /// speed × pace in a second.
 #[derive(Debug)]
-pub(super) struct Machine {
+pub struct Machine {
     pace: f64,
     /// As a fraction of the reference machine's; a pause does not change it.
     speed: f64,
@@ -163,14 +149,6 @@ mod tests {
         let ready = |available, now| machine.ready(Time::from_secs(available), Time::from_secs(now)).secs();
         assert_eq!([ready(0.5, 1.01), ready(1.25, 1.25), ready(0.5, 2.05)], [1.0, 1.25, 2.0]);
         assert_eq!(Machine::new(1.0, 1.0).ready(Time::ZERO, Time::from_secs(3.0)).secs(), 3.0);
-    }
-
-    #[test]
-    fn auto_pace_waits_only_where_a_machine_is_throttled() {
-        assert_eq!(auto_pace(&[1.0; 8], 2), 1.0);
-        assert_eq!(auto_pace(&[1.0, 1.0, 1.0, 0.2], 2), 0.25);
-        assert_eq!(auto_pace(&[0.1], 64), 1.0);
-        assert_eq!(auto_pace(&[0.0, 0.0], 2), 1.0);
     }
 
     proptest! {

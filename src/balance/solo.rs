@@ -1,16 +1,21 @@
-//! A node that traces what it is given and neither offers nor takes help.
+//! A node that traces what it is given and neither asks for more nor takes help: serial and static bands (§6.1).
 
 use super::message::{Action, Event, Message};
 use super::work::Work;
 use crate::time::Time;
 
 /// A node on its own.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Node {
     work: Work,
 }
 
 impl Node {
+    /// A node with this work, which is none yet.
+    pub fn new(work: Work) -> Self {
+        Self { work }
+    }
+
     /// Answers `event`, which happens at `now`, by appending to `actions`.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
@@ -23,7 +28,7 @@ impl Node {
                 }
             }
             Event::Timer => self.work.send_results(actions),
-            other => unreachable!("a serial node is never handed {other:?}"),
+            other => unreachable!("a node on its own is never handed {other:?}"),
         }
     }
 }

@@ -1,0 +1,93 @@
+//! The farm (§6.2): the picture is cut into more parts than there are nodes; a free node asks, the parent answers.
+
+use std::ops::Range;
+
+use super::message::{Action, Event, Message, NodeId, Party};
+use super::work::Work;
+use crate::picture::Atom;
+use crate::time::Time;
+
+/// The parent's share in a farm: the atoms that no node has been given yet.
+#[derive(Debug)]
+pub(super) struct Parts {
+    rest: Range<Atom>,
+    /// Atoms in a part.
+    part: u32,
+    by_speed: bool,
+    /// By node: what it was given last, and when.
+    given: Vec<(Time, u32)>,
+    /// Of the quickest node so far, in atoms a second.
+    best: f64,
+}
+
+impl Parts {
+    /// All of so many `atoms`, in parts of `part` (0 counts as 1); *by speed* the parts of slower nodes are smaller.
+    pub fn new(atoms: Atom, nodes: NodeId, part: u32, by_speed: bool) -> Self {
+        Self {
+            rest: 0..atoms,
+            part: part.max(1),
+            by_speed,
+            given: vec![(Time::ZERO, 0); usize::from(nodes)],
+            best: 0.0,
+        }
+    }
+
+    /// The next part for `node`, which asks for it at `now`; an empty one if there are no more.
+    ///
+    /// *By speed*, what the node did with its last part tells how fast it is: a node that is half as fast as the
+    /// quickest gets parts half as large. The time of the messages counts as the node's.
+    pub fn next(&mut self, node: NodeId, now: Time) -> Range<Atom> {
+        let (since, atoms) = self.given[usize::from(node)];
+        let mut size = self.part;
+        if self.by_speed && atoms > 0 {
+            let rate = f64::from(atoms) / now.since(since).as_secs_f64().max(1e-9);
+            self.best = self.best.max(rate);
+            size = ((f64::from(self.part) * rate / self.best).round() as u32).max(1);
+        }
+        let end = self.rest.end.min(self.rest.start.saturating_add(size));
+        let part = std::mem::replace(&mut self.rest.start, end)..end;
+        self.given[usize::from(node)] = (now, part.len() as u32);
+        part
+    }
+}
+
+/// A node of a farm.
+#[derive(Debug)]
+pub(super) struct Node {
+    work: Work,
+}
+
+impl Node {
+    /// A node with this work, which is none yet.
+    pub fn new(work: Work) -> Self {
+        Self { work }
+    }
+
+    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
+        match event {
+            Event::Message { message: Message::Band(atoms), .. } => {
+                self.work.add([atoms], actions);
+                if self.work.is_idle() {
+                    ask(actions);
+                }
+            }
+            Event::Message { message: Message::Part(atoms), .. } if atoms.is_empty() => actions.push(Action::Retire),
+            Event::Message { message: Message::Part(atoms), .. } => self.work.add([atoms], actions),
+            Event::Message { message: Message::Shutdown, .. } => actions.push(Action::Finish),
+            Event::AtomDone { atom, .. } => {
+                self.work.atom_done(now, atom, actions);
+                if self.work.is_idle() {
+                    self.work.send_results(actions);
+                    ask(actions);
+                }
+            }
+            Event::Timer => self.work.send_results(actions),
+            other => unreachable!("a node of a farm is never handed {other:?}"),
+        }
+    }
+}
+
+fn ask(actions: &mut Vec<Action>) {
+    actions.push(Action::Send { to: Party::Parent, message: Message::Request });
+}

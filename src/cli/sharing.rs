@@ -1,0 +1,117 @@
+//! From arguments to what a run is asked to do.
+
+use std::str::FromStr;
+
+use super::args::{Pace, RenderArgs};
+use crate::balance::{Rules, Strategy};
+use crate::driver::{auto_pace, cores};
+use crate::picture::Division;
+use crate::runlog::{Driver, Header, Link};
+use crate::scene::Opened;
+
+/// What shares the atoms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sharing {
+    By(Strategy),
+    /// Rayon's work stealing.
+    Rayon,
+}
+
+impl FromStr for Sharing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == Driver::WorkStealing.name() {
+            return Ok(Self::Rayon);
+        }
+        text.parse().map(Self::By).map_err(|error: String| format!("{error}, rayon"))
+    }
+}
+
+/// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
+const MAX_ATOMS: u32 = 1 << 24;
+
+/// What a run with these arguments is asked to do.
+///
+/// # Errors
+/// A sentence that says which argument is impossible, and why.
+pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, String> {
+    let speeds = node_speeds(args)?;
+    let division = Division::new(args.size.pixels(), args.atom);
+    if division.atoms() > MAX_ATOMS {
+        return Err(format!(
+            "{} atoms of {} pixels are too many; at most {MAX_ATOMS} are possible (--atom makes them larger)",
+            division.atoms(),
+            args.atom
+        ));
+    }
+    let (driver, strategy) = match (args.strategy, args.driver) {
+        (Sharing::By(strategy), driver) => (driver, strategy),
+        // Its own rules are not among ours.
+        (Sharing::Rayon, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
+        (Sharing::Rayon, other) => {
+            return Err(format!(
+                "rayon shares by its own rules, on threads of its own; it cannot use {}",
+                other.name()
+            ));
+        }
+    };
+    if args.costs.is_some() && driver != Driver::Sim {
+        return Err("measured costs are for runs in virtual time; add --driver sim".into());
+    }
+    let mut rules = Rules::usual(strategy, division, speeds.len());
+    rules.part = args.part.unwrap_or(rules.part);
+    let cores = if driver == Driver::Sim { speeds.len() } else { cores() };
+    let pace = match args.pace {
+        Pace::Of(pace) => pace,
+        // Nobody has to wait for a core there.
+        Pace::Auto if driver == Driver::Sim => 1.0,
+        Pace::Auto => auto_pace(&speeds, cores),
+    };
+    let header = Header {
+        scene: opened.name.clone(),
+        scene_text: opened.text.clone(),
+        size: args.size,
+        samples: args.samples,
+        division,
+        driver,
+        rules,
+        pace,
+        speeds,
+        link: Link { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
+        handling: args.handling,
+        cores,
+    };
+    if driver == Driver::Pairs && !header.is_full_speed() {
+        return Err(
+            "two threads a node compete for real cores, at full speed; leave out --speeds, --seed and --pace".into()
+        );
+    }
+    Ok(header)
+}
+
+/// A speed for each node.
+fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
+    let is_serial = args.strategy == Sharing::By(Strategy::Serial);
+    let usual = match args.speeds.len() {
+        0 if is_serial => 1,
+        0 => 4,
+        speeds => speeds,
+    };
+    let nodes = args.nodes.map_or(usual, usize::from);
+    if is_serial && nodes != 1 {
+        return Err(format!("serial is one node that traces all; it cannot have {nodes} nodes"));
+    }
+    match (args.speeds.len(), args.seed) {
+        (0, None) => Ok(vec![1.0; nodes]),
+        (0, Some(seed)) => {
+            let mut random = fastrand::Rng::with_seed(seed);
+            Ok((0..nodes).map(|_| f64::from(random.u8(10..=100)) / 100.0).collect())
+        }
+        (speeds, _) if speeds != nodes => {
+            Err(format!("there are {nodes} nodes but {speeds} speeds; give each node one speed, or none at all"))
+        }
+        _ if nodes > 1024 => Err(format!("{nodes} nodes are too many; at most 1024 are possible")),
+        _ => Ok(args.speeds.clone()),
+    }
+}

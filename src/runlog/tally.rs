@@ -1,0 +1,336 @@
+//! What a run amounts to, counted from its records in the order of time, as they come or from a log.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::{Header, RunLog};
+use crate::balance::{Message, NodeId, Party};
+use crate::record::{Record, What};
+use crate::time::Time;
+
+/// A count of everything that a run amounts to.
+#[derive(Clone, Debug)]
+pub struct Tally {
+    speeds: Vec<f64>,
+    pace: f64,
+    cores: usize,
+    /// When the parent began: with the first band, or with what it needs to know before.
+    start: Option<Time>,
+    finished: Option<Time>,
+    work: Duration,
+    /// By node: how many atoms it has traced, and when the last.
+    nodes: Vec<(u32, Time)>,
+    changes: Vec<(Time, NodeId, Change)>,
+    messages: Messages,
+}
+
+/// How much was said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Messages {
+    /// Requests for work to the parent: only a farm makes any.
+    pub requests: u64,
+    /// The parent's answers.
+    pub parts: u64,
+    /// Offers that a node made.
+    pub offers: u64,
+    /// Offers passed on.
+    pub hops: u64,
+    /// Offers taken.
+    pub transfers: u64,
+    /// Atoms in the transfers.
+    pub atoms_moved: u64,
+    /// Batches of results.
+    pub results: u64,
+    /// Messages of every kind.
+    pub total: u64,
+    /// Their weight ([`Message::bytes`]).
+    pub bytes: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Change {
+    Speed(f64),
+    Paused(bool),
+}
+
+impl Tally {
+    /// Nothing has happened yet.
+    pub fn new(header: &Header) -> Self {
+        Self {
+            speeds: header.speeds.clone(),
+            pace: header.pace,
+            cores: header.cores,
+            start: None,
+            finished: None,
+            work: Duration::ZERO,
+            nodes: vec![(0, Time::ZERO); header.speeds.len()],
+            changes: Vec::new(),
+            messages: Messages::default(),
+        }
+    }
+
+    /// All of a log.
+    pub fn of(log: &RunLog) -> Self {
+        let mut tally = Self::new(&log.header);
+        log.records().iter().for_each(|record| tally.add(record));
+        tally
+    }
+
+    /// Counts what has happened next.
+    pub fn add(&mut self, record: &Record) {
+        let at = record.at;
+        match &record.what {
+            What::Sent { from, message, bytes, .. } => {
+                if matches!(message, Message::Band(_)) {
+                    self.start.get_or_insert(at);
+                }
+                self.messages.add(*from, message, *bytes);
+            }
+            What::Estimating => _ = self.start.get_or_insert(at),
+            What::AtomDone { node, cost, .. } => {
+                self.work += *cost;
+                if let Some((atoms, end)) = self.nodes.get_mut(usize::from(*node)) {
+                    (*atoms, *end) = (*atoms + 1, at);
+                }
+            }
+            What::SpeedSet { node, speed } => self.changes.push((at, *node, Change::Speed(*speed))),
+            What::Paused { node } => self.changes.push((at, *node, Change::Paused(true))),
+            What::Resumed { node } => self.changes.push((at, *node, Change::Paused(false))),
+            What::Finished => self.finished = Some(at),
+            What::Received { .. } | What::AtomStarted { .. } | What::LatencySet { .. } | What::Retired { .. } => {}
+        }
+    }
+
+    /// From the first band sent, or the beginning of an estimate that it needs, to the last atom placed; `None` while the
+    /// picture is incomplete.
+    pub fn makespan(&self) -> Option<Duration> {
+        Some(self.finished?.since(self.start?))
+    }
+
+    /// Σ of the atoms' costs: CPU time of this computer in the tracer.
+    pub fn work(&self) -> Duration {
+        self.work
+    }
+
+    /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
+    /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Tally::work`].
+    /// Speeds that change count from then on, and a paused machine does nothing. `None` if the machines stand still before
+    /// the work is done.
+    pub fn ideal(&self) -> Option<Duration> {
+        let start = self.start?;
+        let mut machines: Vec<_> = self.speeds.iter().map(|&speed| Machine { speed, paused: false }).collect();
+        let mut left = self.work.as_secs_f64();
+        let mut since = start;
+        for &(at, node, change) in &self.changes {
+            let span = at.since(since).as_secs_f64();
+            let rate = self.rate(&machines);
+            if left <= span * rate {
+                break;
+            }
+            left -= span * rate;
+            since = since.max(at);
+            if let Some(machine) = machines.get_mut(usize::from(node)) {
+                match change {
+                    Change::Speed(speed) => machine.speed = speed,
+                    Change::Paused(paused) => machine.paused = paused,
+                }
+            }
+        }
+        let rest = Duration::try_from_secs_f64(left / self.rate(&machines)).ok()?;
+        Some(since.since(start) + rest)
+    }
+
+    /// [`Tally::ideal`] / [`Tally::makespan`]: 1 is perfect; `None` while either is unknown.
+    pub fn efficiency(&self) -> Option<f64> {
+        let (ideal, makespan) = (self.ideal()?, self.makespan()?);
+        (!makespan.is_zero()).then(|| ideal.div_duration_f64(makespan))
+    }
+
+    /// From the moment at which the first node is done with its last atom to that at which the last is; nodes that traced
+    /// nothing do not count.
+    pub fn finish_spread(&self) -> Duration {
+        let ends = || self.nodes.iter().filter(|(atoms, _)| *atoms > 0).map(|(_, end)| end);
+        ends().max().zip(ends().min()).map_or(Duration::ZERO, |(last, first)| last.since(*first))
+    }
+
+    /// The share of the machines' time that lies after their last atoms, a slow machine's time counting less; of a node that
+    /// traced nothing, all of its time. `None` while the picture is incomplete.
+    pub fn tail_idle(&self) -> Option<f64> {
+        let (start, finished) = (self.start?, self.finished?);
+        let idle = |(speed, (atoms, end)): (&f64, &(u32, Time))| {
+            speed * finished.since(if *atoms > 0 { *end } else { start }).as_secs_f64()
+        };
+        let idle: f64 = self.speeds.iter().zip(&self.nodes).map(idle).sum();
+        let all = self.speeds.iter().sum::<f64>() * finished.since(start).as_secs_f64();
+        (all > 0.0).then(|| idle / all)
+    }
+
+    /// How many atoms each node has traced.
+    pub fn atoms_by_node(&self) -> Vec<u32> {
+        self.nodes.iter().map(|(atoms, _)| *atoms).collect()
+    }
+
+    /// How much was said.
+    pub fn messages(&self) -> Messages {
+        self.messages
+    }
+
+    /// CPU seconds of this computer that all machines together do in a second.
+    fn rate(&self, machines: &[Machine]) -> f64 {
+        let speeds = machines.iter().map(|machine| if machine.paused { 0.0 } else { machine.speed });
+        (speeds.sum::<f64>() * self.pace).min(self.cores as f64)
+    }
+}
+
+impl Messages {
+    fn add(&mut self, from: Party, message: &Message, bytes: u64) {
+        self.total += 1;
+        self.bytes += bytes;
+        match message {
+            Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
+            Message::Offer { .. } => self.hops += 1,
+            Message::Transfer(ranges) => {
+                self.transfers += 1;
+                self.atoms_moved += ranges.iter().map(|range| range.len() as u64).sum::<u64>();
+            }
+            Message::Results(_) => self.results += 1,
+            Message::Request => self.requests += 1,
+            Message::Part(_) => self.parts += 1,
+            Message::Band(_) | Message::Shutdown => {}
+        }
+    }
+}
+
+struct Machine {
+    speed: f64,
+    paused: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::{at, done, header, sent};
+    use super::*;
+
+    fn tally(header: &Header, records: &[Record]) -> Tally {
+        let mut tally = Tally::new(header);
+        records.iter().for_each(|record| tally.add(record));
+        tally
+    }
+
+    fn ideal(header: &Header, records: &[Record]) -> Option<Duration> {
+        tally(header, records).ideal()
+    }
+
+    const PARENT: Party = Party::Parent;
+
+    fn node(node: u16) -> Party {
+        Party::Node(node)
+    }
+
+    /// Two nodes, 20 CPU seconds, from second 1 to second 13.
+    fn run() -> Vec<Record> {
+        vec![
+            sent(1, PARENT, node(0), Message::Band(0..10)),
+            sent(1, PARENT, node(1), Message::Band(10..20)),
+            done(6, 0, 0, 5),
+            sent(6, node(0), node(1), Message::Offer { who: 0, done: 1 }),
+            sent(7, node(1), node(0), Message::Transfer(vec![15..17, 18..20])),
+            done(9, 1, 10, 7),
+            sent(9, node(1), node(0), Message::Offer { who: 1, done: 1 }),
+            sent(10, node(0), node(1), Message::Offer { who: 1, done: 1 }),
+            done(12, 0, 15, 8),
+            sent(12, node(0), PARENT, Message::Results(vec![0..1, 15..16])),
+            at(13, What::Finished),
+            sent(13, PARENT, node(0), Message::Shutdown),
+        ]
+    }
+
+    fn secs(secs: u64) -> Option<Duration> {
+        Some(Duration::from_secs(secs))
+    }
+
+    #[test]
+    fn the_work_and_its_end() {
+        let run = run();
+        let header = header(&[1.0; 3]);
+        let whole = tally(&header, &run);
+        assert_eq!((whole.makespan(), whole.work()), (secs(12), Duration::from_secs(20)));
+        assert_eq!(tally(&header, &run[..10]).makespan(), None, "before the end");
+        assert_eq!(whole.finish_spread(), Duration::from_secs(3));
+        assert_eq!(tally(&header, &[]).finish_spread(), Duration::ZERO);
+        assert_eq!(whole.atoms_by_node(), [2, 1, 0]);
+        // 1 s, 4 s, and all 12 s of the one that traced nothing.
+        assert_eq!(whole.tail_idle(), Some(17.0 / 36.0));
+    }
+
+    #[test]
+    fn the_ideal_is_bounded_by_machines_and_by_cores() {
+        let run = run();
+        assert_eq!(ideal(&header(&[1.0, 1.0]), &run), secs(10));
+        assert_eq!(ideal(&header(&[0.25, 0.25]), &run), secs(40));
+        assert_eq!(ideal(&header(&[1.0; 8]), &run), secs(10), "eight machines on two cores");
+        assert_eq!(ideal(&Header { pace: 0.1, ..header(&[1.0, 1.0]) }, &run), secs(100));
+        assert_eq!(tally(&header(&[1.0, 1.0]), &run).efficiency(), Some(10.0 / 12.0));
+    }
+
+    #[test]
+    fn the_ideal_knows_when_speeds_changed() {
+        let header = header(&[1.0, 1.0]);
+        let mut run = run();
+        // Two a second for 3 s, from then on one a second for the 14 that are left.
+        run.insert(2, at(4, What::SpeedSet { node: 1, speed: 0.0 }));
+        assert_eq!(ideal(&header, &run), secs(17));
+        run.insert(3, at(5, What::SpeedSet { node: 0, speed: 0.0 }));
+        assert_eq!(ideal(&header, &run), None, "nobody works any more");
+        run.insert(6, at(8, What::SpeedSet { node: 0, speed: 0.5 }));
+        assert_eq!(ideal(&header, &run), secs(7 + 26));
+    }
+
+    #[test]
+    fn a_paused_machine_counts_as_one_that_stands_still() {
+        let header = header(&[1.0, 1.0]);
+        let mut run = run();
+        // Two a second for 3 s, one a second for 5, and again two a second for the 9 that are left.
+        run.insert(2, at(4, What::Paused { node: 1 }));
+        assert_eq!(ideal(&header, &run), secs(17), "until the end");
+        run.insert(6, at(9, What::Resumed { node: 1 }));
+        assert_eq!(ideal(&header, &run), Some(Duration::from_millis(12_500)));
+        // A speed that is set meanwhile counts from then on.
+        run.insert(3, at(5, What::SpeedSet { node: 1, speed: 0.5 }));
+        assert_eq!(ideal(&header, &run), secs(8 + 6));
+    }
+
+    #[test]
+    fn a_change_after_the_ideal_end_does_not_matter() {
+        let mut run = run();
+        run.push(at(14, What::SpeedSet { node: 0, speed: 0.0 }));
+        assert_eq!(ideal(&header(&[1.0, 1.0]), &run), secs(10));
+    }
+
+    #[test]
+    fn an_estimate_counts_from_its_beginning() {
+        let mut run = run();
+        run.insert(0, at(0, What::Estimating));
+        assert_eq!(tally(&header(&[1.0, 1.0]), &run).makespan(), secs(13));
+    }
+
+    #[test]
+    fn messages_are_told_apart() {
+        let mut run = run();
+        run.push(sent(14, node(0), PARENT, Message::Request));
+        run.push(sent(14, PARENT, node(0), Message::Part(3..4)));
+        let expected = Messages {
+            requests: 1,
+            parts: 1,
+            offers: 2,
+            hops: 1,
+            transfers: 1,
+            atoms_moved: 4,
+            results: 1,
+            total: 10,
+            bytes: 100,
+        };
+        assert_eq!(tally(&header(&[1.0, 1.0]), &run).messages(), expected);
+    }
+}

@@ -1,0 +1,12 @@
+//! Machines and links as they are emulated, and whole runs in virtual time: the same protocol, the same records, no
+//! thread and no clock, so that the same run gives the same records to the byte.
+
+mod event;
+mod link;
+mod machine;
+mod party;
+mod simulation;
+
+pub use link::{Link, Wire};
+pub use machine::Machine;
+pub use simulation::Sim;

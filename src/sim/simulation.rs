@@ -1,0 +1,294 @@
+//! A run in virtual time.
+
+use std::collections::BTreeMap;
+use std::mem;
+use std::time::Duration;
+
+use super::event::{Future, Happening, Mail};
+use super::link::{Link, Wire};
+use super::party::Party as Machinery;
+use crate::balance::{Action, Event, Message, NodeId, Parent, Party, estimate};
+use crate::picture::{Atom, Division};
+use crate::record::{Record, What};
+use crate::runlog::Header;
+use crate::scenario::Command;
+use crate::time::Time;
+
+/// A run in virtual time. It happens as far as it is asked to, and tells its records in the order of time.
+pub struct Sim {
+    now: Time,
+    future: Future,
+    parent: Parent,
+    parent_links: BTreeMap<usize, Link>,
+    /// Until when the parent is busy with what has arrived so far.
+    parent_busy: Time,
+    finished: bool,
+    nodes: Vec<Machinery>,
+    /// What all share, if they do.
+    wire: Option<Wire>,
+    latency: Duration,
+    bandwidth: Option<f64>,
+    handling: Duration,
+    pace: f64,
+    division: Division,
+    scene_bytes: u64,
+    cost: Box<Cost>,
+    sent: u64,
+    happened: u64,
+    actions: Vec<Action>,
+}
+
+/// What an atom costs, in CPU time of the reference machine at full pace.
+type Cost = dyn Fn(Atom) -> Duration + Send;
+
+/// Whoever is told of records.
+type Tell<'a> = &'a mut dyn FnMut(Record);
+
+impl Sim {
+    /// The run that `header` describes, to which `script` is done; nothing has happened yet.
+    ///
+    /// # Panics
+    /// If the header has no speeds, or more than 65,535.
+    pub fn new(header: &Header, script: &[(Time, Command)], cost: impl Fn(Atom) -> Duration + Send + 'static) -> Self {
+        let nodes = header.speeds.len();
+        assert!((1..=usize::from(NodeId::MAX)).contains(&nodes), "a run of {nodes} nodes is impossible");
+        let mut future = Future::default();
+        for &(at, command) in script {
+            future.plan(at, Happening::Command(command));
+        }
+        let mut sim = Self {
+            now: Time::ZERO,
+            future,
+            parent: Parent::new(&header.rules, header.division, nodes as NodeId),
+            parent_links: BTreeMap::new(),
+            parent_busy: Time::ZERO,
+            finished: false,
+            nodes: (0..nodes as NodeId).map(|id| Machinery::new(header, id)).collect(),
+            wire: header.link.shared.then(Wire::default),
+            latency: header.link.latency,
+            bandwidth: header.link.bandwidth,
+            handling: header.handling,
+            pace: header.pace,
+            division: header.division,
+            scene_bytes: header.scene_text.len() as u64,
+            cost: Box::new(cost),
+            sent: 0,
+            happened: 0,
+            actions: Vec::new(),
+        };
+        sim.future.plan(Time::ZERO, Happening::Started);
+        sim
+    }
+
+    /// The time up to which everything has happened.
+    pub fn now(&self) -> Time {
+        self.now
+    }
+
+    /// When the next thing happens; `None` if nothing ever will.
+    pub fn next(&self) -> Option<Time> {
+        self.future.next()
+    }
+
+    /// Whether the picture is complete; the nodes may still have to hear of it.
+    pub fn is_finished(&self) -> bool {
+        self.finished
+    }
+
+    /// How many things have happened.
+    pub fn happened(&self) -> u64 {
+        self.happened
+    }
+
+    /// Lets happen what does until `until`, that time included.
+    pub fn advance(&mut self, until: Time, tell: &mut dyn FnMut(Record)) {
+        while let Some((at, happening)) = self.future.pop(until) {
+            self.now = at;
+            self.happened += 1;
+            self.happen(happening, tell);
+        }
+        // The end of time is no time to go on from.
+        if until < Time(u64::MAX) {
+            self.now = self.now.max(until);
+        }
+    }
+
+    /// Lets everything happen. A run in which the last node that has atoms stands still then is not finished.
+    pub fn run(&mut self, tell: &mut dyn FnMut(Record)) {
+        self.advance(Time(u64::MAX), tell);
+    }
+
+    /// Does something to the run now.
+    pub fn command(&mut self, command: Command, tell: &mut dyn FnMut(Record)) {
+        match command {
+            Command::Speed { node, speed } => {
+                let Some(index) = self.machine(node) else { return };
+                // NaN is not above 0 either.
+                let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
+                self.nodes[index].machine.set_speed(speed, self.now);
+                self.note(What::SpeedSet { node, speed }, tell);
+                self.go_on(node, tell);
+            }
+            Command::Pause { node, paused } => {
+                let Some(index) = self.machine(node) else { return };
+                if self.nodes[index].machine.is_paused() == paused {
+                    return;
+                }
+                self.nodes[index].machine.set_paused(paused, self.now);
+                self.note(if paused { What::Paused { node } } else { What::Resumed { node } }, tell);
+                self.go_on(node, tell);
+            }
+            Command::Latency(latency) if self.finished || latency == self.latency => {}
+            Command::Latency(latency) => {
+                self.latency = latency;
+                self.note(What::LatencySet { latency }, tell);
+            }
+        }
+    }
+
+    /// The place of a node that has not ended.
+    fn machine(&self, node: NodeId) -> Option<usize> {
+        let index = usize::from(node);
+        self.nodes.get(index).filter(|party| !party.finished).map(|_| index)
+    }
+
+    fn happen(&mut self, happening: Happening, tell: Tell<'_>) {
+        match happening {
+            Happening::Started => self.hand_over(Party::Parent, Event::Started, tell),
+            Happening::Arrival { to: Party::Parent, mail } if !self.handling.is_zero() => {
+                self.parent_busy = self.parent_busy.max(self.now) + self.handling;
+                self.future.plan(self.parent_busy, Happening::Handled(mail));
+            }
+            Happening::Arrival { to, mail } => self.receive(to, mail, tell),
+            Happening::Handled(mail) => self.receive(Party::Parent, mail, tell),
+            Happening::Estimated(costs) => self.hand_over(Party::Parent, Event::Estimated(costs), tell),
+            Happening::Timer(node) => {
+                let now = self.now;
+                if self.nodes[usize::from(node)].timer.take_if(|at| *at <= now).is_some() {
+                    self.hand_over(Party::Node(node), Event::Timer, tell);
+                }
+            }
+            Happening::AtomDone { node, plan } => self.atom_done(node, plan, tell),
+            Happening::Command(command) => self.command(command, tell),
+        }
+    }
+
+    /// Who has ended no longer listens.
+    fn receive(&mut self, to: Party, Mail { id, from, message }: Mail, tell: Tell<'_>) {
+        if !self.has_ended(to) {
+            self.note(What::Received { id, by: to }, tell);
+            self.hand_over(to, Event::Message { from, message }, tell);
+        }
+    }
+
+    fn has_ended(&self, party: Party) -> bool {
+        match party {
+            Party::Parent => self.finished,
+            Party::Node(node) => self.nodes[usize::from(node)].finished,
+        }
+    }
+
+    fn atom_done(&mut self, node: NodeId, plan: u32, tell: Tell<'_>) {
+        let party = &mut self.nodes[usize::from(node)];
+        if plan != party.plan {
+            return;
+        }
+        let Some(atom) = party.pipe.pop_front() else { return };
+        party.machine.finish(self.now);
+        party.in_hand = false;
+        let cost = (self.cost)(atom);
+        self.note(What::AtomDone { node, atom, cost }, tell);
+        self.go_on(node, tell);
+        self.hand_over(Party::Node(node), Event::AtomDone { atom, cost }, tell);
+    }
+
+    /// Hands a party that has not ended an event, and does what it asks for.
+    fn hand_over(&mut self, to: Party, event: Event, tell: Tell<'_>) {
+        if self.has_ended(to) {
+            return;
+        }
+        let mut actions = mem::take(&mut self.actions);
+        match to {
+            Party::Parent => self.parent.handle(self.now, event, &mut actions),
+            Party::Node(node) => self.nodes[usize::from(node)].node.handle(self.now, event, &mut actions),
+        }
+        actions.drain(..).for_each(|action| self.carry_out(to, action, tell));
+        self.actions = actions;
+    }
+
+    fn carry_out(&mut self, party: Party, action: Action, tell: Tell<'_>) {
+        match (party, action) {
+            (from, Action::Send { to, message }) => self.send(from, to, message, tell),
+            (Party::Node(node), Action::Trace(atom)) => {
+                let party = &mut self.nodes[usize::from(node)];
+                party.pipe.push_back(atom);
+                if !party.in_hand {
+                    self.go_on(node, tell);
+                }
+            }
+            (Party::Node(node), Action::SetTimer(at)) => {
+                self.nodes[usize::from(node)].timer = Some(at);
+                self.future.plan(at, Happening::Timer(node));
+            }
+            (Party::Node(node), Action::Retire) => self.note(What::Retired { node }, tell),
+            (Party::Node(node), Action::Finish) => self.nodes[usize::from(node)].finished = true,
+            (Party::Parent, Action::Estimate) => self.estimate(tell),
+            (Party::Parent, Action::Finish) => {
+                self.note(What::Finished, tell);
+                self.finished = true;
+            }
+            (party, other) => unreachable!("{party:?} never asks for {other:?}"),
+        }
+    }
+
+    fn send(&mut self, from: Party, to: Party, message: Message, tell: Tell<'_>) {
+        let bytes = message.bytes(self.division, self.scene_bytes);
+        let links = match from {
+            Party::Parent => &mut self.parent_links,
+            Party::Node(node) => &mut self.nodes[usize::from(node)].links,
+        };
+        let place = if let Party::Node(node) = to { usize::from(node) } else { usize::MAX };
+        let link = links.entry(place).or_default();
+        let arrives = link.arrival(self.now, bytes, self.latency, self.bandwidth, self.wire.as_mut());
+        let id = self.sent;
+        self.sent += 1;
+        self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
+        self.future.plan(arrives, Happening::Arrival { to, mail: Mail { id, from, message } });
+    }
+
+    /// The parent samples the picture as fast as the reference machine would; a pixel costs what is its atom's share.
+    fn estimate(&mut self, tell: Tell<'_>) {
+        self.note(What::Estimating, tell);
+        let cost_of = |pixel: u32| {
+            let atom = pixel / self.division.atom_pixels();
+            (self.cost)(atom) / self.division.pixels_in(&(atom..atom + 1))
+        };
+        let costs: Vec<Duration> = estimate::samples(self.division).map(|pixels| pixels.map(cost_of).sum()).collect();
+        let all: Duration = costs.iter().sum();
+        self.future.plan(self.now + all.div_f64(self.pace), Happening::Estimated(costs));
+    }
+
+    /// The worker begins the next atom, unless it has one in hand, stands still, or has none; its speed is a new one.
+    fn go_on(&mut self, node: NodeId, tell: Tell<'_>) {
+        let party = &mut self.nodes[usize::from(node)];
+        if let Some(&atom) = party.pipe.front()
+            && !party.in_hand
+            && !party.machine.is_stopped()
+        {
+            party.in_hand = true;
+            party.machine.begin(self.now, (self.cost)(atom));
+            tell(Record { at: self.now, what: What::AtomStarted { node, atom } });
+        }
+        // What was planned for the atom in hand is void now.
+        party.plan = party.plan.wrapping_add(1);
+        if party.in_hand
+            && let Some(due) = party.machine.due()
+        {
+            self.future.plan(due, Happening::AtomDone { node, plan: party.plan });
+        }
+    }
+
+    fn note(&self, what: What, tell: Tell<'_>) {
+        tell(Record { at: self.now, what });
+    }
+}
