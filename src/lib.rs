@@ -35,8 +35,11 @@ pub mod view; // pure functions from records to what is drawn; no egui
 // Floor 7: what leaves the program.
 pub mod export; // scenes for POV-Ray
 
-// Floor 8: what the user sees.
+// Floor 8: what many runs say.
+pub mod study; // the article's figures and claims, scaling: CSV, charts, reports
+
+// Floor 9: what the user sees.
 pub mod gui; // the window: paints what `view` returns
 
-// Floor 9: what the user types.
+// Floor 10: what the user types.
 pub mod cli; // arguments, the headless commands

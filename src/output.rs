@@ -52,12 +52,26 @@ pub fn write_whole(
         fill(&mut buffer)?;
         buffer.flush()?;
         drop(buffer);
+        // Whoever could read the file before can still, and nobody else.
+        if let Ok(before) = fs::metadata(&target) {
+            file.as_file().set_permissions(before.permissions())?;
+        }
         // A disk that fills may say so only here.
         file.as_file().sync_all()?;
         file.persist(&target)?;
         Ok(())
     };
     write().map_err(|source| OutputError::Write { path: path.to_owned(), source })
+}
+
+/// A name as part of a file's: what might mean something to a file system becomes a hyphen, and it is not too long.
+pub fn as_file_name(name: &str) -> String {
+    const LONGEST: usize = 60;
+    let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' };
+    let name: String = name.chars().take(LONGEST).map(plain).collect();
+    // Files whose names begin with a dot are hidden.
+    let name = name.trim_start_matches('.');
+    if name.is_empty() { "picture".into() } else { name.into() }
 }
 
 /// Whether two paths name the same file, as far as can be told before both exist.
@@ -142,6 +156,27 @@ mod tests {
         assert_eq!(fs::read_to_string(at("file")).unwrap(), "new");
         std::os::unix::fs::symlink(at("nothing"), at("dangling")).unwrap();
         assert!(matches!(check_writable(&at("dangling")), Err(OutputError::Path { .. })));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn who_could_read_a_file_can_read_what_replaces_it() {
+        use std::os::unix::fs::PermissionsExt;
+        let directory = TempDir::new().unwrap();
+        let path = directory.path().join("file");
+        for mode in [0o600, 0o664] {
+            fs::write(&path, "old").unwrap();
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+            write_whole(&path, |file| file.write_all(b"new")).unwrap();
+            assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
+        }
+    }
+
+    #[test]
+    fn a_name_leads_nowhere_else() {
+        assert_eq!(as_file_name("a b/../é\n.ron"), "a-b-..-é-.ron");
+        assert_eq!((as_file_name("../x"), as_file_name("..")), ("-x".into(), "picture".into()));
+        assert!(as_file_name(&"x".repeat(3000)).len() < 100);
     }
 
     #[test]

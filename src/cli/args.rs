@@ -36,12 +36,34 @@ pub(super) enum Command {
         #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480")]
         size: Size,
     },
+    /// Make many runs and say what they show: CSV, charts, and a report
+    Study {
+        /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines
+        #[arg(value_enum)]
+        kind: StudyKind,
+        /// A scene file, or the name of a built-in scene
+        #[arg(long, default_value = "ten-objects")]
+        scene: String,
+        /// The directory for the files
+        #[arg(long, value_name = "DIR", default_value = "study")]
+        out: PathBuf,
+        /// Print one JSON object on standard output
+        #[arg(long)]
+        json: bool,
+    },
     /// Show a recorded run again
     Replay {
         /// What `--log`, or Save in the window, has written
         #[arg(value_name = "LOG")]
         log: PathBuf,
     },
+}
+
+/// What is to be studied.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(super) enum StudyKind {
+    Paper,
+    Scale,
 }
 
 #[derive(Debug, clap::Args)]

@@ -4,6 +4,7 @@ mod args;
 mod render;
 mod report;
 mod sharing;
+mod study;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use clap::Parser;
 use crate::driver::{auto_pace, cores};
 use crate::export::to_pov;
 use crate::gui::{self, Opening, Settings};
-use crate::output::{check_writable, is_same_file, write_whole};
+use crate::output::{as_file_name, check_writable, is_same_file, write_whole};
 use crate::picture::Size;
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
@@ -38,6 +39,7 @@ pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
+        Some(Command::Study { kind, scene, out, json }) => study::study(kind, &scene, &out, json),
         Some(Command::Replay { log }) => replay(&log),
         None => window(args.scene.as_deref(), args.log),
     });
@@ -89,7 +91,8 @@ fn usage(error: clap::Error) -> Failure {
     let text = error.to_string();
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
-    let command = std::env::args().nth(1).filter(|first| ["render", "export", "replay"].contains(&&**first));
+    let command = std::env::args_os().nth(1).and_then(|first| first.into_string().ok());
+    let command = command.filter(|first| ["render", "export", "study", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
     Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
 }
@@ -124,7 +127,7 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     };
     // Nobody watches: no need to go slowly.
     header.pace = auto_pace(&header.speeds, header.cores);
-    let out = free_name(&header.scene);
+    let out = free_name(&as_file_name(&header.scene));
     check_outputs("", &[&out])?;
     let quality = Quality { samples: header.samples, ..Quality::default() };
     let tracer = Arc::new(Tracer::new(&scene, header.size, quality));

@@ -8,7 +8,7 @@ use super::icons::Icon;
 use super::session::{Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
-use crate::output::check_writable;
+use crate::output::{as_file_name, check_writable, is_same_file};
 use crate::runlog::Header;
 
 /// The bar below the top bar, while it is open.
@@ -133,6 +133,11 @@ impl SaveBar {
         if let Err(error) = check_writable(&path) {
             return self.trouble = Some(error.to_string());
         }
+        let opened = session.opened().and_then(|opened| opened.path.as_deref());
+        if opened.is_some_and(|opened| is_same_file(opened, &path)) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            return self.trouble = Some(format!("{name} is the scene that is open; choose another name"));
+        }
         let warned = self.warned.take();
         if path.is_file() && warned.as_ref() != Some(&path) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -179,8 +184,7 @@ pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
 
 /// A name that says what is saved.
 fn file_name(header: &Header, kind: Kind, done: bool) -> String {
-    let scene: String =
-        header.scene.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' }).collect();
+    let scene = as_file_name(&header.scene);
     let what = match kind {
         Kind::Render => String::new(),
         Kind::Owners => "-owners".into(),

@@ -1,11 +1,15 @@
 //! Whether what a file says is possible, so that nobody who shows or counts a loaded run has to ask again.
 
 use std::ops::Range;
+use std::time::Duration;
 
 use super::Header;
 use crate::balance::{Message, NodeId, Party};
 use crate::picture::{Atom, Division, Size};
 use crate::record::{Record, What};
+
+/// Nobody waits longer for a message.
+const HOUR: Duration = Duration::from_secs(3600);
 
 /// What is impossible about a header.
 pub(super) fn header(header: &Header) -> Result<(), String> {
@@ -14,7 +18,9 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
         header.division == Division::new(size.pixels(), header.division.atom_pixels()),
         "the division is not that of a picture of this size",
     )?;
-    ensure((1..=usize::from(NodeId::MAX)).contains(&header.speeds.len()), "there must be 1 to 65535 speeds")?;
+    ensure((1..=64).contains(&header.samples), "the samples are not 1 to 64")?;
+    ensure((1..=1024).contains(&header.speeds.len()), "there must be 1 to 1024 speeds")?;
+    ensure(header.link.latency <= HOUR && header.handling <= HOUR, "a message takes longer than an hour")?;
     ensure(header.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)), "a speed is not between 0 and 1")?;
     ensure(header.pace > 0.0 && header.pace <= 1.0, "the pace is not above 0 and at most 1")?;
     ensure(header.link.bandwidth.is_none_or(|bandwidth| bandwidth > 0.0), "the bandwidth is not above 0")
@@ -44,7 +50,8 @@ pub(super) fn record(header: &Header, record: &Record) -> Result<(), String> {
             node(header, *id)
         }
         What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
-        What::LatencySet { .. } | What::Estimating | What::Finished => Ok(()),
+        What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
+        What::Estimating | What::Finished => Ok(()),
     }
 }
 

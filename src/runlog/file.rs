@@ -195,7 +195,7 @@ mod tests {
             (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| What::SpeedSet { node, speed }),
             (0..NODES).prop_map(|node| What::Paused { node }),
             (0..NODES).prop_map(|node| What::Resumed { node }),
-            any::<Duration>().prop_map(|latency| What::LatencySet { latency }),
+            (0..=3_600_000u64).prop_map(|ms| What::LatencySet { latency: Duration::from_millis(ms) }),
             (0..NODES).prop_map(|node| What::Retired { node }),
             Just(What::Estimating),
             Just(What::Finished),
@@ -206,7 +206,8 @@ mod tests {
         let numbers = (prop::array::uniform4(0.0..=1.0f64), 1e-6..=1.0f64, prop::option::of(1.0..1e12f64));
         let batch = prop::option::of(any::<Duration>());
         let shared = any::<bool>();
-        (".*", any::<(Duration, Duration, u32)>(), numbers, batch, shared).prop_map(
+        let time = || (0..=3600u64, 0..1_000_000_000u32).prop_map(|(s, ns)| Duration::from_secs(s.min(3599)) + Duration::from_nanos(ns.into()));
+        (".*", (time(), time(), any::<u32>()), numbers, batch, shared).prop_map(
             |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, shared)| Header {
                 scene,
                 driver: Driver::Sim,

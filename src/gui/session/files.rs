@@ -11,6 +11,7 @@ use super::performer::Performer;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
 use crate::driver::Replay;
+use crate::output::is_same_file;
 use crate::scene::Opened;
 use crate::view::picture_pixels;
 
@@ -28,6 +29,10 @@ impl Session {
     pub fn open(&mut self, argument: &str) {
         let name =
             Path::new(argument).file_name().map_or_else(|| argument.into(), |name| name.to_string_lossy().into());
+        if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, Path::new(argument))) {
+            let log = log.display();
+            return self.trouble(format!("Not opened. The run's records will be written to {log} (--log)"));
+        }
         let argument = argument.to_owned();
         self.load(name, move || Opening::read(&argument));
     }
@@ -35,7 +40,8 @@ impl Session {
     /// Reads the scene's file again.
     pub fn reload(&mut self) {
         self.notice = None;
-        if let Some(path) = self.opened().and_then(|opened| opened.path.clone()) {
+        if !self.is_recorded()
+            && let Some(path) = self.opened().and_then(|opened| opened.path.clone()) {
             self.open(&path.to_string_lossy());
         }
     }

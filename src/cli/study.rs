@@ -1,0 +1,47 @@
+//! Studies on the command line.
+
+use std::io::Write;
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+
+use super::args::StudyKind;
+use super::{Failure, open, print, tell};
+use crate::output::{check_writable, write_whole};
+use crate::study::{Study, paper, scale};
+
+/// Does a study and writes its files into the directory `out`, which is made if it does not exist.
+pub(super) fn study(kind: StudyKind, scene: &str, out: &Path, as_json: bool) -> Result<(), Failure> {
+    let opened = open(scene)?;
+    std::fs::create_dir_all(out).map_err(|error| {
+        Failure::Refused(format!("the directory {} cannot be made: {error}", out.display()))
+    })?;
+    check_writable(&out.join("study.md")).map_err(|error| Failure::Refused(error.to_string()))?;
+    let bar = ProgressBar::new(1);
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {elapsed} ({eta} left)  {msg}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let mut told = |done: usize, of: usize, what: &str| {
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+        bar.set_message(what.to_owned());
+    };
+    let study = match kind {
+        StudyKind::Paper => paper(&opened, &mut told),
+        StudyKind::Scale => scale(&opened, &mut told),
+    };
+    bar.finish_and_clear();
+    let Study { name, rows, files } = study.map_err(Failure::Failed)?;
+    let mut written = Vec::new();
+    for (file, text) in files {
+        let path = out.join(file);
+        write_whole(&path, |to| to.write_all(text.as_bytes())).map_err(|error| Failure::Failed(error.to_string()))?;
+        written.push(path.display().to_string());
+    }
+    if as_json {
+        return print(&json!({ "study": name, "rows": rows, "files": written }).to_string());
+    }
+    let report = written.iter().find(|path| path.ends_with(".md"));
+    tell(&format!("{} runs, {} files; read {} first", rows.len(), written.len(), report.map_or("", String::as_str)));
+    print(&written.join("\n"))
+}

@@ -1,0 +1,54 @@
+//! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
+
+mod paper;
+mod progress;
+mod scale;
+mod scale_report;
+mod workbench;
+
+pub use paper::paper;
+pub use progress::Tell;
+pub use scale_report::scale;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::export::to_svg;
+use crate::view::{CHART_SIZE, Mark};
+
+/// What a study has found.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// A JSON object for each run, with the columns of the CSV.
+    pub rows: Vec<Value>,
+    /// Files by name: CSV, SVG charts, and a Markdown report.
+    pub files: Vec<(String, String)>,
+}
+
+impl Study {
+    fn new(name: &'static str) -> Self {
+        Self { name, rows: Vec::new(), files: Vec::new() }
+    }
+
+    /// Adds rows, as JSON and as a CSV file of the study's name.
+    fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), String> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        for row in rows {
+            csv.serialize(row).map_err(|error| error.to_string())?;
+            self.rows.push(serde_json::to_value(row).map_err(|error| error.to_string())?);
+        }
+        let bytes = csv.into_inner().map_err(|error| error.to_string())?;
+        self.files.push((format!("{}.csv", self.name), String::from_utf8_lossy(&bytes).into_owned()));
+        Ok(())
+    }
+
+    fn add_chart(&mut self, name: &str, marks: &[Mark]) {
+        self.files.push((format!("{}-{name}.svg", self.name), to_svg(marks, CHART_SIZE, crate::palette::DISTINCT)));
+    }
+
+    fn add_report(&mut self, text: String) {
+        self.files.push((format!("{}.md", self.name), text));
+    }
+}

@@ -1,0 +1,135 @@
+//! The article's charts anew, and others.
+
+use super::article::{self, PACKETS, SERIAL};
+use super::measure::STRATEGIES;
+use super::rows::Row;
+use crate::balance::Strategy;
+use crate::view::{Axis, Bars, CHART_SIZE, Chart, Mark, Scale, Series, Style, series_hue};
+
+/// What a figure's chart is of: one kind of rows.
+pub(super) fn select<'a>(
+    rows: &'a [Row],
+    figure: &'a str,
+    network: &'a str,
+    driver: &'a str,
+) -> impl Iterator<Item = &'a Row> + Clone {
+    rows.iter().filter(move |row| row.figure == figure && row.network == network && row.driver == driver)
+}
+
+/// All charts, by their names.
+pub(super) fn all(rows: &[Row], handling: &[(f64, [f64; 4])]) -> Vec<(&'static str, Vec<Mark>)> {
+    let mut charts = Vec::new();
+    let figures = [
+        ("figure5-threads", "threads", "none", "On threads, without a network"),
+        ("figure5-sim", "sim", "none", "In virtual time, without a network"),
+        ("figure5-threads-network", "threads", "modelled", "On threads, on the modelled network"),
+        ("figure5-sim-network", "sim", "modelled", "In virtual time, on the modelled network"),
+    ];
+    for (name, driver, network, title) in figures {
+        charts.push((name, times(rows, driver, network, title).marks(CHART_SIZE)));
+    }
+    charts.push(("atoms", sizes(rows, "atom").marks(CHART_SIZE)));
+    charts.push(("parts", sizes(rows, "part").marks(CHART_SIZE)));
+    charts.push(("figure9", packets(rows).marks(CHART_SIZE)));
+    charts.push(("handling", choked(handling).marks(CHART_SIZE)));
+    charts
+}
+
+/// Figures 5 to 7: times over the ideal, and the article's beside them.
+fn times(rows: &[Row], driver: &str, network: &str, title: &str) -> Bars {
+    let group = |nodes: usize, slow: bool| {
+        let figure = if slow { "7" } else { "6" };
+        let ours = select(rows, figure, network, driver).filter(move |row| row.nodes == nodes);
+        let mut bars = Vec::new();
+        for strategy in STRATEGIES {
+            let Some(row) = ours.clone().find(|row| row.strategy == strategy.name()) else { continue };
+            bars.push((strategy.name().to_owned(), row.over_ideal));
+            if let Some(ratio) = article::over_ideal(strategy, nodes, slow) {
+                bars.push((format!("{strategy}, article"), ratio));
+            }
+        }
+        (if slow { "4 and a slow one".into() } else { format!("{nodes} machines") }, bars)
+    };
+    Bars {
+        title: title.into(),
+        note: "Times over the ideal: 1 is perfect".into(),
+        y: Axis { label: "time / ideal time".into(), scale: Scale::Log2, range: Some((0.9, 10.0)) },
+        groups: vec![group(2, false), group(3, false), group(4, false), group(5, true)],
+        reference: Some(1.0),
+    }
+}
+
+/// Times over sizes of atoms or of parts, in pixels.
+fn sizes(rows: &[Row], figure: &str) -> Chart {
+    let mut series = Vec::new();
+    for strategy in [Strategy::Ring, Strategy::Farm] {
+        for slow in [false, true] {
+            for network in ["none", "modelled"] {
+                let of = select(rows, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
+                let size = |row: &Row| if figure == "atom" { row.atom } else { row.atom * row.part };
+                let points: Vec<_> = of.map(|row| (f64::from(size(row)), row.over_ideal)).collect();
+                if points.is_empty() {
+                    continue;
+                }
+                let machines = if slow { "4 + slow" } else { "4" };
+                series.push(Series {
+                    name: format!("{strategy}, {machines}{}", if network == "none" { "" } else { ", network" }),
+                    hue: series_hue(series.len()),
+                    points,
+                    style: if network == "none" { Style::Line } else { Style::Dashed },
+                });
+            }
+        }
+    }
+    let (title, label) = match figure {
+        "atom" => ("How large is an atom to be?", "pixels in an atom"),
+        _ => ("How large is a part, or a ring's smallest transfer, to be?", "pixels in a part or a smallest transfer"),
+    };
+    Chart {
+        title: title.into(),
+        note: "Dashed: on the modelled network".into(),
+        x: Axis { label: label.into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "time / ideal time".into(), scale: Scale::Log10, range: None },
+        series,
+    }
+}
+
+/// Figure 9: time over the mean size of a packet.
+fn packets(rows: &[Row]) -> Chart {
+    let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
+    let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
+    let ours = |network| {
+        let of = select(rows, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
+        of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect()
+    };
+    let line = |i, name: &str, points, style| Series { name: name.into(), hue: series_hue(i), points, style };
+    Chart {
+        title: "Figure 9: does time rise as packets shrink?".into(),
+        note: "A ring of four; ours by the smallest transfer that is worth while".into(),
+        x: Axis { label: "mean atoms in a packet".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "time / ideal time".into(), scale: Scale::Linear, range: Some((0.95, 1.3)) },
+        series: vec![
+            line(0, "no network", ours("none"), Style::Dots),
+            line(1, "modelled network", ours("modelled"), Style::Dots),
+            line(3, "the article", article, Style::Dots),
+        ],
+    }
+}
+
+/// How a farm's parent is choked by what it has to handle.
+fn choked(handling: &[(f64, [f64; 4])]) -> Chart {
+    let names = ["farm, parts of 1 atom", "farm, 16 parts a machine", "ring", "static"];
+    let line = |(i, name): (usize, &str)| Series {
+        name: name.into(),
+        hue: series_hue(i),
+        points: handling.iter().map(|(ms, times)| (*ms, times[i])).collect(),
+        style: Style::Line,
+    };
+    Chart {
+        title: "When is a farm worse than static bands?".into(),
+        note: "Four equal machines on one wire, by how long the parent is busy with a message".into(),
+        x: Axis { label: "milliseconds a message".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "time / ideal time".into(), scale: Scale::Log10, range: None },
+        series: names.into_iter().enumerate().map(line).collect(),
+    }
+}

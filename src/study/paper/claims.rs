@@ -1,0 +1,221 @@
+//! The article's claims, and what our figures say of each.
+
+use super::article::{PACKETS, slow_speed};
+use super::charts::select;
+use super::rows::Row;
+use crate::balance::Strategy;
+
+/// A claim and the verdict on it.
+pub(super) struct Claim {
+    /// Where the article says it.
+    pub place: &'static str,
+    /// What it says.
+    pub says: &'static str,
+    /// What ours says: `borne out`, `not borne out`, or `it depends`.
+    pub verdict: &'static str,
+    /// The figures.
+    pub why: String,
+}
+
+const YES: &str = "borne out";
+const NO: &str = "not borne out";
+const DEPENDS: &str = "it depends";
+
+/// All claims of §7, §10 and §11 that can be put to a test; `competing` are makespans with one thread a node and with two.
+pub(super) fn all(rows: &[Row], competing: [f64; 2]) -> Vec<Claim> {
+    let rows = Rows(rows);
+    vec![
+        near_ideal(&rows),
+        network_use(&rows),
+        finish_together(&rows),
+        easier_to_size(&rows),
+        slow_machine_helps(&rows),
+        small_packets(&rows),
+        compete(competing),
+    ]
+}
+
+struct Rows<'a>(&'a [Row]);
+
+impl<'a> Rows<'a> {
+    fn get(&self, driver: &str, network: &str, strategy: Strategy, nodes: usize) -> Option<&'a Row> {
+        let figure = if nodes == 5 { "7" } else { "6" };
+        let found = select(self.0, figure, network, driver);
+        found.into_iter().find(|row| row.strategy == strategy.name() && row.nodes == nodes)
+    }
+
+    fn number(&self, key: (&str, &str, Strategy, usize), value: impl Fn(&Row) -> f64) -> f64 {
+        self.get(key.0, key.1, key.2, key.3).map_or(f64::NAN, value)
+    }
+}
+
+fn near_ideal(rows: &Rows<'_>) -> Claim {
+    let over = |driver, network| {
+        [2, 3, 4, 5].map(|nodes| rows.number((driver, network, Strategy::Ring, nodes), |row| row.over_ideal))
+    };
+    let words = |times: [f64; 4]| times.map(|time| format!("{time:.3}")).join(", ");
+    let all = [over("threads", "none"), over("sim", "none"), over("sim", "modelled")];
+    Claim {
+        place: "§11",
+        says: "The ring comes close to the ideal.",
+        verdict: if all.iter().flatten().all(|&over| over < 1.1) { YES } else { DEPENDS },
+        why: format!(
+            "Time over ideal at 2, 3, 4 machines and at 4 with the slow one: threads {}; virtual time {}; on the modelled \
+             network {}. The article's own: 1.034, 1.138, 1.131, 1.109.",
+            words(all[0]),
+            words(all[1]),
+            words(all[2])
+        ),
+    }
+}
+
+fn network_use(rows: &Rows<'_>) -> Claim {
+    let used = |value: fn(&Row) -> u64| {
+        [Strategy::Static, Strategy::Ring, Strategy::Farm]
+            .map(|strategy| rows.number(("sim", "modelled", strategy, 4), |row| value(row) as f64))
+    };
+    let (messages, bytes) = (used(|row| row.messages), used(|row| row.bytes));
+    let usual = rows.number(("sim", "none", Strategy::Farm, 4), |row| row.messages as f64);
+    let holds = messages.is_sorted() && bytes.is_sorted();
+    Claim {
+        place: "§7",
+        says: "The ring uses the network more than static bands, and less than the farm.",
+        verdict: if holds && usual > messages[1] { YES } else { DEPENDS },
+        why: format!(
+            "Messages of static bands, ring and farm at four machines: {:.0}, {:.0}, {:.0}; kilobytes: {:.0}, {:.0}, {:.0}, of \
+             which nearly all are pixels. The farm's number depends on its parts: that was with parts of one atom; with 16 \
+             parts a machine it says {usual:.0}.",
+            messages[0],
+            messages[1],
+            messages[2],
+            bytes[0] / 1e3,
+            bytes[1] / 1e3,
+            bytes[2] / 1e3
+        ),
+    }
+}
+
+fn finish_together(rows: &Rows<'_>) -> Claim {
+    let spread = |driver, strategy, nodes| {
+        rows.number((driver, "none", strategy, nodes), |row| 100.0 * row.finish_spread_s / row.makespan_s)
+    };
+    let ring = [spread("threads", Strategy::Ring, 4), spread("sim", Strategy::Ring, 4), spread("threads", Strategy::Ring, 5)];
+    let others = [Strategy::Static, Strategy::Farm].map(|strategy| spread("threads", strategy, 4));
+    Claim {
+        place: "§7, §11",
+        says: "All computers finish practically together.",
+        verdict: if ring.iter().all(|&spread| spread < 5.0) { YES } else { DEPENDS },
+        why: format!(
+            "From the first machine's last atom to the last one's: {:.2} % of the time on threads and {:.2} % in virtual time at \
+             four machines, {:.2} % with the slow one; static bands {:.0} %, farm {:.1} %.",
+            ring[0], ring[1], ring[2], others[0], others[1]
+        ),
+    }
+}
+
+/// Sizes are as good as the best if their time is within this factor of it.
+const GOOD: f64 = 1.05;
+
+fn easier_to_size(rows: &Rows<'_>) -> Claim {
+    let range = |figure, strategy: Strategy, network, slow| {
+        let of = || select(rows.0, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
+        let best = of().map(|row| row.over_ideal).fold(f64::INFINITY, f64::min);
+        let size = |row: &Row| f64::from(if figure == "atom" { row.atom } else { row.atom * row.part });
+        let good = || of().filter(move |row| row.over_ideal <= GOOD * best).map(size);
+        (good().fold(f64::INFINITY, f64::min), good().fold(0.0, f64::max))
+    };
+    let atoms = [("none", false), ("none", true), ("modelled", false), ("modelled", true)]
+        .map(|(network, slow)| range("atom", Strategy::Ring, network, slow));
+    let parts = [("none", false), ("none", true), ("modelled", false), ("modelled", true)]
+        .map(|(network, slow)| range("part", Strategy::Farm, network, slow));
+    let wider = atoms.iter().zip(&parts).filter(|(atom, part)| atom.1 / atom.0 > part.1 / part.0).count();
+    let words = |ranges: [(f64, f64); 4]| ranges.map(|(from, to)| format!("{from:.0} to {to:.0}")).join(", ");
+    Claim {
+        place: "§7",
+        says: "It is easier to find a good size for atoms than for a farm's parts.",
+        verdict: match wider {
+            4 => YES,
+            0 => NO,
+            _ => DEPENDS,
+        },
+        why: format!(
+            "Sizes in pixels whose time is within {:.0} % of the best (of those tried), at four machines, at four with the slow \
+             one, and both on the modelled network: the ring's atoms {}; the farm's parts {}.",
+            100.0 * (GOOD - 1.0),
+            words(atoms),
+            words(parts)
+        ),
+    }
+}
+
+fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
+    let gain = |driver, network, strategy| {
+        let time = |nodes| rows.number((driver, network, strategy, nodes), |row| row.makespan_s);
+        100.0 * (1.0 - time(5) / time(4))
+    };
+    let best = 100.0 * (1.0 - 4.0 / (4.0 + slow_speed()));
+    let ring = [gain("threads", "none", Strategy::Ring), gain("sim", "none", Strategy::Ring), gain("sim", "modelled", Strategy::Ring)];
+    let others = [Strategy::Farm, Strategy::Static].map(|strategy| gain("sim", "none", strategy));
+    Claim {
+        place: "§7, §9",
+        says: "Even the slowest machine still helps.",
+        verdict: if ring.iter().all(|&gain| gain > 0.0) { YES } else { DEPENDS },
+        why: format!(
+            "A fifth machine of {:.1} % makes the ring {:.2} % faster on threads, {:.2} % in virtual time, {:.2} % on the modelled \
+             network; {best:.2} % is possible. A farm of 16 parts a machine becomes {:.1} % faster (less than 0: slower, since the \
+             slow machine holds the last part), static bands {:.0} %. The article: 4.3 % for the ring.",
+            100.0 * slow_speed(),
+            ring[0],
+            ring[1],
+            ring[2],
+            others[0],
+            others[1]
+        ),
+    }
+}
+
+fn small_packets(rows: &Rows<'_>) -> Claim {
+    let points = |network| {
+        let of = select(rows.0, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
+        of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect::<Vec<_>>()
+    };
+    let ends = |points: &[(f64, f64)]| {
+        let smallest = points.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+        let largest = points.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+        (smallest, largest)
+    };
+    let (none, modelled) = (points("none"), points("modelled"));
+    let ((small, time_small), (large, time_large)) = ends(&modelled);
+    let ((_, free_small), (_, free_large)) = ends(&none);
+    let moved = PACKETS.map(|(_, packets, atoms)| format!("{:.0}", packets * atoms)).join(", ");
+    Claim {
+        place: "§10, Figures 8 and 9",
+        says: "The smaller the packets, the longer it takes.",
+        verdict: match (time_small > time_large, free_small > free_large) {
+            (true, true) => YES,
+            (false, false) => NO,
+            _ => DEPENDS,
+        },
+        why: format!(
+            "On the modelled network, packets of {small:.1} atoms on average take {time_small:.3} times the ideal, packets of \
+             {large:.1} atoms {time_large:.3}; without a network {free_small:.3} and {free_large:.3}. Small last packets are what lets \
+             all end together; a lap of the ring costs far less than the atoms it moves. The article's five runs moved {moved} atoms: \
+             the fifth, on which its curve hangs, moved a third of the others' and so had little to share, or shared it badly; four \
+             points between 160 and 168 s show no trend."
+        ),
+    }
+}
+
+fn compete([one, two]: [f64; 2]) -> Claim {
+    Claim {
+        place: "§10",
+        says: "Child and grandchild compete for the processor.",
+        verdict: if two > 1.02 * one { YES } else { NO },
+        why: format!(
+            "At full speed, a machine a core: {:.0} ms with one thread a node, {:.0} ms with two, which is {:.2} times as long.",
+            1e3 * one,
+            1e3 * two,
+            two / one
+        ),
+    }
+}

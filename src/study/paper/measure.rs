@@ -1,0 +1,229 @@
+//! The runs of Figures 5 to 9, and of what the article leaves to be asked.
+
+use std::time::Duration;
+
+use super::super::progress::Progress;
+use super::super::workbench::{Costs, Workbench, simulate, twin};
+use super::article::{ATOM, NETWORK, Network, SERIAL, slow_speed, times_ideal};
+use super::rows::{About, Row, middle};
+use crate::balance::Strategy;
+use crate::driver::cores;
+use crate::runlog::{Driver, Header, Tally};
+use crate::scenario::square_wave;
+use crate::time::Time;
+
+/// Runs of the same kind on threads, of which the middle one counts.
+pub(super) const RUNS: usize = 3;
+
+/// Runs at full speed of each kind.
+const COMPETING: usize = 7;
+
+/// What is compared, beside rayon.
+pub(super) const STRATEGIES: [Strategy; 5] =
+    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
+
+/// Sizes of atoms that are tried, in pixels.
+const ATOMS: [u32; 10] = [5, 10, 25, 50, 100, 250, 500, 1000, 2500, 10_000];
+
+/// Sizes of a farm's parts, and least sizes of a ring's transfers, that are tried, in atoms.
+const PARTS: [u32; 10] = [1, 2, 5, 10, 20, 40, 80, 160, 320, 640];
+
+/// Two, three and four equal machines, and four with a slow one.
+pub(super) fn machines() -> [Vec<f64>; 4] {
+    let mut slow = vec![1.0; 4];
+    slow.push(slow_speed());
+    [vec![1.0; 2], vec![1.0; 3], vec![1.0; 4], slow]
+}
+
+/// Everything that runs.
+pub(super) struct Measuring<'a> {
+    bench: &'a Workbench,
+    /// Of the article's machines, at the article's times.
+    costs: Costs,
+    /// Of a machine of the article's speed on this computer.
+    pace: f64,
+    /// How much shorter runs on threads are than the article's.
+    scale: f64,
+    pub rows: Vec<Row>,
+}
+
+impl<'a> Measuring<'a> {
+    /// Nothing has run yet; `work` is the CPU time of the whole picture.
+    pub fn new(bench: &'a Workbench, work: Duration) -> Self {
+        let pace = pace();
+        let scale = work.div_f64(pace).div_duration_f64(SERIAL);
+        Self { bench, costs: bench.costs(ATOM, SERIAL), pace, scale, rows: Vec::new() }
+    }
+
+    /// How many steps [`Measuring::threads`] takes.
+    pub const THREAD_STEPS: usize = RUNS * (1 + 2 * 4 * (STRATEGIES.len() + 1) - 4 + 4);
+
+    /// Figures 6 and 7 on threads, without a network and on the modelled one, and the slow machine at every place: in turn,
+    /// so that what disturbs the computer disturbs all alike.
+    ///
+    /// # Errors
+    /// A sentence, if a run failed.
+    pub fn threads(&mut self, progress: &mut Progress<'_>) -> Result<(), String> {
+        let mut kinds: Vec<(About, Header)> = Vec::new();
+        let none = |figure| About { figure, modelled: false };
+        kinds.push((none("6"), self.bench.header(ATOM, Strategy::Serial, vec![1.0])));
+        for speeds in machines() {
+            let figure = if speeds.len() == 5 { "7" } else { "6" };
+            for strategy in STRATEGIES {
+                let header = self.bench.header(ATOM, strategy, speeds.clone());
+                kinds.push((none(figure), header.clone()));
+                kinds.push((About { figure, modelled: true }, self.modelled(header, self.scale)));
+            }
+            let rayon = self.bench.header(ATOM, Strategy::Ring, speeds);
+            kinds.push((none(figure), Header { driver: Driver::WorkStealing, ..rayon }));
+        }
+        for place in 0..4 {
+            kinds.push((none("place"), self.bench.header(ATOM, Strategy::Ring, slow_at(place))));
+        }
+        let mut rows: Vec<Vec<Row>> = kinds.iter().map(|_| Vec::new()).collect();
+        for _ in 0..RUNS {
+            for ((about, header), rows) in kinds.iter().zip(&mut rows) {
+                let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
+                progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
+                let log = self.bench.perform(&header)?;
+                // Rayon's rules are not ours to simulate.
+                let twin = if header.driver == Driver::Threads { Some(twin(&log)?) } else { None };
+                rows.push(Row::new(*about, &header, &Tally::of(&log), twin.as_ref()));
+            }
+        }
+        self.rows.extend(rows.into_iter().filter_map(middle));
+        Ok(())
+    }
+
+    /// Figures 6 and 7 in virtual time, at the article's times.
+    pub fn simulated(&mut self) {
+        for modelled in [false, true] {
+            for speeds in machines() {
+                let figure = if speeds.len() == 5 { "7" } else { "6" };
+                for strategy in STRATEGIES {
+                    self.simulate(About { figure, modelled }, self.bench.header(ATOM, strategy, speeds.clone()));
+                }
+            }
+            let alone = |speed| self.bench.header(ATOM, Strategy::Serial, vec![speed]);
+            self.simulate(About { figure: "6", modelled }, alone(1.0));
+            self.simulate(About { figure: "7", modelled }, alone(slow_speed()));
+            for place in 0..5 {
+                let header = self.bench.header(ATOM, Strategy::Ring, slow_at(place));
+                self.simulate(About { figure: "place", modelled }, header);
+            }
+        }
+    }
+
+    /// Time over sizes of atoms, of a farm's parts, and of a ring's smallest transfers (Figures 8 and 9).
+    pub fn sizes(&mut self) {
+        for modelled in [false, true] {
+            let [.., equal, slow] = machines();
+            for speeds in [equal, slow] {
+                for atom in ATOMS {
+                    let costs = self.bench.costs(atom, SERIAL);
+                    let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
+                    self.simulate_as_it_is(About { figure: "atom", modelled }, header, &costs);
+                }
+                for (part, strategy) in PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)]) {
+                    let mut header = self.bench.header(ATOM, strategy, speeds.clone());
+                    header.rules.part = part;
+                    self.simulate_as_it_is(About { figure: "part", modelled }, header, &self.costs.clone());
+                }
+            }
+        }
+    }
+
+    /// A ring of four of which one machine swings between full and a tenth of its speed, with the period of an atom, of an
+    /// offer's lap, and of the run: rows in this order, after one in which it has its mean speed throughout.
+    pub fn swings(&mut self) {
+        let atom = SERIAL / self.costs.len() as u32;
+        let lap = Duration::from_secs_f64(4.0 * NETWORK.latency);
+        let steady = self.bench.header(ATOM, Strategy::Ring, vec![1.0, 1.0, 1.0, 0.55]);
+        let steady = self.modelled(steady, 1.0);
+        let tally = simulate(&steady, &[], &self.costs);
+        let run = tally.makespan().unwrap_or_default();
+        let about = About { figure: "swing", modelled: true };
+        let row = |header: &Header, tally: &Tally| {
+            let header = Header { driver: Driver::Sim, ..header.clone() };
+            Row::new(about, &header, tally, None)
+        };
+        self.rows.push(row(&steady, &tally));
+        for period in [lap, atom, run / 10, run] {
+            let script = square_wave(3, 1.0, 0.1, period, Time::ZERO + 4 * run);
+            let header = Header { speeds: vec![1.0; 4], ..steady.clone() };
+            self.rows.push(row(&header, &simulate(&header, &script, &self.costs)));
+        }
+    }
+
+    /// By handling time of a message in ms, at four equal machines: times over the ideal of a farm with parts of one atom, of
+    /// one with parts of the usual size, of the ring, and of static bands.
+    pub fn handling(&self) -> Vec<(f64, [f64; 4])> {
+        let times = |handling: f64| {
+            let network = Network { handling: handling * 1e-3, ..NETWORK };
+            let run = |strategy, part: Option<u32>| {
+                let mut header = network.with(self.bench.header(ATOM, strategy, vec![1.0; 4]), 1.0);
+                header.rules.part = part.unwrap_or(header.rules.part);
+                times_ideal(&simulate(&header, &[], &self.costs))
+            };
+            let farm = |part| run(Strategy::Farm, part);
+            [farm(Some(Network::PART)), farm(None), run(Strategy::Ring, None), run(Strategy::Static, None)]
+        };
+        [0.1, 0.3, 1.0, 3.0, 10.0, 15.0, 20.0, 30.0, 100.0].map(|handling| (handling, times(handling))).to_vec()
+    }
+
+    /// Makespans in seconds of the same run at full speed, a machine a core: with one thread a node, and with two.
+    ///
+    /// # Errors
+    /// A sentence, if a run failed.
+    pub fn competing(&self, progress: &mut Progress<'_>) -> Result<[f64; 2], String> {
+        let mut seconds = [Vec::new(), Vec::new()];
+        for _ in 0..COMPETING {
+            for (driver, seconds) in [Driver::Threads, Driver::Pairs].into_iter().zip(&mut seconds) {
+                progress.next(&format!("full speed, {}", driver.name()));
+                let header = self.bench.header(ATOM, Strategy::Ring, vec![1.0; cores()]);
+                let log = self.bench.perform(&Header { driver, ..header })?;
+                seconds.push(Tally::of(&log).makespan().unwrap_or_default().as_secs_f64());
+            }
+        }
+        Ok(seconds.map(|mut seconds| {
+            seconds.sort_by(f64::total_cmp);
+            seconds[seconds.len() / 2]
+        }))
+    }
+
+    /// How many steps [`Measuring::competing`] takes.
+    pub const COMPETING_STEPS: usize = 2 * COMPETING;
+
+    fn modelled(&self, mut header: Header, scale: f64) -> Header {
+        if header.rules.strategy.is_farm() {
+            header.rules.part = Network::PART;
+        }
+        NETWORK.with(header, scale)
+    }
+
+    fn simulate(&mut self, about: About, mut header: Header) {
+        if about.modelled && header.rules.strategy.is_farm() {
+            header.rules.part = Network::PART;
+        }
+        self.simulate_as_it_is(about, header, &self.costs.clone());
+    }
+
+    fn simulate_as_it_is(&mut self, about: About, header: Header, costs: &Costs) {
+        let header = if about.modelled { NETWORK.with(header, 1.0) } else { header };
+        let tally = simulate(&header, &[], costs);
+        let header = Header { driver: Driver::Sim, ..header };
+        self.rows.push(Row::new(about, &header, &tally, None));
+    }
+}
+
+/// Four machines and the article's slow one, which stands at this place of the ring.
+fn slow_at(place: usize) -> Vec<f64> {
+    let mut speeds = vec![1.0; 4];
+    speeds.insert(place, slow_speed());
+    speeds
+}
+
+/// What part of a core a machine gets: four and a slow one take less than half of the computer.
+pub(super) fn pace() -> f64 {
+    (0.1 * cores() as f64).min(1.0)
+}

@@ -1,0 +1,167 @@
+//! What the study of the article says.
+
+use std::fmt::Write;
+
+use super::super::workbench::Workbench;
+use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
+use super::charts::select;
+use super::claims;
+use super::measure::{RUNS, STRATEGIES, pace};
+use super::rows::Row;
+use crate::balance::Strategy;
+
+/// The report, in Markdown.
+pub(super) fn report(bench: &Workbench, rows: &[Row], handling: &[(f64, [f64; 4])], competing: [f64; 2]) -> String {
+    let mut text = String::new();
+    head(&mut text, bench);
+    verdicts(&mut text, rows, competing);
+    figures(&mut text, rows);
+    agreement(&mut text, rows);
+    places(&mut text, rows);
+    choking(&mut text, handling);
+    swings(&mut text, rows);
+    text.push_str(
+        "\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n\nAll runs are in `paper.csv`.\n",
+    );
+    text
+}
+
+/// Writing to a string cannot fail.
+macro_rules! say {
+    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
+}
+
+fn head(text: &mut String, bench: &Workbench) {
+    say!(text, "# The article's comparison, run anew\n");
+    say!(
+        text,
+        "The scene is {}, {} pixels in atoms of {ATOM}. *Threads* are real runs of emulated machines, {} samples a pixel (n × n), \
+         each machine at {:.0} % of a core of this computer, the middle one of {RUNS} runs; *virtual time* is the same protocol in a \
+         simulator, its machines as fast as the article's ({} s for the picture alone, the slow one {} s), atoms as dear as their rays \
+         make them. As in the article, results leave a machine when its atoms have run out. Every time is given over the ideal one, the \
+         work divided by the sum of speeds.\n",
+        bench.scene.name,
+        bench.size,
+        bench.samples,
+        100.0 * pace(),
+        SERIAL.as_secs(),
+        SLOW_SERIAL.as_secs(),
+    );
+    say!(
+        text,
+        "*The modelled network* is one wire that all share, of {} MB/s, {} ms a message, and a parent that is busy for {} ms with each \
+         message; its farm hands out parts of {} atom. On threads, which are faster than the article's machines, its times are shorter in \
+         proportion. These are the conditions under which the article's order comes out, ring before static bands before farm; without \
+         them, or with larger parts, the farm is about as good as the ring (see *When is a farm worse*).\n",
+        NETWORK.bandwidth / 1e6,
+        1e3 * NETWORK.latency,
+        1e3 * NETWORK.handling,
+        Network::PART,
+    );
+}
+
+fn verdicts(text: &mut String, rows: &[Row], competing: [f64; 2]) {
+    say!(text, "## Verdicts\n");
+    for claim in claims::all(rows, competing) {
+        say!(text, "- **{}** ({}): **{}**. {}", claim.says, claim.place, claim.verdict, claim.why);
+    }
+}
+
+fn figures(text: &mut String, rows: &[Row]) {
+    for (driver, network, name) in [
+        ("threads", "none", "threads, no network"),
+        ("sim", "none", "virtual time, no network"),
+        ("threads", "modelled", "threads, modelled network"),
+        ("sim", "modelled", "virtual time, modelled network"),
+    ] {
+        say!(text, "\n## Figures 5 to 7: {name}\n");
+        say!(text, "Times over the ideal; the article's in brackets.\n");
+        let names = STRATEGIES.map(Strategy::name).join(" | ");
+        say!(text, "| machines | {names} | rayon |\n|---|{}---:|", "---:|".repeat(STRATEGIES.len()));
+        for (nodes, label) in [(2, "2"), (3, "3"), (4, "4"), (5, "4 and a slow one")] {
+            let figure = if nodes == 5 { "7" } else { "6" };
+            let cell = |strategy: &str, driver: &str, article: Option<f64>| {
+                let row = select(rows, figure, network, driver).find(|row| row.nodes == nodes && row.strategy == strategy);
+                let ours = row.map_or("–".into(), |row| format!("{:.3}", row.over_ideal));
+                article.map_or(ours.clone(), |article| format!("{ours} ({article:.3})"))
+            };
+            let cells = STRATEGIES
+                .map(|strategy| cell(strategy.name(), driver, article::over_ideal(strategy, nodes, nodes == 5)))
+                .join(" | ");
+            let rayon = if driver == "threads" { cell("rayon", "rayon", None) } else { "–".into() };
+            say!(text, "| {label} | {cells} | {rayon} |");
+        }
+        let chart = match (driver, network) {
+            ("threads", "none") => "figure5-threads",
+            ("sim", "none") => "figure5-sim",
+            ("threads", _) => "figure5-threads-network",
+            _ => "figure5-sim-network",
+        };
+        say!(text, "\n![](paper-{chart}.svg)");
+    }
+}
+
+/// Whether real and virtual time agree.
+fn agreement(text: &mut String, rows: &[Row]) {
+    say!(text, "\n## Do threads and virtual time agree?\n");
+    say!(text, "Makespan on threads over that of the same run in virtual time, with the costs measured in it.\n");
+    say!(text, "| strategy | runs | least | middle | greatest |\n|---|---:|---:|---:|---:|");
+    for strategy in STRATEGIES.into_iter().chain([Strategy::Serial]) {
+        let of = rows.iter().filter(|row| row.strategy == strategy.name());
+        let mut ratios: Vec<f64> = of.filter_map(|row| Some(row.makespan_s / row.twin_s?)).collect();
+        ratios.sort_by(f64::total_cmp);
+        let (Some(least), Some(most)) = (ratios.first(), ratios.last()) else { continue };
+        say!(text, "| {strategy} | {} | {least:.4} | {:.4} | {most:.4} |", ratios.len(), ratios[ratios.len() / 2]);
+    }
+}
+
+/// The slow machine at every place.
+fn places(text: &mut String, rows: &[Row]) {
+    say!(text, "\n## The slow machine at every place of the ring\n");
+    say!(text, "| place | threads | virtual time | virtual time, modelled network |\n|---:|---:|---:|---:|");
+    let at = |network: &str, driver: &str, place: usize| {
+        // At the last place it is that of Figure 7.
+        let figures = ["place", "7"].into_iter();
+        let mut found = figures.flat_map(|figure| select(rows, figure, network, driver).collect::<Vec<_>>());
+        found.find(|row| row.place == Some(place) && row.strategy == Strategy::Ring.name()).map_or(f64::NAN, |row| row.over_ideal)
+    };
+    for place in 1..=5 {
+        say!(
+            text,
+            "| {place} | {:.4} | {:.4} | {:.4} |",
+            at("none", "threads", place),
+            at("none", "sim", place),
+            at("modelled", "sim", place)
+        );
+    }
+    say!(
+        text,
+        "\nWhat differs is where the last atoms lie when the machines run dry. An atom in the slow machine's pipe takes it {:.1} times \
+         as long as another, two wait there, and nobody can take them back; whether that shows depends on what its band costs and on when \
+         the last offer passes, which its place decides.",
+        1.0 / article::slow_speed()
+    );
+}
+
+fn choking(text: &mut String, handling: &[(f64, [f64; 4])]) {
+    say!(text, "\n## When is a farm worse?\n");
+    say!(text, "| ms a message | farm, parts of {} atom | farm, 16 parts a machine | ring | static |\n|---:|---:|---:|---:|---:|", Network::PART);
+    for (ms, [small, usual, ring, bands]) in handling {
+        say!(text, "| {ms} | {small:.3} | {usual:.3} | {ring:.3} | {bands:.3} |");
+    }
+    say!(text, "\n![](paper-handling.svg)");
+}
+
+fn swings(text: &mut String, rows: &[Row]) {
+    say!(text, "\n## A machine whose speed swings\n");
+    say!(
+        text,
+        "A ring of four on the modelled network, of which one machine swings between full speed and a tenth; over the ideal time, which \
+         knows of the swings.\n"
+    );
+    say!(text, "| period | time / ideal | atoms moved | transfers |\n|---|---:|---:|---:|");
+    let names = ["none: steady at the mean", "an offer's lap", "an atom", "a tenth of the run", "the run"];
+    for (name, row) in names.into_iter().zip(rows.iter().filter(|row| row.figure == "swing")) {
+        say!(text, "| {name} | {:.4} | {} | {} |", row.over_ideal, row.atoms_moved, row.transfers);
+    }
+}

@@ -1,0 +1,84 @@
+//! What is measured: a row for each run.
+
+use serde::Serialize;
+
+use super::article::{self, times_ideal};
+use crate::runlog::{Driver, Header, Tally};
+
+/// One run, or the middle one of several of the same kind.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Row {
+    /// The article's figure that it belongs to, or what is varied: `atom`, `part`, `place`, `swing`.
+    pub figure: &'static str,
+    /// `none`, or `modelled`.
+    pub network: &'static str,
+    pub strategy: &'static str,
+    pub driver: &'static str,
+    pub nodes: usize,
+    /// Whether a slow machine is among them.
+    pub slow: bool,
+    /// The slow machine's place in the ring, from 1.
+    pub place: Option<usize>,
+    /// Pixels.
+    pub atom: u32,
+    /// The farm's atoms in a part; the ring's least atoms in a transfer.
+    pub part: u32,
+    pub makespan_s: f64,
+    pub ideal_s: f64,
+    pub over_ideal: f64,
+    pub article_over_ideal: Option<f64>,
+    /// The makespan of the same run in virtual time, with the costs measured in it.
+    pub twin_s: Option<f64>,
+    pub finish_spread_s: f64,
+    pub messages: u64,
+    pub bytes: u64,
+    pub transfers: u64,
+    pub atoms_moved: u64,
+}
+
+/// What a row is about.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct About {
+    pub figure: &'static str,
+    pub modelled: bool,
+}
+
+impl Row {
+    /// The row of a run; with its twin in virtual time, if it has one.
+    pub fn new(about: About, header: &Header, tally: &Tally, twin: Option<&Tally>) -> Self {
+        let messages = tally.messages();
+        let seconds = |tally: &Tally| tally.makespan().unwrap_or_default().as_secs_f64();
+        let place = header.speeds.iter().position(|&speed| speed < 1.0);
+        let nodes = header.speeds.len();
+        let is_last = place.is_none_or(|place| place + 1 == nodes);
+        let article = article::over_ideal(header.rules.strategy, nodes, place.is_some());
+        Self {
+            figure: about.figure,
+            network: if about.modelled { "modelled" } else { "none" },
+            strategy: header.strategy_name(),
+            driver: header.driver.name(),
+            nodes,
+            slow: place.is_some(),
+            place: place.map(|place| place + 1),
+            atom: header.division.atom_pixels(),
+            part: header.rules.part,
+            makespan_s: seconds(tally),
+            ideal_s: tally.ideal().unwrap_or_default().as_secs_f64(),
+            over_ideal: times_ideal(tally),
+            article_over_ideal: article.filter(|_| is_last && header.driver != Driver::WorkStealing),
+            twin_s: twin.map(seconds),
+            finish_spread_s: tally.finish_spread().as_secs_f64(),
+            messages: messages.total,
+            bytes: messages.bytes,
+            transfers: messages.transfers,
+            atoms_moved: messages.atoms_moved,
+        }
+    }
+}
+
+/// The middle one of several rows, by how far from ideal they are.
+pub(super) fn middle(mut rows: Vec<Row>) -> Option<Row> {
+    rows.sort_by(|a, b| a.over_ideal.total_cmp(&b.over_ideal));
+    let middle = rows.len() / 2;
+    rows.into_iter().nth(middle)
+}

@@ -1,0 +1,24 @@
+//! How far a study is.
+
+/// Whoever wants to know how far a study is: steps done, steps in all, and what comes next.
+pub type Tell<'a> = &'a mut dyn FnMut(usize, usize, &str);
+
+/// Counts the steps of a study.
+pub(super) struct Progress<'a> {
+    done: usize,
+    steps: usize,
+    tell: Tell<'a>,
+}
+
+impl<'a> Progress<'a> {
+    /// A study of so many steps.
+    pub fn new(steps: usize, tell: Tell<'a>) -> Self {
+        Self { done: 0, steps, tell }
+    }
+
+    /// The next step begins.
+    pub fn next(&mut self, what: &str) {
+        (self.tell)(self.done, self.steps, what);
+        self.done += 1;
+    }
+}

@@ -1,0 +1,141 @@
+//! From one machine to a thousand: how each strategy's efficiency decays.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::progress::{Progress, Tell};
+use super::workbench::{Costs, Workbench, simulate};
+use crate::balance::Strategy;
+use crate::picture::{Division, Size};
+use crate::runlog::{Driver, Header, Link};
+use crate::scene::Opened;
+
+/// What an atom costs on average: a run of one machine on the strong picture takes about half a minute.
+pub(super) const ATOM_COST: Duration = Duration::from_millis(2);
+
+/// The strong picture, whose size does not change.
+pub(super) const SIZE: (u32, u32) = (1024, 768);
+
+/// Atoms a node in the weak picture, which grows with the nodes.
+pub(super) const ATOMS_A_NODE: u32 = 1024;
+
+/// In milliseconds.
+pub(super) const LATENCIES: [f64; 3] = [0.1, 1.0, 10.0];
+
+/// What is compared.
+pub(super) const STRATEGIES: [Strategy; 5] =
+    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
+
+const ATOM: u32 = 50;
+
+/// One run.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Row {
+    pub nodes: usize,
+    pub latency_s: f64,
+    pub weak: bool,
+    pub strategy: &'static str,
+    pub atoms: u32,
+    pub makespan_s: f64,
+    pub efficiency: f64,
+    /// The efficiency of a makespan of W/m + 3.65 log₂ W, for W atoms on m nodes.
+    pub bound_efficiency: f64,
+    pub messages_per_node: f64,
+    pub bytes_per_node: f64,
+    pub hops_per_node: f64,
+    pub atoms_moved: u64,
+    pub transfers: u64,
+    /// The share of the machines' time after their last atoms.
+    pub tail_idle: f64,
+}
+
+/// How many machines there are.
+pub(super) fn node_counts() -> impl Iterator<Item = usize> + Clone {
+    (0..=10).map(|power| 1 << power)
+}
+
+/// Runs all of it in virtual time.
+///
+/// # Errors
+/// A sentence, if the scene could not be traced.
+pub(super) fn measure(scene: &Opened, tell: Tell<'_>) -> Result<Vec<Row>, String> {
+    let size = Size::new(SIZE.0, SIZE.1)?;
+    let bench = Workbench::new(scene, size, 1)?;
+    let atoms = Division::new(size.pixels(), ATOM).atoms();
+    let strong = bench.costs(ATOM, ATOM_COST * atoms);
+    let mut progress = Progress::new(2 * node_counts().count(), tell);
+    let mut rows = Vec::new();
+    for weak in [false, true] {
+        for nodes in node_counts() {
+            let kind = if weak { "the picture grown with them" } else { "the same picture" };
+            progress.next(&format!("{nodes} machines, {kind}"));
+            let (costs, size) = if weak { resample(&strong, nodes)? } else { (strong.clone(), size) };
+            for latency in LATENCIES {
+                for strategy in STRATEGIES {
+                    let plain = bench.header(ATOM, strategy, vec![1.0; nodes]);
+                    let plain = Header { size, division: Division::new(size.pixels(), ATOM), ..plain };
+                    rows.push(row(plain, latency, weak, &costs));
+                }
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// What the strong picture's atoms cost, for a picture of [`ATOMS_A_NODE`] atoms a node: each has the cost of the atom at the
+/// same height of the picture; and that picture's size.
+fn resample(costs: &Costs, nodes: usize) -> Result<(Costs, Size), String> {
+    let atoms = ATOMS_A_NODE as usize * nodes;
+    let at = |atom: usize| costs[(atom as u64 * costs.len() as u64 / atoms as u64) as usize];
+    let total: Duration = (0..atoms).map(at).sum();
+    let even = ATOM_COST.as_secs_f64() * atoms as f64 / total.as_secs_f64();
+    let costs: Arc<[Duration]> = (0..atoms).map(|atom| at(atom).mul_f64(even)).collect();
+    Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32)?))
+}
+
+fn row(plain: Header, latency_ms: f64, weak: bool, costs: &Costs) -> Row {
+    let latency = Duration::from_secs_f64(latency_ms * 1e-3);
+    let mut header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, ..plain };
+    let nodes = header.speeds.len();
+    header.rules.part = header.rules.strategy.usual_part(header.division, nodes);
+    let tally = simulate(&header, &[], costs);
+    let (messages, atoms) = (tally.messages(), header.division.atoms());
+    let a_node = |count: u64| count as f64 / nodes as f64;
+    let (w, m) = (f64::from(atoms), nodes as f64);
+    Row {
+        nodes,
+        latency_s: latency.as_secs_f64(),
+        weak,
+        strategy: header.rules.strategy.name(),
+        atoms,
+        makespan_s: tally.makespan().unwrap_or_default().as_secs_f64(),
+        efficiency: tally.efficiency().unwrap_or_default(),
+        bound_efficiency: (w / m) / (w / m + if nodes == 1 { 0.0 } else { 3.65 * w.log2() }),
+        messages_per_node: a_node(messages.total),
+        bytes_per_node: a_node(messages.bytes),
+        hops_per_node: a_node(messages.hops),
+        atoms_moved: messages.atoms_moved,
+        transfers: messages.transfers,
+        tail_idle: tally.tail_idle().unwrap_or_default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grown_picture_costs_as_much_an_atom_and_where_the_old_one_did() {
+        let costs: Costs = (0..3000u64).map(|atom| Duration::from_micros(500 + atom)).collect();
+        for nodes in [1, 8] {
+            let (grown, size) = resample(&costs, nodes).unwrap();
+            assert_eq!(grown.len(), 1024 * nodes);
+            assert_eq!(Division::new(size.pixels(), ATOM).atoms() as usize, grown.len());
+            let mean = grown.iter().sum::<Duration>() / grown.len() as u32;
+            assert!(mean.abs_diff(ATOM_COST) < Duration::from_micros(1), "{mean:?}");
+            assert!(grown.is_sorted());
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! What the study of scaling says.
+
+use std::fmt::Write;
+
+use super::scale::{ATOM_COST, ATOMS_A_NODE, LATENCIES, Row, SIZE, STRATEGIES, measure, node_counts};
+use super::{Study, Tell};
+use crate::balance::Strategy;
+use crate::scene::Opened;
+use crate::view::{Axis, CHART_SIZE, Chart, Scale, Series, Style, series_hue};
+
+/// From one machine to 1,024, in virtual time: the same picture, and one that grows with the machines, at latencies of 0.1, 1
+/// and 10 ms, for every strategy.
+///
+/// # Errors
+/// A sentence, if the scene could not be traced.
+pub fn scale(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+    let rows = measure(scene, tell)?;
+    let mut study = Study::new("scale");
+    study.add_rows(&rows)?;
+    for weak in [false, true] {
+        let kind = if weak { "weak" } else { "strong" };
+        for latency in LATENCIES {
+            let chart = efficiency(&rows, weak, latency);
+            study.add_chart(&format!("{kind}-{latency}ms"), &chart.marks(CHART_SIZE));
+        }
+        study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE));
+    }
+    study.add_chart("ring", &decay(&rows).marks(CHART_SIZE));
+    study.add_report(report(&rows, &scene.name));
+    Ok(study)
+}
+
+fn nodes_axis() -> Axis {
+    Axis { label: "machines".into(), scale: Scale::Log2, range: None }
+}
+
+fn of<'a>(rows: &'a [Row], weak: bool, latency_ms: f64, strategy: Strategy) -> impl Iterator<Item = &'a Row> + Clone {
+    let latency = latency_ms * 1e-3;
+    rows.iter().filter(move |row| {
+        row.weak == weak && row.strategy == strategy.name() && (row.latency_s - latency).abs() < 1e-9
+    })
+}
+
+fn points<'a>(rows: impl Iterator<Item = &'a Row>, value: impl Fn(&Row) -> f64) -> Vec<(f64, f64)> {
+    rows.map(|row| (row.nodes as f64, value(row))).collect()
+}
+
+fn efficiency(rows: &[Row], weak: bool, latency: f64) -> Chart {
+    let line = |(i, strategy): (usize, Strategy)| Series {
+        name: strategy.name().into(),
+        hue: series_hue(i),
+        points: points(of(rows, weak, latency, strategy), |row| row.efficiency),
+        style: Style::Line,
+    };
+    let mut series: Vec<Series> = STRATEGIES.into_iter().enumerate().map(line).collect();
+    series.push(Series {
+        name: "W/m + 3.65 log₂W".into(),
+        hue: series_hue(STRATEGIES.len()),
+        points: points(of(rows, weak, latency, Strategy::Ring), |row| row.bound_efficiency),
+        style: Style::Dashed,
+    });
+    Chart {
+        title: format!("{}, {latency} ms a message", if weak { "A picture that grows with the machines" } else { "The same picture" }),
+        note: "Dashed: the bound of work stealing that costs nothing (Tchiboukdjian and others 2010)".into(),
+        x: nodes_axis(),
+        y: Axis { label: "efficiency: ideal time over real time".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
+        series,
+    }
+}
+
+fn messages(rows: &[Row], weak: bool) -> Chart {
+    let line = |(i, strategy): (usize, Strategy)| Series {
+        name: strategy.name().into(),
+        hue: series_hue(i),
+        points: points(of(rows, weak, LATENCIES[1], strategy), |row| row.messages_per_node),
+        style: Style::Line,
+    };
+    Chart {
+        title: format!("Messages a machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
+        note: format!("{} ms a message", LATENCIES[1]),
+        x: nodes_axis(),
+        y: Axis { label: "messages a machine".into(), scale: Scale::Log10, range: None },
+        series: STRATEGIES.into_iter().enumerate().map(line).collect(),
+    }
+}
+
+/// How the ring decays: the one chart that later work has to beat.
+fn decay(rows: &[Row]) -> Chart {
+    let line = |(i, (weak, latency)): (usize, (bool, f64))| Series {
+        name: format!("{} {latency} ms", if weak { "grown," } else { "same," }),
+        hue: series_hue(i),
+        points: points(of(rows, weak, latency, Strategy::Ring), |row| row.efficiency),
+        style: if weak { Style::Dashed } else { Style::Line },
+    };
+    let kinds = [false, true].into_iter().flat_map(|weak| LATENCIES.map(|latency| (weak, latency)));
+    Chart {
+        title: "How the ring decays".into(),
+        note: "Dashed: the picture grows with the machines".into(),
+        x: nodes_axis(),
+        y: Axis { label: "efficiency".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
+        series: kinds.enumerate().map(line).collect(),
+    }
+}
+
+fn report(rows: &[Row], scene: &str) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let mut say = |line: std::fmt::Arguments<'_>| _ = writeln!(text, "{line}");
+    say(format_args!("# From one machine to a thousand\n"));
+    say(format_args!(
+        "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, as dear or as cheap \
+         as its rays make it. *The same picture* has {} × {} pixels; *the grown one* has {ATOMS_A_NODE} atoms a machine. \
+         Results leave a machine when its atoms have run out. Efficiency is the ideal time over the real one. The bound is \
+         W/m + 3.65 log₂W atoms' time, of work stealing on m machines whose messages take no time (M. Tchiboukdjian, N. Gast, \
+         D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
+        ATOM_COST.as_millis(),
+        SIZE.0,
+        SIZE.1
+    ));
+    for weak in [false, true] {
+        for latency in LATENCIES {
+            let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
+            say(format_args!("## {kind}, {latency} ms a message\n"));
+            let names = STRATEGIES.map(Strategy::name).join(" | ");
+            say(format_args!("| machines | {names} | bound | ring: messages a machine | idle at the end |"));
+            say(format_args!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
+            for nodes in node_counts() {
+                let at = |strategy| of(rows, weak, latency, strategy).find(|row| row.nodes == nodes);
+                let cells = STRATEGIES.map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
+                let Some(ring) = at(Strategy::Ring) else { continue };
+                say(format_args!(
+                    "| {nodes} | {} | {:.3} | {:.1} | {:.3} |",
+                    cells.join(" | "),
+                    ring.bound_efficiency,
+                    ring.messages_per_node,
+                    ring.tail_idle
+                ));
+            }
+            say(format_args!("\n![](scale-{}-{latency}ms.svg)\n", if weak { "weak" } else { "strong" }));
+        }
+    }
+    say(format_args!("## Why the ring decays\n"));
+    say(format_args!("![](scale-ring.svg)\n"));
+    say(format_args!("{}", why(rows)));
+    text
+}
+
+/// The paragraph on the ring's decay, with the figures that bear it out.
+fn why(rows: &[Row]) -> String {
+    let ring = |weak, latency, nodes| of(rows, weak, latency, Strategy::Ring).find(|row| row.nodes == nodes);
+    let most = node_counts().max().unwrap_or(1);
+    let (Some(few), Some(many), Some(slow)) =
+        (ring(true, LATENCIES[0], 16), ring(true, LATENCIES[0], most), ring(true, LATENCIES[2], most))
+    else {
+        return String::new();
+    };
+    let parcel = |row: &Row| row.atoms_moved as f64 / row.transfers.max(1) as f64;
+    format!(
+        "An offer goes to the left neighbour first and ends at the first node that still has one atom to give. Neighbours have \
+         neighbouring bands, which cost about the same, so the first that could take it is usually nearly done itself: it gives \
+         a crumb, the offerer traces it and offers again. At 16 machines a transfer moves {:.1} atoms, at {most} only {:.1} \
+         ({:.0} transfers a machine), while the atoms that should move lie hundreds of hops away; work spreads round the ring \
+         as heat does, from neighbour to neighbour, and a node whose offer has gone round once retires for good. Every hop \
+         takes a message's time: at {most} machines one lap is {:.2} s at {} ms and {:.1} s at {} ms, against an ideal time of \
+         {:.1} s. With the same picture the bands shrink as well: an offer's lap grows with N while the work of a node falls \
+         with 1/N. Efficiency at {most} machines, with the picture grown: {:.2} at {} ms, {:.2} at {} ms; the machines stand \
+         idle at the end for {:.0} and {:.0} % of all time.",
+        parcel(few),
+        parcel(many),
+        many.transfers as f64 / many.nodes as f64,
+        most as f64 * LATENCIES[0] * 1e-3,
+        LATENCIES[0],
+        most as f64 * LATENCIES[2] * 1e-3,
+        LATENCIES[2],
+        many.makespan_s * many.efficiency,
+        many.efficiency,
+        LATENCIES[0],
+        slow.efficiency,
+        LATENCIES[2],
+        100.0 * many.tail_idle,
+        100.0 * slow.tail_idle,
+    )
+}

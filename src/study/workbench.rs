@@ -1,0 +1,103 @@
+//! A scene with what its atoms cost, and runs of it: on threads, and in virtual time.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::balance::{Rules, Strategy};
+use crate::driver::{Run, Update, Whole};
+use crate::picture::{Division, Size};
+use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::scenario::Command;
+use crate::scene::Opened;
+use crate::sim::Sim;
+use crate::time::Time;
+use crate::tracer::{Quality, Tracer};
+
+/// What each atom costs the reference machine.
+pub(super) type Costs = Arc<[Duration]>;
+
+/// Costs are known for so many pixels together; atoms are multiples of it.
+pub(super) const GRAIN: u32 = 5;
+
+/// A scene that is compiled, and whose picture is traced.
+pub(super) struct Workbench {
+    pub scene: Opened,
+    pub size: Size,
+    pub samples: u32,
+    pub tracer: Arc<Tracer>,
+    /// Rays by [`GRAIN`] pixels.
+    rays: Vec<u32>,
+}
+
+impl Workbench {
+    /// Compiles the scene and traces its picture once.
+    ///
+    /// # Errors
+    /// A sentence, if it could not be traced.
+    pub fn new(scene: &Opened, size: Size, samples: u32) -> Result<Self, String> {
+        let tracer = Arc::new(Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() }));
+        let whole = Whole::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {})?;
+        Ok(Self { scene: scene.clone(), size, samples, tracer, rays: whole.rays })
+    }
+
+    /// What atoms of `atom_pixels` (a multiple of [`GRAIN`]) cost, by their rays, if the whole picture costs `whole`.
+    pub fn costs(&self, atom_pixels: u32, whole: Duration) -> Costs {
+        let all: u64 = self.rays.iter().map(|&rays| u64::from(rays)).sum();
+        let a_ray = whole.as_secs_f64() / all as f64;
+        let atom = |grains: &[u32]| {
+            Duration::from_secs_f64(a_ray * grains.iter().map(|&rays| f64::from(rays)).sum::<f64>())
+        };
+        self.rays.chunks((atom_pixels / GRAIN).max(1) as usize).map(atom).collect()
+    }
+
+    /// A run of the scene as the article has it: results leave a node when its atoms have run out. Plain in all else.
+    pub fn header(&self, atom_pixels: u32, strategy: Strategy, speeds: Vec<f64>) -> Header {
+        let plain = Header::plain(self.size, atom_pixels, strategy, speeds);
+        Header {
+            scene: self.scene.name.clone(),
+            scene_text: self.scene.text.clone(),
+            samples: self.samples,
+            rules: Rules { batch: None, ..plain.rules },
+            ..plain
+        }
+    }
+
+    /// Runs on threads what `header` describes.
+    ///
+    /// # Errors
+    /// A sentence, if the run failed.
+    pub fn perform(&self, header: &Header) -> Result<RunLog, String> {
+        let run = Run::start(self.tracer.clone(), header);
+        let mut records = Vec::new();
+        for update in run.updates() {
+            match update {
+                Update::Records(more) => records.extend(more),
+                Update::Placed { .. } | Update::Rays(_) => {}
+                Update::Finished => break,
+                Update::Failed(why) => return Err(why),
+            }
+        }
+        let mut log = RunLog::new(header.clone());
+        log.add(records);
+        Ok(log)
+    }
+}
+
+/// Runs in virtual time what `header` describes, and counts what it amounts to.
+pub(super) fn simulate(header: &Header, script: &[(Time, Command)], costs: &Costs) -> Tally {
+    let header = Header { driver: Driver::Sim, cores: header.speeds.len(), ..header.clone() };
+    let costs = costs.clone();
+    let mut sim = Sim::new(&header, script, move |atom| costs[atom as usize]);
+    let mut tally = Tally::new(&header);
+    sim.run(&mut |record| tally.add(&record));
+    tally
+}
+
+/// The same run in virtual time, with the costs that were measured in it.
+///
+/// # Errors
+/// A sentence, if not all atoms were traced.
+pub(super) fn twin(log: &RunLog) -> Result<Tally, String> {
+    let costs = log.costs().into_iter().collect::<Option<Vec<_>>>().ok_or("an atom was not traced")?;
+    Ok(simulate(&log.header, &[], &costs.into()))
+}
