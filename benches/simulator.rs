@@ -28,7 +28,9 @@ fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
     let start = Instant::now();
     // As a picture's rows: dearer in the middle.
     let atoms = f64::from(header.division.atoms());
-    let cost = move |atom: u32| Duration::from_secs_f64(1e-3 - 0.8e-3 * (std::f64::consts::TAU * f64::from(atom) / atoms).cos());
+    let cost = move |atom: u32| {
+        Duration::from_secs_f64(1e-3 - 0.8e-3 * (std::f64::consts::TAU * f64::from(atom) / atoms).cos())
+    };
     let mut sim = Sim::new(&header, &[], cost);
     let mut tally = Tally::new(&header);
     let mut records = 0u64;

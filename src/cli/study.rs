@@ -14,9 +14,8 @@ use crate::study::{Study, paper, scale};
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
 pub(super) fn study(kind: StudyKind, scene: &str, out: &Path, as_json: bool) -> Result<(), Failure> {
     let opened = open(scene)?;
-    std::fs::create_dir_all(out).map_err(|error| {
-        Failure::Refused(format!("the directory {} cannot be made: {error}", out.display()))
-    })?;
+    std::fs::create_dir_all(out)
+        .map_err(|error| Failure::Refused(format!("the directory {} cannot be made: {error}", out.display())))?;
     check_writable(&out.join("study.md")).map_err(|error| Failure::Refused(error.to_string()))?;
     let bar = ProgressBar::new(1);
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {elapsed} ({eta} left)  {msg}");

@@ -206,7 +206,10 @@ mod tests {
         let numbers = (prop::array::uniform4(0.0..=1.0f64), 1e-6..=1.0f64, prop::option::of(1.0..1e12f64));
         let batch = prop::option::of(any::<Duration>());
         let shared = any::<bool>();
-        let time = || (0..=3600u64, 0..1_000_000_000u32).prop_map(|(s, ns)| Duration::from_secs(s.min(3599)) + Duration::from_nanos(ns.into()));
+        let time = || {
+            (0..=3600u64, 0..1_000_000_000u32)
+                .prop_map(|(s, ns)| Duration::from_secs(s.min(3599)) + Duration::from_nanos(ns.into()))
+        };
         (".*", (time(), time(), any::<u32>()), numbers, batch, shared).prop_map(
             |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, shared)| Header {
                 scene,

@@ -60,10 +60,17 @@ fn efficiency(rows: &[Row], weak: bool, latency: f64) -> Chart {
         style: Style::Dashed,
     });
     Chart {
-        title: format!("{}, {latency} ms a message", if weak { "A picture that grows with the machines" } else { "The same picture" }),
+        title: format!(
+            "{}, {latency} ms a message",
+            if weak { "A picture that grows with the machines" } else { "The same picture" }
+        ),
         note: "Dashed: the bound of work stealing that costs nothing (Tchiboukdjian and others 2010)".into(),
         x: nodes_axis(),
-        y: Axis { label: "efficiency: ideal time over real time".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
+        y: Axis {
+            label: "efficiency: ideal time over real time".into(),
+            scale: Scale::Linear,
+            range: Some((0.0, 1.0)),
+        },
         series,
     }
 }
@@ -126,7 +133,8 @@ fn report(rows: &[Row], scene: &str) -> String {
             say(format_args!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {
                 let at = |strategy| of(rows, weak, latency, strategy).find(|row| row.nodes == nodes);
-                let cells = STRATEGIES.map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
+                let cells = STRATEGIES
+                    .map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
                 let Some(ring) = at(Strategy::Ring) else { continue };
                 say(format_args!(
                     "| {nodes} | {} | {:.3} | {:.1} | {:.3} |",

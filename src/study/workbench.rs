@@ -44,9 +44,8 @@ impl Workbench {
     pub fn costs(&self, atom_pixels: u32, whole: Duration) -> Costs {
         let all: u64 = self.rays.iter().map(|&rays| u64::from(rays)).sum();
         let a_ray = whole.as_secs_f64() / all as f64;
-        let atom = |grains: &[u32]| {
-            Duration::from_secs_f64(a_ray * grains.iter().map(|&rays| f64::from(rays)).sum::<f64>())
-        };
+        let atom =
+            |grains: &[u32]| Duration::from_secs_f64(a_ray * grains.iter().map(|&rays| f64::from(rays)).sum::<f64>());
         self.rays.chunks((atom_pixels / GRAIN).max(1) as usize).map(atom).collect()
     }
 

@@ -41,7 +41,8 @@ impl Session {
     pub fn reload(&mut self) {
         self.notice = None;
         if !self.is_recorded()
-            && let Some(path) = self.opened().and_then(|opened| opened.path.clone()) {
+            && let Some(path) = self.opened().and_then(|opened| opened.path.clone())
+        {
             self.open(&path.to_string_lossy());
         }
     }

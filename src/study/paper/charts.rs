@@ -65,7 +65,8 @@ fn sizes(rows: &[Row], figure: &str) -> Chart {
     for strategy in [Strategy::Ring, Strategy::Farm] {
         for slow in [false, true] {
             for network in ["none", "modelled"] {
-                let of = select(rows, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
+                let of = select(rows, figure, network, "sim")
+                    .filter(|row| row.slow == slow && row.strategy == strategy.name());
                 let size = |row: &Row| if figure == "atom" { row.atom } else { row.atom * row.part };
                 let points: Vec<_> = of.map(|row| (f64::from(size(row)), row.over_ideal)).collect();
                 if points.is_empty() {
@@ -99,7 +100,8 @@ fn packets(rows: &[Row]) -> Chart {
     let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
     let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
     let ours = |network| {
-        let of = select(rows, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
+        let of =
+            select(rows, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
         of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect()
     };
     let line = |i, name: &str, points, style| Series { name: name.into(), hue: series_hue(i), points, style };

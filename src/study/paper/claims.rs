@@ -40,8 +40,10 @@ struct Rows<'a>(&'a [Row]);
 impl<'a> Rows<'a> {
     fn get(&self, driver: &str, network: &str, strategy: Strategy, nodes: usize) -> Option<&'a Row> {
         let figure = if nodes == 5 { "7" } else { "6" };
-        let found = select(self.0, figure, network, driver);
-        found.into_iter().find(|row| row.strategy == strategy.name() && row.nodes == nodes)
+        self.0.iter().find(|row| {
+            (row.figure, row.driver, row.network, row.strategy, row.nodes)
+                == (figure, driver, network, strategy.name(), nodes)
+        })
     }
 
     fn number(&self, key: (&str, &str, Strategy, usize), value: impl Fn(&Row) -> f64) -> f64 {
@@ -99,7 +101,8 @@ fn finish_together(rows: &Rows<'_>) -> Claim {
     let spread = |driver, strategy, nodes| {
         rows.number((driver, "none", strategy, nodes), |row| 100.0 * row.finish_spread_s / row.makespan_s)
     };
-    let ring = [spread("threads", Strategy::Ring, 4), spread("sim", Strategy::Ring, 4), spread("threads", Strategy::Ring, 5)];
+    let ring =
+        [spread("threads", Strategy::Ring, 4), spread("sim", Strategy::Ring, 4), spread("threads", Strategy::Ring, 5)];
     let others = [Strategy::Static, Strategy::Farm].map(|strategy| spread("threads", strategy, 4));
     Claim {
         place: "§7, §11",
@@ -118,7 +121,8 @@ const GOOD: f64 = 1.05;
 
 fn easier_to_size(rows: &Rows<'_>) -> Claim {
     let range = |figure, strategy: Strategy, network, slow| {
-        let of = || select(rows.0, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
+        let of =
+            || select(rows.0, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
         let best = of().map(|row| row.over_ideal).fold(f64::INFINITY, f64::min);
         let size = |row: &Row| f64::from(if figure == "atom" { row.atom } else { row.atom * row.part });
         let good = || of().filter(move |row| row.over_ideal <= GOOD * best).map(size);
@@ -154,7 +158,11 @@ fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
         100.0 * (1.0 - time(5) / time(4))
     };
     let best = 100.0 * (1.0 - 4.0 / (4.0 + slow_speed()));
-    let ring = [gain("threads", "none", Strategy::Ring), gain("sim", "none", Strategy::Ring), gain("sim", "modelled", Strategy::Ring)];
+    let ring = [
+        gain("threads", "none", Strategy::Ring),
+        gain("sim", "none", Strategy::Ring),
+        gain("sim", "modelled", Strategy::Ring),
+    ];
     let others = [Strategy::Farm, Strategy::Static].map(|strategy| gain("sim", "none", strategy));
     Claim {
         place: "§7, §9",
@@ -176,7 +184,8 @@ fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
 
 fn small_packets(rows: &Rows<'_>) -> Claim {
     let points = |network| {
-        let of = select(rows.0, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
+        let of = select(rows.0, "part", network, "sim")
+            .filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
         of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect::<Vec<_>>()
     };
     let ends = |points: &[(f64, f64)]| {

@@ -124,7 +124,9 @@ impl<'a> Measuring<'a> {
                     let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
                     self.simulate_as_it_is(About { figure: "atom", modelled }, header, &costs);
                 }
-                for (part, strategy) in PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)]) {
+                for (part, strategy) in
+                    PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)])
+                {
                     let mut header = self.bench.header(ATOM, strategy, speeds.clone());
                     header.rules.part = part;
                     self.simulate_as_it_is(About { figure: "part", modelled }, header, &self.costs.clone());

@@ -81,7 +81,8 @@ fn figures(text: &mut String, rows: &[Row]) {
         for (nodes, label) in [(2, "2"), (3, "3"), (4, "4"), (5, "4 and a slow one")] {
             let figure = if nodes == 5 { "7" } else { "6" };
             let cell = |strategy: &str, driver: &str, article: Option<f64>| {
-                let row = select(rows, figure, network, driver).find(|row| row.nodes == nodes && row.strategy == strategy);
+                let row =
+                    select(rows, figure, network, driver).find(|row| row.nodes == nodes && row.strategy == strategy);
                 let ours = row.map_or("–".into(), |row| format!("{:.3}", row.over_ideal));
                 article.map_or(ours.clone(), |article| format!("{ours} ({article:.3})"))
             };
@@ -123,7 +124,9 @@ fn places(text: &mut String, rows: &[Row]) {
         // At the last place it is that of Figure 7.
         let figures = ["place", "7"].into_iter();
         let mut found = figures.flat_map(|figure| select(rows, figure, network, driver).collect::<Vec<_>>());
-        found.find(|row| row.place == Some(place) && row.strategy == Strategy::Ring.name()).map_or(f64::NAN, |row| row.over_ideal)
+        found
+            .find(|row| row.place == Some(place) && row.strategy == Strategy::Ring.name())
+            .map_or(f64::NAN, |row| row.over_ideal)
     };
     for place in 1..=5 {
         say!(
@@ -145,7 +148,11 @@ fn places(text: &mut String, rows: &[Row]) {
 
 fn choking(text: &mut String, handling: &[(f64, [f64; 4])]) {
     say!(text, "\n## When is a farm worse?\n");
-    say!(text, "| ms a message | farm, parts of {} atom | farm, 16 parts a machine | ring | static |\n|---:|---:|---:|---:|---:|", Network::PART);
+    say!(
+        text,
+        "| ms a message | farm, parts of {} atom | farm, 16 parts a machine | ring | static |\n|---:|---:|---:|---:|---:|",
+        Network::PART
+    );
     for (ms, [small, usual, ring, bands]) in handling {
         say!(text, "| {ms} | {small:.3} | {usual:.3} | {ring:.3} | {bands:.3} |");
     }
