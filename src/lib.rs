@@ -6,7 +6,7 @@
 // Floor 0: words that everything else is made of.
 pub mod geometry; // rays, boxes, rotations in degrees
 pub mod output; // files that are either whole or not there
-pub mod palette; // the nodes' colours
+pub mod palette; // the nodes' colours, and what is not coloured
 pub mod time; // nanoseconds since the run began
 
 // Floor 1: what is shared out.
@@ -33,7 +33,7 @@ pub mod driver; // executes the protocol on threads, as emulated machines on lin
 pub mod view; // pure functions from records to what is drawn; no egui
 
 // Floor 7: what leaves the program.
-pub mod export; // scenes for POV-Ray
+pub mod export; // scenes for POV-Ray, drawings as SVG
 
 // Floor 8: what many runs say.
 pub mod study; // the article's figures and claims, scaling: CSV, charts, reports

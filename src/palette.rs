@@ -1,4 +1,4 @@
-//! The nodes' colours.
+//! The nodes' colours, and what is not coloured on a light ground.
 //!
 //! Eight hues after Okabe and Ito, with two changes: their black is lost on a dark ground and their yellow on a
 //! light one, so a wine red (after Tol) and a deeper yellow stand in. They are ordered so that neighbours on the
@@ -7,6 +7,37 @@
 
 /// 8-bit sRGB.
 pub type Rgb = [u8; 3];
+
+/// So many nodes have colours of their own.
+pub const DISTINCT: usize = 32;
+
+/// Nodes, in a ring of [`DISTINCT`], whose colours can be told apart wherever they meet in a chart, on a light ground
+/// and on a dark one, for people with any common kind of colour blindness.
+pub const CHART: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
+
+/// What has no colour of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Neutral {
+    /// What everything lies on.
+    pub ground: Rgb,
+    /// Lines that order.
+    pub hairline: Rgb,
+    /// Text.
+    pub text: Rgb,
+    /// Text that explains.
+    pub quiet: Rgb,
+}
+
+/// On a light screen.
+pub const LIGHT: Neutral = Neutral {
+    ground: [0xfa, 0xfb, 0xfc],
+    hairline: [0xd5, 0xda, 0xe1],
+    text: [0x16, 0x1b, 0x22],
+    quiet: [0x5b, 0x66, 0x75],
+};
+
+/// On white paper.
+pub const PRINT: Neutral = Neutral { ground: [0xff; 3], ..LIGHT };
 
 /// The colour of node `node` (from 0) in a ring of `nodes`.
 pub fn node_colour(node: usize, nodes: usize) -> Rgb {
@@ -27,6 +58,13 @@ pub fn text_on(ground: Rgb) -> Rgb {
     const BLACK: Rgb = [0x10, 0x12, 0x16];
     const WHITE: Rgb = [0xff; 3];
     if contrast(ground, WHITE) >= 3.4 { WHITE } else { BLACK }
+}
+
+/// The colour, only so much darker or lighter that text in it can be read on `ground`.
+pub fn readable(colour: Rgb, ground: Rgb) -> Rgb {
+    let ink = text_on(ground);
+    let mut towards = (0..20).map(|i| mix(colour, ink, i as f32 / 20.0));
+    towards.find(|&mixed| contrast(mixed, ground) >= 4.5).unwrap_or(ink)
 }
 
 /// The contrast of two colours, from 1 (none) to 21 (WCAG 2).
@@ -129,8 +167,31 @@ mod tests {
     }
 
     #[test]
-    fn up_to_32_nodes_have_colours_of_their_own() {
-        for nodes in 1..=32 {
+    fn lines_in_a_chart_are_told_apart() {
+        let colours = CHART.map(|node| node_colour(usize::from(node), DISTINCT));
+        for (i, &one) in colours.iter().enumerate() {
+            let seen = [contrast(one, PRINT.ground), contrast(one, [0x11, 0x14, 0x19])];
+            assert!(seen.into_iter().all(|contrast| contrast >= 2.2), "{one:?} {seen:?}");
+            for &other in &colours[..i] {
+                assert!(distance(one, other) >= 0.08, "{one:?} {other:?} {}", distance(one, other));
+            }
+        }
+    }
+
+    #[test]
+    fn names_can_be_read_in_every_colour() {
+        for colour in COLOURS.into_iter().flatten() {
+            for ground in [PRINT.ground, LIGHT.ground, [0x11, 0x14, 0x19]] {
+                let found = readable(colour, ground);
+                assert!(contrast(found, ground) >= 4.5, "{colour:?} on {ground:?}: {found:?}");
+                assert!(contrast(colour, ground) < 4.5 || found == colour, "{colour:?} needs no change");
+            }
+        }
+    }
+
+    #[test]
+    fn so_many_nodes_have_colours_of_their_own() {
+        for nodes in 1..=DISTINCT {
             let mut colours: Vec<_> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
             colours.sort_unstable();
             colours.dedup();

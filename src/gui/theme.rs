@@ -6,7 +6,7 @@ use egui::epaint::text::{FontTweak, VariationCoords};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
 
-use crate::palette::Rgb;
+use crate::palette::{self, Rgb};
 
 /// The grid on which everything lies, in points.
 pub const GRID: f32 = 8.0;
@@ -51,11 +51,11 @@ const DARK: Look = Look {
 };
 
 const LIGHT: Look = Look {
-    ground: Color32::from_rgb(0xfa, 0xfb, 0xfc),
+    ground: colour(palette::LIGHT.ground),
     raised: Color32::from_rgb(0xec, 0xef, 0xf3),
-    hairline: Color32::from_rgb(0xd5, 0xda, 0xe1),
-    text: Color32::from_rgb(0x16, 0x1b, 0x22),
-    quiet: Color32::from_rgb(0x5b, 0x66, 0x75),
+    hairline: colour(palette::LIGHT.hairline),
+    text: colour(palette::LIGHT.text),
+    quiet: colour(palette::LIGHT.quiet),
     accent: Color32::from_rgb(0x5a, 0x46, 0xd6),
     on_accent: Color32::WHITE,
     trouble: Color32::from_rgb(0xb4, 0x23, 0x18),
@@ -108,7 +108,7 @@ pub fn strong(size: f32) -> FontId {
 }
 
 /// A palette colour as egui takes it.
-pub fn colour([r, g, b]: Rgb) -> Color32 {
+pub const fn colour([r, g, b]: Rgb) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 

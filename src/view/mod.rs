@@ -3,7 +3,9 @@
 //! [`RunState`] is a fold over records; everything else looks at it at some time of the run's own clock, so a live
 //! run and a loaded one are shown by the same code, forwards and backwards.
 
+mod bars;
 mod canvas;
+mod chart;
 mod display;
 mod events;
 mod flight;
@@ -20,15 +22,20 @@ mod rate;
 mod ring;
 #[cfg(test)]
 mod sample;
+mod scale;
 mod seen;
 mod sentences;
+mod sheet;
 mod standing;
 mod state;
+mod stroke;
 mod tones;
 mod traffic;
 mod words;
 
+pub use bars::Bars;
 pub use canvas::Canvas;
+pub use chart::{CHART_SIZE, Chart, Series, Style, series_hue};
 pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use flight::{Cargo, Flight};
 pub use hover::{atom_words, flight_words, node_words, parent_words};
@@ -38,6 +45,7 @@ pub use nodes::{Row, Share, rows, shares};
 pub use outcome::{Outcome, figures, parts_words, result_words};
 pub use place::Place;
 pub use ring::{Overlay, Spot, parcel_at, ring, ring_at};
+pub use scale::{Axis, Scale};
 pub use state::{Arrived, RunState};
 pub use tones::picture_pixels;
 pub use words::{activity_word, count, duration, fraction, node_name, percent, rate_words};
