@@ -16,6 +16,7 @@ fn main() {
     run(Strategy::Ring, 8, 640, 10);
 }
 
+#[expect(clippy::disallowed_methods, reason = "a benchmark")]
 fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
     let size = Size::new(width, height).expect("a size");
     let plain = Header::plain(size, 1, strategy, vec![1.0; nodes]);

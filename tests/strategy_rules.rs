@@ -177,9 +177,9 @@ fn an_estimate_helps_where_costs_are_uneven_and_counts_itself() {
     let at = |what: fn(&What) -> bool| estimated.records().iter().find(|record| what(&record.what)).unwrap().at;
     let begun = at(|what| *what == What::Estimating);
     let bands = at(|what| matches!(what, What::Sent { message: Message::Band(_), .. }));
-    // Every 199th pixel of 7 s of work.
-    let took = bands.since(begun).as_secs_f64();
-    assert!((took - 7.0 / 199.0).abs() < 0.01, "{took}");
+    let sampled = estimate::samples(estimated.header.division).flatten();
+    let costs: f64 = sampled.map(|pixel| if pixel < 1000 { 0.004 } else { 0.001 }).sum();
+    assert!((bands.since(begun).as_secs_f64() - costs).abs() < 1e-6);
     assert!(Tally::of(&estimated).ideal().unwrap().as_secs_f64() < 1.751, "it is not counted as work");
 }
 

@@ -21,8 +21,9 @@ pub(super) const SIZE: (u32, u32) = (1024, 768);
 /// Atoms a node in the weak picture, which grows with the nodes.
 pub(super) const ATOMS_A_NODE: u32 = 1024;
 
-/// In milliseconds.
-pub(super) const LATENCIES: [f64; 3] = [0.1, 1.0, 10.0];
+/// What a message takes to travel, and how long the parent is busy with it, in milliseconds. Without the latter, the parent
+/// of a farm could answer any number of machines at once.
+pub(super) const NETWORKS: [(f64, f64); 4] = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (1.0, 0.1)];
 
 /// What is compared.
 pub(super) const STRATEGIES: [Strategy; 5] =
@@ -35,6 +36,8 @@ const ATOM: u32 = 50;
 pub(super) struct Row {
     pub nodes: usize,
     pub latency_s: f64,
+    /// How long the parent is busy with each message.
+    pub handling_s: f64,
     pub weak: bool,
     pub strategy: &'static str,
     pub atoms: u32,
@@ -72,11 +75,11 @@ pub(super) fn measure(scene: &Opened, tell: Tell<'_>) -> Result<Vec<Row>, String
             let kind = if weak { "the picture grown with them" } else { "the same picture" };
             progress.next(&format!("{nodes} machines, {kind}"));
             let (costs, size) = if weak { resample(&strong, nodes)? } else { (strong.clone(), size) };
-            for latency in LATENCIES {
+            for network in NETWORKS {
                 for strategy in STRATEGIES {
                     let plain = bench.header(ATOM, strategy, vec![1.0; nodes]);
                     let plain = Header { size, division: Division::new(size.pixels(), ATOM), ..plain };
-                    rows.push(row(plain, latency, weak, &costs));
+                    rows.push(row(plain, network, weak, &costs));
                 }
             }
         }
@@ -95,9 +98,9 @@ fn resample(costs: &Costs, nodes: usize) -> Result<(Costs, Size), String> {
     Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32)?))
 }
 
-fn row(plain: Header, latency_ms: f64, weak: bool, costs: &Costs) -> Row {
-    let latency = Duration::from_secs_f64(latency_ms * 1e-3);
-    let mut header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, ..plain };
+fn row(plain: Header, network: (f64, f64), weak: bool, costs: &Costs) -> Row {
+    let (latency, handling) = (Duration::from_secs_f64(network.0 * 1e-3), Duration::from_secs_f64(network.1 * 1e-3));
+    let mut header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, handling, ..plain };
     let nodes = header.speeds.len();
     header.rules.part = header.rules.strategy.usual_part(header.division, nodes);
     let tally = simulate(&header, &[], costs);
@@ -107,6 +110,7 @@ fn row(plain: Header, latency_ms: f64, weak: bool, costs: &Costs) -> Row {
     Row {
         nodes,
         latency_s: latency.as_secs_f64(),
+        handling_s: handling.as_secs_f64(),
         weak,
         strategy: header.rules.strategy.name(),
         atoms,

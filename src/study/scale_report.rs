@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::scale::{ATOM_COST, ATOMS_A_NODE, LATENCIES, Row, SIZE, STRATEGIES, measure, node_counts};
+use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, Row, SIZE, STRATEGIES, measure, node_counts};
 use super::{Study, Tell};
 use crate::balance::Strategy;
 use crate::scene::Opened;
@@ -19,9 +19,9 @@ pub fn scale(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
     study.add_rows(&rows)?;
     for weak in [false, true] {
         let kind = if weak { "weak" } else { "strong" };
-        for latency in LATENCIES {
-            let chart = efficiency(&rows, weak, latency);
-            study.add_chart(&format!("{kind}-{latency}ms"), &chart.marks(CHART_SIZE));
+        for network in NETWORKS {
+            let chart = efficiency(&rows, weak, network);
+            study.add_chart(&format!("{kind}-{}", file_name(network)), &chart.marks(CHART_SIZE));
         }
         study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE));
     }
@@ -34,10 +34,24 @@ fn nodes_axis() -> Axis {
     Axis { label: "machines".into(), scale: Scale::Log2, range: None }
 }
 
-fn of<'a>(rows: &'a [Row], weak: bool, latency_ms: f64, strategy: Strategy) -> impl Iterator<Item = &'a Row> + Clone {
-    let latency = latency_ms * 1e-3;
+/// A network in a file's name.
+fn file_name((latency, handling): (f64, f64)) -> String {
+    if handling > 0.0 { format!("{latency}ms-busy-parent") } else { format!("{latency}ms") }
+}
+
+/// A network in words.
+fn words((latency, handling): (f64, f64)) -> String {
+    let busy = if handling > 0.0 { format!(", the parent busy for {handling} ms with each") } else { String::new() };
+    format!("{latency} ms a message{busy}")
+}
+
+fn of(rows: &[Row], weak: bool, network: (f64, f64), strategy: Strategy) -> impl Iterator<Item = &Row> + Clone {
+    let is = |seconds: f64, ms: f64| (seconds - ms * 1e-3).abs() < 1e-9;
     rows.iter().filter(move |row| {
-        row.weak == weak && row.strategy == strategy.name() && (row.latency_s - latency).abs() < 1e-9
+        row.weak == weak
+            && row.strategy == strategy.name()
+            && is(row.latency_s, network.0)
+            && is(row.handling_s, network.1)
     })
 }
 
@@ -45,26 +59,23 @@ fn points<'a>(rows: impl Iterator<Item = &'a Row>, value: impl Fn(&Row) -> f64) 
     rows.map(|row| (row.nodes as f64, value(row))).collect()
 }
 
-fn efficiency(rows: &[Row], weak: bool, latency: f64) -> Chart {
+fn efficiency(rows: &[Row], weak: bool, network: (f64, f64)) -> Chart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, latency, strategy), |row| row.efficiency),
+        points: points(of(rows, weak, network, strategy), |row| row.efficiency),
         style: Style::Line,
     };
     let mut series: Vec<Series> = STRATEGIES.into_iter().enumerate().map(line).collect();
     series.push(Series {
         name: "W/m + 3.65 log₂W".into(),
         hue: series_hue(STRATEGIES.len()),
-        points: points(of(rows, weak, latency, Strategy::Ring), |row| row.bound_efficiency),
+        points: points(of(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
         style: Style::Dashed,
     });
     Chart {
-        title: format!(
-            "{}, {latency} ms a message",
-            if weak { "A picture that grows with the machines" } else { "The same picture" }
-        ),
-        note: "Dashed: the bound of work stealing that costs nothing (Tchiboukdjian and others 2010)".into(),
+        title: if weak { "A picture that grows with the machines" } else { "The same picture" }.into(),
+        note: format!("{}; dashed: work stealing whose messages cost nothing", words(network)),
         x: nodes_axis(),
         y: Axis {
             label: "efficiency: ideal time over real time".into(),
@@ -79,12 +90,12 @@ fn messages(rows: &[Row], weak: bool) -> Chart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, LATENCIES[1], strategy), |row| row.messages_per_node),
+        points: points(of(rows, weak, NETWORKS[1], strategy), |row| row.messages_per_node),
         style: Style::Line,
     };
     Chart {
         title: format!("Messages a machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
-        note: format!("{} ms a message", LATENCIES[1]),
+        note: words(NETWORKS[1]),
         x: nodes_axis(),
         y: Axis { label: "messages a machine".into(), scale: Scale::Log10, range: None },
         series: STRATEGIES.into_iter().enumerate().map(line).collect(),
@@ -93,13 +104,14 @@ fn messages(rows: &[Row], weak: bool) -> Chart {
 
 /// How the ring decays: the one chart that later work has to beat.
 fn decay(rows: &[Row]) -> Chart {
-    let line = |(i, (weak, latency)): (usize, (bool, f64))| Series {
-        name: format!("{} {latency} ms", if weak { "grown," } else { "same," }),
+    let line = |(i, (weak, network)): (usize, (bool, (f64, f64)))| Series {
+        name: format!("{} {} ms", if weak { "grown," } else { "same," }, network.0),
         hue: series_hue(i),
-        points: points(of(rows, weak, latency, Strategy::Ring), |row| row.efficiency),
+        points: points(of(rows, weak, network, Strategy::Ring), |row| row.efficiency),
         style: if weak { Style::Dashed } else { Style::Line },
     };
-    let kinds = [false, true].into_iter().flat_map(|weak| LATENCIES.map(|latency| (weak, latency)));
+    let free = NETWORKS.into_iter().filter(|(_, handling)| *handling == 0.0);
+    let kinds = [false, true].into_iter().flat_map(|weak| free.clone().map(move |network| (weak, network)));
     Chart {
         title: "How the ring decays".into(),
         note: "Dashed: the picture grows with the machines".into(),
@@ -125,14 +137,14 @@ fn report(rows: &[Row], scene: &str) -> String {
         SIZE.1
     ));
     for weak in [false, true] {
-        for latency in LATENCIES {
+        for network in NETWORKS {
             let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
-            say(format_args!("## {kind}, {latency} ms a message\n"));
+            say(format_args!("## {kind}, {}\n", words(network)));
             let names = STRATEGIES.map(Strategy::name).join(" | ");
             say(format_args!("| machines | {names} | bound | ring: messages a machine | idle at the end |"));
             say(format_args!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {
-                let at = |strategy| of(rows, weak, latency, strategy).find(|row| row.nodes == nodes);
+                let at = |strategy| of(rows, weak, network, strategy).find(|row| row.nodes == nodes);
                 let cells = STRATEGIES
                     .map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
                 let Some(ring) = at(Strategy::Ring) else { continue };
@@ -144,7 +156,8 @@ fn report(rows: &[Row], scene: &str) -> String {
                     ring.tail_idle
                 ));
             }
-            say(format_args!("\n![](scale-{}-{latency}ms.svg)\n", if weak { "weak" } else { "strong" }));
+            let chart = file_name(network);
+            say(format_args!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
         }
     }
     say(format_args!("## Why the ring decays\n"));
@@ -155,10 +168,10 @@ fn report(rows: &[Row], scene: &str) -> String {
 
 /// The paragraph on the ring's decay, with the figures that bear it out.
 fn why(rows: &[Row]) -> String {
-    let ring = |weak, latency, nodes| of(rows, weak, latency, Strategy::Ring).find(|row| row.nodes == nodes);
+    let ring = |weak, network, nodes| of(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
     let most = node_counts().max().unwrap_or(1);
     let (Some(few), Some(many), Some(slow)) =
-        (ring(true, LATENCIES[0], 16), ring(true, LATENCIES[0], most), ring(true, LATENCIES[2], most))
+        (ring(true, NETWORKS[0], 16), ring(true, NETWORKS[0], most), ring(true, NETWORKS[2], most))
     else {
         return String::new();
     };
@@ -176,15 +189,15 @@ fn why(rows: &[Row]) -> String {
         parcel(few),
         parcel(many),
         many.transfers as f64 / many.nodes as f64,
-        most as f64 * LATENCIES[0] * 1e-3,
-        LATENCIES[0],
-        most as f64 * LATENCIES[2] * 1e-3,
-        LATENCIES[2],
+        most as f64 * NETWORKS[0].0 * 1e-3,
+        NETWORKS[0].0,
+        most as f64 * NETWORKS[2].0 * 1e-3,
+        NETWORKS[2].0,
         many.makespan_s * many.efficiency,
         many.efficiency,
-        LATENCIES[0],
+        NETWORKS[0].0,
         slow.efficiency,
-        LATENCIES[2],
+        NETWORKS[2].0,
         100.0 * many.tail_idle,
         100.0 * slow.tail_idle,
     )

@@ -170,16 +170,21 @@ fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
         verdict: if ring.iter().all(|&gain| gain > 0.0) { YES } else { DEPENDS },
         why: format!(
             "A fifth machine of {:.1} % makes the ring {:.2} % faster on threads, {:.2} % in virtual time, {:.2} % on the modelled \
-             network; {best:.2} % is possible. A farm of 16 parts a machine becomes {:.1} % faster (less than 0: slower, since the \
-             slow machine holds the last part), static bands {:.0} %. The article: 4.3 % for the ring.",
+             network; {best:.2} % is possible. A farm of 16 parts a machine becomes {} (the slow machine may hold the last part), \
+             static bands {}. The article: 4.3 % for the ring.",
             100.0 * slow_speed(),
             ring[0],
             ring[1],
             ring[2],
-            others[0],
-            others[1]
+            speedup(others[0]),
+            speedup(others[1])
         ),
     }
+}
+
+/// A gain in per cent, in words.
+fn speedup(gain: f64) -> String {
+    format!("{:.1} % {}", gain.abs(), if gain < 0.0 { "slower" } else { "faster" })
 }
 
 fn small_packets(rows: &Rows<'_>) -> Claim {
