@@ -230,7 +230,7 @@ impl RunState {
 
     /// Results are many, and requests and parts may be: of each node only as many are drawn as can be told apart.
     fn is_drawn(&mut self, flight: &Flight) -> bool {
-        let between = [90, 250, 250].map(Duration::from_millis);
+        let between = [90, 300, 450].map(Duration::from_millis);
         let known = |party: Party| match party {
             Party::Parent => true,
             Party::Node(node) => usize::from(node) < self.nodes.len(),
