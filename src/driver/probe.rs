@@ -17,6 +17,8 @@ pub struct Probe {
     pub atoms: Vec<(Atom, Duration)>,
     /// The estimated CPU time of the whole picture.
     pub whole: Duration,
+    /// The estimated rays of the whole picture, of all kinds: what it takes in virtual time.
+    pub rays: u64,
 }
 
 /// Traces atoms spread evenly over the picture, on this thread, until `budget` of CPU time is used up or every atom
@@ -40,8 +42,9 @@ pub fn probe(tracer: &Tracer, division: Division, budget: Duration) -> Probe {
         atoms.push((atom, cost));
     }
     let all = division.pixels_in(&(0..division.atoms()));
-    let whole = if traced == 0 { Duration::ZERO } else { used.mul_f64(f64::from(all) / traced as f64) };
-    Probe { atoms, whole }
+    let scale = if traced == 0 { 0.0 } else { f64::from(all) / traced as f64 };
+    let rays = (scratch.rays.total() as f64 * scale).round() as u64;
+    Probe { atoms, whole: used.mul_f64(scale), rays }
 }
 
 impl Probe {
@@ -108,6 +111,9 @@ mod tests {
         assert_eq!(found.atoms.len(), 24);
         let sum: Duration = found.atoms.iter().map(|(_, cost)| *cost).sum();
         assert!(sum > Duration::ZERO && found.whole.abs_diff(sum) < Duration::from_nanos(100));
+        let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
+        tracer(size).trace(0..size.pixels(), &mut scratch, &mut pixels);
+        assert_eq!(found.rays, scratch.rays.total());
     }
 
     #[test]
@@ -117,7 +123,7 @@ mod tests {
         let found = probe(&tracer, division, Duration::MAX);
         let rested = found.whole_with_rests(&tracer, division);
         assert!(rested >= found.whole && rested <= 4 * found.whole);
-        let none = Probe { atoms: Vec::new(), whole: found.whole };
+        let none = Probe { atoms: Vec::new(), ..found.clone() };
         assert_eq!(none.whole_with_rests(&tracer, division), found.whole);
     }
 
@@ -125,6 +131,6 @@ mod tests {
     fn the_budget_cuts_a_large_atom_short() {
         let size = Size::new(400, 300).unwrap();
         let found = probe(&tracer(size), Division::new(size.pixels(), u32::MAX), Duration::ZERO);
-        assert!(found.atoms.is_empty() && found.whole > Duration::ZERO);
+        assert!(found.atoms.is_empty() && found.whole > Duration::ZERO && found.rays > 0);
     }
 }

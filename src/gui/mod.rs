@@ -13,12 +13,14 @@ mod opening;
 mod paint;
 mod picture_panel;
 mod places;
+mod preset;
 mod ring_panel;
 mod row_places;
 mod save_bar;
 mod session;
 mod settings;
 mod setup_panel;
+mod tempo;
 mod theme;
 mod top_bar;
 mod widgets;
@@ -32,8 +34,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 pub use app::App;
 pub use opening::Opening;
+pub use preset::Preset;
 pub use session::{Phase, Session, Stage};
-pub use settings::{Preset, Settings, Tempo};
+pub use settings::Settings;
+pub use tempo::Tempo;
 
 /// What the window opens with.
 #[derive(Clone, Debug, Default)]

@@ -99,7 +99,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     number(Some(places.left), count(row.left), some(row.left > 0));
     number(places.rate, a_second(row.rate), some(row.rate > 0.0));
     number(places.idle, format!("{:.0} %", row.idle * 100.0), look.text);
-    let calm = matches!(row.activity, Activity::Idle | Activity::Retired | Activity::Waiting | Activity::Done);
+    let calm = row.activity.is_retired() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
     let now = pos2(places.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {

@@ -1,7 +1,5 @@
 //! The ring.
 
-use std::time::Duration;
-
 use egui::{Painter, Rect, RichText, Sense, Ui};
 
 use super::paint::{Inks, paint};
@@ -10,8 +8,8 @@ use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::balance::NodeId;
 use crate::view::{
-    Overlay, Point, Spot, activity_word, duration, flight_words, node_name, node_words, parcel_at, parent_words, ring,
-    ring_at,
+    Overlay, Point, Spot, activity_word, flight_words, node_name, node_words, parcel_at, parent_words, ring, ring_at,
+    small_print,
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
@@ -50,7 +48,7 @@ pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
         response.on_hover_ui_at_pointer(|ui| more_words(ui, &title, &lines, look));
     }
     if state.finished().is_none() {
-        corner(&painter, rect, state.latency(), look);
+        corner(&painter, rect, small_print(state), look);
     }
 }
 
@@ -68,17 +66,15 @@ fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: 
 }
 
 /// What there is to know of the drawing itself, in its lower right corner.
-fn corner(painter: &Painter, rect: Rect, latency: Duration, look: Look) {
-    let lines = [
-        "some atoms take longer than others".to_owned(),
-        format!("an offer takes {} a hop", duration(latency)),
-        "parcels are drawn slower than they travel".to_owned(),
-    ];
-    let galleys = lines.map(|line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet));
+fn corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
+    let galley = |line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet);
+    let galleys: Vec<_> = lines.into_iter().map(galley).collect();
     // Where the corner is narrow the second line would run into the lowest node's label.
     let room = rect.width() / 2.0 - 64.0;
+    // And where it is low, a third line into the label above that.
+    let most = if rect.height() < 360.0 { 2 } else { usize::MAX };
     let mut corner = rect.right_bottom();
-    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev() {
+    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(most) {
         corner.y -= galley.size().y;
         painter.galley(corner - egui::vec2(galley.size().x, 0.0), galley, look.quiet);
     }

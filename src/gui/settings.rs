@@ -4,10 +4,13 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::preset::Preset;
+use super::tempo::Tempo;
 use crate::balance::{Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, Link};
+use crate::view::Sharing;
 
 /// What the user has set. Speeds and latency act at once, everything else when a run starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,9 +22,11 @@ pub struct Settings {
     pub samples: u32,
     /// Pixels in an atom.
     pub atom: u32,
-    /// How the atoms are shared.
+    /// Who executes the run: in real time, in virtual time, or rayon by its own rules.
+    pub driver: Driver,
+    /// How the atoms are shared, unless rayon shares them.
     pub strategy: Strategy,
-    /// An offer is worth taking if it moves at least this many atoms.
+    /// In a ring, an offer is worth taking if it moves at least this many atoms. In a farm, the atoms of a part.
     pub part: u32,
     /// How fast the reference machine is emulated.
     pub tempo: Tempo,
@@ -31,42 +36,13 @@ pub struct Settings {
     pub seed: u32,
     /// How long a message travels, in milliseconds, at most [`Settings::MOST_LATENCY`].
     pub latency: u32,
+    /// How long the parent is busy with each message, in milliseconds, at most [`Settings::MOST_HANDLING`].
+    pub handling: u32,
+    /// What a link carries, in kB a second, at most [`Settings::MOST_BANDWIDTH`]; 0 is unlimited.
+    pub bandwidth: u32,
+    /// Whether all share one wire; else each pair has one of its own.
+    pub shared_wire: bool,
 }
-
-/// How fast the reference machine is emulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Tempo {
-    /// So that the run takes about this many seconds.
-    Lasts(u32),
-    /// As fast as this computer can: a machine at full speed never waits.
-    Full,
-}
-
-/// Speeds for all machines at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Preset {
-    /// All as fast as the reference machine.
-    Equal,
-    /// The last one at a tenth.
-    OneSlow,
-    /// Anything from a tenth to full speed, by the seed.
-    Random,
-    /// What stood in a laboratory of about 1997.
-    Laboratory,
-}
-
-/// The machines of such a laboratory, by how fast they were. The first and the last are the article's (§9, Figures 6
-/// and 7: 580 s and 6,099 s for the same picture); those between are guessed from their clocks.
-const LABORATORY: [(&str, f64); 8] = [
-    ("Pentium 75", 1.0),
-    ("486 DX4 100", 0.62),
-    ("Pentium 75", 1.0),
-    ("486 DX2 66", 0.41),
-    ("HP 9000/710, busy as a file server", 580.0 / 6099.0),
-    ("Pentium 60", 0.8),
-    ("486 DX 33", 0.21),
-    ("Pentium 75", 1.0),
-];
 
 impl Settings {
     /// What the window can draw and tell apart.
@@ -75,6 +51,10 @@ impl Settings {
     pub const MOST_SAMPLES: u32 = 8;
     /// In milliseconds.
     pub const MOST_LATENCY: u32 = 2000;
+    /// In milliseconds.
+    pub const MOST_HANDLING: u32 = 1000;
+    /// In kB a second: a gigabit, beside which no limit is the same.
+    pub const MOST_BANDWIDTH: u32 = 125_000;
     /// Of a side of the picture, in pixels.
     pub const LONGEST_SIDE: u32 = 4096;
     /// Of a run in the window, which keeps every record.
@@ -102,6 +82,8 @@ impl Settings {
         within("An atom's pixels", self.atom, 1, self.size.pixels())?;
         within("A part", self.part, 1, Self::MOST_ATOMS)?;
         within("The latency", self.latency, 0, Self::MOST_LATENCY)?;
+        within("The parent's time for a message", self.handling, 0, Self::MOST_HANDLING)?;
+        within("A link's kB a second", self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
         if let Tempo::Lasts(seconds) = self.tempo {
             within("A run's seconds", seconds, 1, Self::LONGEST_RUN)?;
         }
@@ -138,29 +120,35 @@ impl Settings {
 
     /// Gives every machine a speed.
     pub fn set_preset(&mut self, preset: Preset) {
-        self.speeds = self.preset(preset);
+        self.speeds = preset.speeds(self.speeds.len(), self.seed);
     }
 
     /// Whether the machines have these speeds.
     pub fn has_preset(&self, preset: Preset) -> bool {
-        self.speeds == self.preset(preset)
+        self.speeds == preset.speeds(self.speeds.len(), self.seed)
     }
 
-    fn preset(&self, preset: Preset) -> Vec<f64> {
-        let nodes = self.speeds.len();
-        match preset {
-            Preset::Equal => vec![1.0; nodes],
-            Preset::OneSlow => (0..nodes).map(|node| if node + 1 == nodes { 0.1 } else { 1.0 }).collect(),
-            Preset::Random => {
-                let mut random = fastrand::Rng::with_seed(self.seed.into());
-                (0..nodes).map(|_| f64::from(random.u8(10..=100)) / 100.0).collect()
+    /// How the atoms are shared.
+    pub fn sharing(&self) -> Sharing {
+        if self.driver == Driver::WorkStealing { Sharing::Stealing } else { Sharing::By(self.strategy) }
+    }
+
+    /// Shares the atoms so, with what is usual then: virtual time stays, unless rayon is to share them.
+    pub fn set_sharing(&mut self, sharing: Sharing) {
+        match sharing {
+            Sharing::Stealing => self.driver = Driver::WorkStealing,
+            Sharing::By(strategy) => {
+                if self.driver == Driver::WorkStealing {
+                    self.driver = Driver::Threads;
+                }
+                self.strategy = strategy;
+                self.part = strategy.usual_part(self.division(), self.speeds.len());
             }
-            Preset::Laboratory => LABORATORY.iter().cycle().take(nodes).map(|(_, speed)| *speed).collect(),
         }
     }
 
-    /// What a run with these settings is asked to do. The scene has a `name` and its file's `text`, `work` is the CPU time
-    /// of the whole picture, `cores` are those of this computer.
+    /// What a run with these settings is asked to do. The scene has a `name` and its file's `text`, `work` is the time of
+    /// the whole picture on the reference machine at full pace, `cores` are those of this computer.
     pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
         Header {
             scene: name.to_owned(),
@@ -168,27 +156,37 @@ impl Settings {
             size: self.size,
             samples: self.samples,
             division: self.division(),
-            driver: Driver::Threads,
-            rules: Rules { strategy: self.strategy, part: self.part, batch: Some(Rules::BATCH) },
+            driver: self.driver,
+            rules: Rules { strategy: self.strategy, part: self.part, batch: Some(self.batch()) },
             speeds: self.speeds.clone(),
             pace: self.pace(work, cores),
-            link: Link { latency: self.latency_time(), bandwidth: None, shared: false },
-            handling: Duration::ZERO,
-            cores,
+            link: Link {
+                latency: self.latency_time(),
+                bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
+                shared: self.shared_wire,
+            },
+            handling: Duration::from_millis(self.handling.into()),
+            cores: if self.driver == Driver::Sim { self.speeds.len() } else { cores },
         }
     }
 
-    /// The settings that a run with this header may have had.
+    /// The settings that a run with this header may have had. Two threads a node are not offered here: one does the same.
     pub fn of(header: &Header, tempo: Tempo) -> Self {
+        let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
         Self {
             size: header.size,
             samples: header.samples,
             atom: header.division.atom_pixels(),
+            driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
             strategy: header.rules.strategy,
             part: header.rules.part,
             tempo: if header.pace < 1.0 { tempo } else { Tempo::Full },
             speeds: header.speeds.clone(),
-            latency: u32::try_from(header.link.latency.as_millis()).unwrap_or(u32::MAX),
+            latency: millis(header.link.latency),
+            handling: millis(header.handling),
+            // A limit stays one, however low.
+            bandwidth: header.link.bandwidth.map_or(0, |bandwidth| (bandwidth * 1e-3).ceil().max(1.0) as u32),
+            shared_wire: header.link.shared,
             ..Self::default()
         }
     }
@@ -211,10 +209,24 @@ impl Settings {
         say(self.size != before.size, format!("{} pixels", self.size));
         say(self.samples != before.samples, format!("{0} × {0} samples a pixel", self.samples));
         say(self.atom != before.atom, format!("atoms of {} pixels", self.atom));
-        say(self.strategy != before.strategy, format!("strategy {}", self.strategy));
-        say(self.part != before.part, format!("at least {} atoms in a transfer", self.part));
+        let (sharing, before_it) = (self.sharing(), before.sharing());
+        say(sharing != before_it, sharing.name().to_lowercase());
+        let virtual_time = self.driver == Driver::Sim;
+        let time = if virtual_time { "virtual time" } else { "real time" };
+        say(virtual_time != (before.driver == Driver::Sim), time.into());
+        // A strategy brings its usual part with it.
+        let part = if self.strategy.is_farm() { "in a part" } else { "in a transfer at least" };
+        say(sharing == before_it && self.part != before.part, format!("{} atoms {part}", self.part));
         say(self.tempo != before.tempo, self.tempo.words());
         say(self.latency != before.latency, format!("{} ms a hop", self.latency));
+        say(self.handling != before.handling, format!("{} ms a message for the parent", self.handling));
+        let bandwidth = match self.bandwidth {
+            0 => "links of any speed".into(),
+            bandwidth => format!("links of {bandwidth} kB/s"),
+        };
+        say(self.bandwidth != before.bandwidth, bandwidth);
+        let wire = if self.shared_wire { "one wire for all" } else { "a wire for each pair" };
+        say(self.shared_wire != before.shared_wire, wire.into());
         words.join(", ")
     }
 
@@ -224,20 +236,17 @@ impl Settings {
     }
 
     fn pace(&self, work: Duration, cores: usize) -> f64 {
-        /// Not all machines are busy to the end, and those in a run find their caches colder than a probe does.
-        const BUSY: f64 = 0.85;
-        let sum: f64 = match self.strategy {
-            Strategy::Serial => self.speeds[0],
-            _ => self.speeds.iter().sum(),
-        };
-        match self.tempo {
-            Tempo::Full => 1.0,
-            // A computer that is too slow for this makes the run longer instead of late; 0 is not a pace.
-            Tempo::Lasts(seconds) => {
-                let wanted = work.as_secs_f64() / (BUSY * f64::from(seconds) * sum.max(1e-3));
-                wanted.min(auto_pace(&self.speeds, cores)).clamp(1e-6, 0.999)
-            }
-        }
+        // Machines that share badly take longer than those in a ring: that is to be seen.
+        let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
+        let most = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&self.speeds, cores) };
+        self.tempo.pace(work, speeds.iter().sum(), most)
+    }
+
+    /// How long a traced atom waits for others. A parent that takes long for a message is sent fewer of them: all nodes'
+    /// results take at most half of its time.
+    fn batch(&self) -> Duration {
+        let nodes = self.speeds.len() as u32;
+        Rules::BATCH.max(Duration::from_millis(self.handling.into()) * 2 * nodes)
     }
 }
 
@@ -250,50 +259,19 @@ impl Default for Settings {
             size: Size::new(640, 480).expect("a possible size"),
             samples: 1,
             atom: 50,
+            driver: Driver::Threads,
             strategy: Strategy::Ring,
             part: 1,
             tempo: Tempo::Lasts(20),
             speeds: vec![1.0; 8],
             seed: 1,
             latency: 40,
+            handling: 0,
+            bandwidth: 0,
+            shared_wire: false,
         };
         settings.set_preset(Preset::OneSlow);
         settings
-    }
-}
-
-impl Tempo {
-    /// How fast that is, in a few words.
-    pub fn words(self) -> String {
-        match self {
-            Self::Lasts(seconds) => format!("a run of about {seconds} s"),
-            Self::Full => "full speed".into(),
-        }
-    }
-}
-
-impl Preset {
-    /// All of them, in the order in which they are offered.
-    pub const ALL: [Self; 4] = [Self::Equal, Self::OneSlow, Self::Random, Self::Laboratory];
-
-    /// What it is called.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Equal => "All equal",
-            Self::OneSlow => "One slow",
-            Self::Random => "Random",
-            Self::Laboratory => "Old laboratory",
-        }
-    }
-
-    /// What it does, in a sentence.
-    pub fn hint(self) -> &'static str {
-        match self {
-            Self::Equal => "Every machine at full speed",
-            Self::OneSlow => "One machine at 10 %, the others at full speed",
-            Self::Random => "Each machine anywhere from 10 to 100 %, by the seed",
-            Self::Laboratory => "Machines of a laboratory of 1997: Pentiums, 486s, and a busy HP 9000/710",
-        }
     }
 }
 
@@ -314,8 +292,16 @@ mod tests {
         for change in at_once {
             assert!(!with(change).needs_restart(&default));
         }
-        let anew: [fn(&mut Settings); 4] =
-            [|s| s.set_nodes(3), |s| s.atom = 7, |s| s.tempo = Tempo::Full, |s| s.part = 9];
+        let anew: [fn(&mut Settings); 8] = [
+            |s| s.set_nodes(3),
+            |s| s.atom = 7,
+            |s| s.tempo = Tempo::Full,
+            |s| s.part = 9,
+            |s| s.driver = Driver::Sim,
+            |s| s.handling = 20,
+            |s| s.bandwidth = 100,
+            |s| s.shared_wire = true,
+        ];
         for change in anew {
             assert!(with(change).needs_restart(&default));
         }
@@ -332,24 +318,6 @@ mod tests {
     }
 
     #[test]
-    fn presets_are_possible_and_repeatable() {
-        for preset in Preset::ALL {
-            for nodes in 1..=Settings::MOST_NODES {
-                let made = |seed| {
-                    with(|s| {
-                        s.set_nodes(nodes);
-                        s.seed = seed;
-                        s.set_preset(preset);
-                    })
-                };
-                assert_eq!(made(1).check(), Ok(()));
-                assert!(made(1).has_preset(preset) && made(1) == made(1));
-                assert!(nodes < 3 || preset != Preset::Random || made(1).speeds != made(2).speeds);
-            }
-        }
-    }
-
-    #[test]
     fn differences_are_told_in_a_few_words() {
         let told = |change: fn(&mut Settings)| with(change).difference(&Settings::default());
         assert_eq!(told(|_| {}), "");
@@ -357,6 +325,43 @@ mod tests {
         assert_eq!(told(|s| s.set_preset(Preset::Random)), "other speeds for 8 machines");
         assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
+        let farm = Sharing::By(Strategy::Farm);
+        assert_eq!(with(|s| s.set_sharing(farm)).difference(&Settings::default()), "farm");
+        assert_eq!(told(|s| s.set_sharing(Sharing::Stealing)), "work stealing (rayon)");
+        assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, 5 atoms in a transfer at least");
+        assert_eq!(
+            told(|s| (s.handling, s.bandwidth, s.shared_wire) = (20, 100, true)),
+            "20 ms a message for the parent, links of 100 kB/s, one wire for all"
+        );
+    }
+
+    #[test]
+    fn a_strategy_brings_what_is_usual_and_rayon_knows_no_virtual_time() {
+        let farm = with(|s| s.set_sharing(Sharing::By(Strategy::Farm)));
+        assert_eq!((farm.part, farm.sharing()), (6144 / 128, Sharing::By(Strategy::Farm)));
+        let mut settings = with(|s| s.driver = Driver::Sim);
+        settings.set_sharing(Sharing::By(Strategy::Static));
+        assert_eq!((settings.driver, settings.part), (Driver::Sim, 1));
+        settings.set_sharing(Sharing::Stealing);
+        assert_eq!((settings.driver, settings.sharing()), (Driver::WorkStealing, Sharing::Stealing));
+        settings.set_sharing(Sharing::By(Strategy::Ring));
+        assert_eq!(settings, Settings::default());
+    }
+
+    #[test]
+    fn a_run_keeps_what_it_was_asked_to_do() {
+        let settings = with(|s| {
+            s.set_sharing(Sharing::By(Strategy::FarmBySpeed));
+            (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20, 100, true, 7);
+        });
+        let header = settings.header("", "", Duration::from_millis(300), 2);
+        assert_eq!((header.cores, header.link.bandwidth), (8, Some(1e5)));
+        assert_eq!(header.rules.batch, Some(Duration::from_millis(320)));
+        assert_eq!(Settings::of(&header, settings.tempo), settings);
+        assert_eq!(
+            with(|s| s.tempo = Tempo::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch,
+            Some(Rules::BATCH)
+        );
     }
 
     #[test]

@@ -1,15 +1,19 @@
 //! What can be set, at the left: what acts at once, and what starts the run anew.
 
-use egui::{ComboBox, Label, RichText, ScrollArea, Ui, WidgetInfo};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Button, ComboBox, Label, Response, RichText, ScrollArea, TextWrapMode, Ui, WidgetInfo, vec2};
 
 use super::history::Gesture;
+use super::preset::Preset;
 use super::session::Session;
-use super::settings::{Preset, Settings, Tempo};
+use super::settings::Settings;
+use super::tempo::Tempo;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, choice, number, slider};
 use crate::balance::Strategy;
 use crate::picture::Size;
-use crate::view::count;
+use crate::runlog::Driver;
+use crate::view::{Sharing, count};
 
 /// How wide the panel is, in points.
 pub const WIDTH: f32 = 36.0 * GRID;
@@ -40,7 +44,9 @@ impl SetupPanel {
         let mut draft = self.draft.take().unwrap_or_else(|| session.settings().clone());
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
-            ui.spacing_mut().item_spacing.y = GRID / 2.0;
+            // Everything is in sight in a window of 1280 × 800.
+            ui.spacing_mut().item_spacing.y = 3.0;
+            ui.spacing_mut().interact_size.y = 3.5 * GRID;
             heading(ui, "Takes effect at once", look);
             at_once(ui, &mut draft, look);
             ui.add_space(GRID);
@@ -123,23 +129,99 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
     }
-    line(ui, "Strategy", look, |ui| {
-        let all = [
-            // From right to left.
-            (Strategy::Serial, "Serial", "The first machine traces all; the others do nothing"),
-            (Strategy::Ring, "Ring", "Whoever is done offers help round the ring"),
-        ];
-        if let Some(strategy) = choice(ui, draft.strategy, &all) {
-            draft.strategy = strategy;
-        }
-    });
-    ui.add_enabled_ui(draft.strategy == Strategy::Ring, |ui| {
-        line(ui, "Smallest parcel", look, |ui| {
-            let suffix = if draft.part == 1 { " atom" } else { " atoms" };
-            number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, "Least atoms worth sending");
+    sharing(ui, draft, look);
+    network(ui, draft, look);
+    ui.add_space(GRID);
+    picture(ui, draft, look);
+    pace(ui, draft, look);
+}
+
+/// Who shares the atoms, and how.
+fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
+    let on = draft.sharing();
+    high_line(ui, "Strategy", look, |ui| {
+        // Who rayon is, the list tells.
+        let name = on.name().split(" (").next().unwrap_or_default();
+        let combo = ComboBox::from_id_salt("strategy").selected_text(name).width(20.0 * GRID).height(60.0 * GRID);
+        let combo = combo.show_ui(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            ui.visuals_mut().selection.bg_fill = look.hairline;
+            for sharing in Sharing::ALL {
+                if strategy(ui, sharing, sharing == on, look).clicked() && sharing != on {
+                    draft.set_sharing(sharing);
+                }
+            }
+        });
+        combo.response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(egui::Role::ComboBox, true, "Strategy");
+            info.current_text_value = Some(on.name().to_owned());
+            info
         });
     });
-    line(ui, "Size", look, |ui| {
+    small(ui, on.hint(), look);
+    let stealing = on == Sharing::Stealing;
+    high_line(ui, "Time", look, |ui| {
+        ui.add_enabled_ui(!stealing, |ui| {
+            let all = [
+                // From right to left.
+                (true, "Virtual", "The same rules in simulated time; a changed speed acts in virtual time"),
+                (false, "Real", "Threads of this computer trace, as fast as their machines"),
+            ];
+            if let Some(is_virtual) = choice(ui, draft.driver == Driver::Sim, &all) {
+                draft.driver = if is_virtual { Driver::Sim } else { Driver::Threads };
+            }
+        });
+    });
+    let is_farm = !stealing && draft.strategy.is_farm();
+    let has_part = is_farm || !stealing && draft.strategy == Strategy::Ring;
+    let (what, name) =
+        if is_farm { ("A part is", "Atoms in a part") } else { ("Smallest parcel", "Least atoms worth sending") };
+    ui.add_enabled_ui(has_part, |ui| {
+        line(ui, what, look, |ui| {
+            let suffix = if draft.part == 1 { " atom" } else { " atoms" };
+            number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, name);
+        });
+    });
+}
+
+/// A strategy in the list: its name, and below it what happens.
+fn strategy(ui: &mut Ui, sharing: Sharing, on: bool, look: Look) -> Response {
+    let mut words = LayoutJob::default();
+    let mut line = |text: &str, size, color| {
+        words.append(text, 0.0, TextFormat { font_id: theme::regular(size), color, ..TextFormat::default() });
+    };
+    line(&format!("{}\n", sharing.name()), theme::BODY, look.text);
+    line(sharing.hint(), theme::SMALL, look.quiet);
+    let response =
+        ui.add(Button::selectable(on, words).wrap_mode(TextWrapMode::Extend).min_size(vec2(36.0 * GRID, 0.0)));
+    response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, on, sharing.name()));
+    response
+}
+
+/// What messages cost; rayon's threads send none.
+fn network(ui: &mut Ui, draft: &mut Settings, look: Look) {
+    ui.add_enabled_ui(draft.sharing() != Sharing::Stealing, |ui| {
+        line(ui, "The parent takes", look, |ui| {
+            let (most, name) = (Settings::MOST_HANDLING, "Parent's milliseconds for a message");
+            number(ui, &mut draft.handling, 0..=most, " ms each", 13.0 * GRID, name).on_hover_text(
+                "So long the parent is busy with each message. With many of them it cannot keep up: they wait in line, and so does whoever needs an answer",
+            );
+        });
+        line(ui, "A link carries", look, |ui| {
+            let (most, suffix) = (Settings::MOST_BANDWIDTH, if draft.bandwidth == 0 { ": no limit" } else { " kB/s" });
+            number(ui, &mut draft.bandwidth, 0..=most, suffix, VALUE, "Kilobytes a second")
+                .on_hover_text("An Ethernet of 1997 carried at most 1250 kB/s; 0 is no limit");
+        });
+        ui.add_enabled_ui(draft.bandwidth > 0, |ui| {
+            let text = RichText::new("All share one wire").font(theme::regular(theme::BODY)).color(look.quiet);
+            ui.checkbox(&mut draft.shared_wire, text)
+                .on_hover_text("Only one message at a time is sent, whoever sends it; else each pair has a wire");
+        });
+    });
+}
+
+fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
+    high_line(ui, "Size", look, |ui| {
         // From right to left.
         let combo = ComboBox::from_id_salt("size").selected_text("usual").width(0.0);
         let combo = combo.show_ui(ui, |ui| {
@@ -150,9 +232,9 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
         });
         combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, "Usual sizes"));
         let (mut width, mut height) = (draft.size.width(), draft.size.height());
-        number(ui, &mut height, 16..=Settings::LONGEST_SIDE, "", 6.0 * GRID, "Height in pixels");
+        number(ui, &mut height, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, "Height in pixels");
         ui.label(RichText::new("×").font(theme::regular(theme::BODY)).color(look.quiet));
-        number(ui, &mut width, 16..=Settings::LONGEST_SIDE, "", 6.0 * GRID, "Width in pixels");
+        number(ui, &mut width, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, "Width in pixels");
         if let Ok(size) = Size::new(width, height) {
             draft.size = size;
         }
@@ -164,11 +246,11 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     line(ui, "An atom is", look, |ui| {
         number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, "Pixels in an atom");
     });
-    line(ui, "That makes", look, |ui| {
-        let text = format!("{} atoms", count(draft.division().atoms()));
-        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
-    });
-    line(ui, "Pace", look, |ui| {
+    small(ui, &format!("That makes {} atoms", count(draft.division().atoms())), look);
+}
+
+fn pace(ui: &mut Ui, draft: &mut Settings, look: Look) {
+    high_line(ui, "Pace", look, |ui| {
         let seconds = if let Tempo::Lasts(seconds) = draft.tempo { seconds } else { 20 };
         let all = [
             (Tempo::Full, "Full speed", "As fast as this computer can: a machine at 100 % never waits"),
@@ -187,6 +269,19 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
 
 fn heading(ui: &mut Ui, text: &str, look: Look) {
     ui.label(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text));
+}
+
+/// What explains the line above.
+fn small(ui: &mut Ui, text: &str, look: Look) {
+    ui.add(Label::new(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap());
+}
+
+/// A line of what is to be pressed.
+fn high_line(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 4.0 * GRID;
+        line(ui, name, look, content);
+    });
 }
 
 /// A line of a name and, at its right end, what is called so.

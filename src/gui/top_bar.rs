@@ -7,7 +7,8 @@ use super::keys::Command;
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button};
-use crate::view::count;
+use crate::runlog::Driver;
+use crate::view::{Sharing, count};
 
 /// What is open, and so shown as pressed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -101,8 +102,9 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
 /// What runs, in as many words as fit.
 fn what(ui: &Ui, session: &Session) -> String {
     let header = session.header();
-    let nodes = header.speeds.len();
-    let machines = if nodes == 1 { "1 machine".to_owned() } else { format!("{nodes} machines in a ring") };
+    let machines = Sharing::of(header).machines(header.speeds.len());
+    let virtually = if header.driver == Driver::Sim { " · virtual time" } else { "" };
+    let machines = format!("{machines}{virtually}");
     let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");

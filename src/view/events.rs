@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use super::flight::atoms_in;
 use super::sentences;
+use super::sharing::Sharing;
 use super::state::RunState;
-use super::words::{atoms_words, fraction, names, node_name};
+use super::words::{atoms_words, counted, fraction, names, node_name};
 use crate::balance::{Message, NodeId, Party};
 use crate::record::{Record, What};
 use crate::time::Time;
@@ -38,6 +39,13 @@ enum Event {
         atoms: u32,
     },
     Retired(Vec<NodeId>),
+    /// Machines that are done with what was theirs.
+    Done(Vec<NodeId>),
+    Estimating,
+    /// What the parent of a farm has handed out so far.
+    Parts,
+    /// At most so many messages waited at the parent.
+    Jam(usize),
     /// Whose, and the speed before somebody began to change it.
     Speed {
         node: NodeId,
@@ -75,6 +83,30 @@ impl Events {
             What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
                 self.transfer(at, *from, *to, atoms_in(ranges), state);
             }
+            What::Sent { message: Message::Part(part), .. } if !part.is_empty() => {
+                // A part for each node is one more round.
+                let parts = state.handed_out.count;
+                if parts.is_multiple_of(state.nodes().len() as u32) {
+                    self.told.retain(|told| told.event != Event::Parts);
+                    let sentence = format!("The parent has handed out {} so far", counted(parts, "part"));
+                    self.tell(at, Event::Parts, sentence);
+                }
+            }
+            What::Received { by: Party::Parent, .. } => {
+                if let Some(waiting) = jam(state, at).filter(|&waiting| !self.had_as_many(at, waiting)) {
+                    self.take(at, |event| matches!(event, Event::Jam(_)));
+                    self.tell(at, Event::Jam(waiting), sentences::jam(state, waiting));
+                }
+            }
+            What::AtomDone { node, .. } if is_done(state, *node) => {
+                let nodes = self.together(at, *node, |event| match event {
+                    Event::Done(nodes) => Some(nodes),
+                    _ => None,
+                });
+                let sentence = sentences::done(&nodes);
+                self.tell(at, Event::Done(nodes), sentence);
+            }
+            What::Estimating => self.tell(at, Event::Estimating, sentences::ESTIMATING.into()),
             What::SpeedSet { node, speed } => {
                 let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
                 let same = |event: &Event| matches!(event, Event::Speed { node: other, .. } if other == node);
@@ -89,15 +121,18 @@ impl Events {
             What::Resumed { node } => self.tell(at, Event::Paused, sentences::resumed(state, *node)),
             What::LatencySet { latency } => {
                 self.take(at, |event| *event == Event::Latency);
-                self.tell(at, Event::Latency, sentences::latency(*latency));
+                self.tell(at, Event::Latency, sentences::latency(state, *latency));
             }
-            What::Retired { node } => self.retired(at, *node),
+            What::Retired { node } => {
+                let nodes = self.together(at, *node, |event| match event {
+                    Event::Retired(nodes) => Some(nodes),
+                    _ => None,
+                });
+                let sentence = sentences::retired(state, &nodes);
+                self.tell(at, Event::Retired(nodes), sentence);
+            }
             What::Finished => self.tell(at, Event::End, sentences::COMPLETE.into()),
-            What::Sent { .. }
-            | What::Received { .. }
-            | What::Estimating
-            | What::AtomStarted { .. }
-            | What::AtomDone { .. } => {}
+            What::Sent { .. } | What::Received { .. } | What::AtomStarted { .. } | What::AtomDone { .. } => {}
         }
     }
 
@@ -116,7 +151,18 @@ impl Events {
         self.told.iter().any(|told| told.event == *event)
     }
 
+    /// Whether so many messages have waited at the parent of late.
+    fn had_as_many(&self, now: Time, waiting: usize) -> bool {
+        self.told
+            .iter()
+            .any(|told| matches!(told.event, Event::Jam(most) if most >= waiting) && now <= told.at + TOGETHER)
+    }
+
     fn transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
+        let is_theft = state.sharing == Sharing::Stealing;
+        if atoms > SMALL && is_theft {
+            return self.tell(at, Event::Transfer, sentences::theft(to, from, atoms));
+        }
         if atoms > SMALL {
             let giver = node_name(from);
             let slow = state.nodes().get(usize::from(from)).filter(|node| node.runs() && sentences::is_slow(node));
@@ -134,7 +180,10 @@ impl Events {
             receivers.insert(place, to);
         }
         let (giver, takers) = (node_name(from), names(&receivers));
-        let sentence = if receivers.len() == 1 {
+        let sentence = if is_theft {
+            let steal = if receivers.len() == 1 { "steals" } else { "steal" };
+            format!("{takers} {steal} few atoms at a time from {giver}: {}", atoms_words(all))
+        } else if receivers.len() == 1 {
             format!("{giver} gave {} to {takers}", atoms_words(all))
         } else if all as usize == receivers.len() {
             format!("{giver} gave 1 atom to {takers}")
@@ -144,19 +193,14 @@ impl Events {
         self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
     }
 
-    fn retired(&mut self, at: Time, node: NodeId) {
-        let mut nodes = match self.take(at, |event| matches!(event, Event::Retired(_))) {
-            Some(Event::Retired(nodes)) => nodes,
-            _ => Vec::new(),
-        };
+    /// The nodes of the latest event of a kind, if `node` comes soon after them, and `node`.
+    fn together(&mut self, at: Time, node: NodeId, of: impl Fn(Event) -> Option<Vec<NodeId>>) -> Vec<NodeId> {
+        let before = self.take(at, |event| of(event.clone()).is_some());
+        let mut nodes = before.and_then(of).unwrap_or_default();
         if let Err(place) = nodes.binary_search(&node) {
             nodes.insert(place, node);
         }
-        let sentence = match *nodes {
-            [node] => format!("{}'s offer came back, nobody needs its help: it retires", node_name(node)),
-            _ => format!("{} retire: their offers came back, nobody needs their help", names(&nodes)),
-        };
-        self.tell(at, Event::Retired(nodes), sentence);
+        nodes
     }
 
     /// Takes out the latest event of a kind, if it is so fresh that what comes now belongs to it.
@@ -173,6 +217,22 @@ impl Events {
             self.told.pop_front();
         }
     }
+}
+
+/// How many messages wait at the parent at `now`, if they are worth a word.
+pub(super) fn jam(state: &RunState, now: Time) -> Option<usize> {
+    /// Fewer are soon handled.
+    const MANY: usize = 4;
+    if state.handling.is_zero() {
+        return None;
+    }
+    Some(state.waiting(now)).filter(|&waiting| waiting >= MANY)
+}
+
+/// Whether `node` has just traced its last atom, gets no other, and others go on.
+pub(super) fn is_done(state: &RunState, node: NodeId) -> bool {
+    let is_last = state.nodes().get(usize::from(node)).is_some_and(|of| of.band_at.is_some() && of.left() == 0);
+    is_last && state.sharing.is_fixed() && state.nodes().iter().any(|other| other.left() > 0)
 }
 
 #[cfg(test)]

@@ -110,8 +110,10 @@ impl Cargo {
             Self::Band(_) => Duration::from_millis(900),
             Self::Transfer(_) => Duration::from_millis(1000),
             Self::Results(_) => Duration::from_millis(500),
-            Self::Part(_) => Duration::from_millis(700),
-            Self::Request => Duration::from_millis(300),
+            // There may be many, and whoever asks waits: they are hardly stretched.
+            Self::Part(atoms) if atoms.start == atoms.end => Duration::from_millis(900),
+            Self::Part(_) => Duration::from_millis(400),
+            Self::Request => Duration::from_millis(250),
             Self::Offer { .. } | Self::Shutdown => Duration::ZERO,
         }
     }

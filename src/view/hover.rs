@@ -6,6 +6,7 @@ use super::flight::{Cargo, Flight};
 use super::node::{Activity, NodeState, Parcels, Slot};
 use super::nodes::rows;
 use super::place::Place;
+use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{activity_word, atoms_words, count, counted, duration, fraction, node_name, percent, rate_words};
 use crate::balance::{NodeId, Party};
@@ -17,7 +18,7 @@ pub fn node_words(state: &RunState, node: NodeId, now: Time) -> Vec<(&'static st
     let Some(of) = state.nodes().get(usize::from(node)) else { return Vec::new() };
     let row = rows(state, now).swap_remove(usize::from(node));
     let paused = if of.paused && row.activity != Activity::Paused { ", paused" } else { "" };
-    vec![
+    let mut words = vec![
         ("state", format!("{}{paused}", activity_word(row.activity))),
         ("speed", fraction(of.speed)),
         ("done", atoms_words(of.done)),
@@ -25,10 +26,27 @@ pub fn node_words(state: &RunState, node: NodeId, now: Time) -> Vec<(&'static st
         ("in the pipe", pipe_words(of).into()),
         ("rate", rate_words(row.rate)),
         ("idle", fraction(row.idle)),
-        ("offers", format!("{} made, {} passed on", count(of.offers), count(of.hops))),
-        ("gave", parcels_words(of.given)),
-        ("got", parcels_words(of.got)),
-    ]
+    ];
+    words.extend(shared_words(state.sharing(), of));
+    words
+}
+
+/// What a node has got from others, and they from it.
+fn shared_words(sharing: Sharing, of: &NodeState) -> Vec<(&'static str, String)> {
+    match sharing {
+        Sharing::Stealing => {
+            vec![("stole", parcels_words(of.got, "theft")), ("lost", parcels_words(of.given, "theft"))]
+        }
+        _ if sharing.is_farm() => {
+            vec![("asked", counted(of.requests, "time")), ("got", parcels_words(of.got, "part"))]
+        }
+        _ if sharing.is_ring() => vec![
+            ("offers", format!("{} made, {} passed on", count(of.offers), count(of.hops))),
+            ("gave", parcels_words(of.given, "parcel")),
+            ("got", parcels_words(of.got, "parcel")),
+        ],
+        _ => vec![("shares", "with nobody".into())],
+    }
 }
 
 /// What there is to say of the parent, each with what it is.
@@ -36,11 +54,35 @@ pub fn parent_words(state: &RunState, now: Time) -> Vec<(&'static str, String)> 
     let (arrived, all) = (state.arrived(), state.division().pixels_in(&(0..state.atoms())));
     let until = state.finished().map_or(now, |end| end.min(now));
     let each = if until == Time::ZERO { 0.0 } else { arrived.messages as f64 / until.secs() };
-    vec![
+    let mut words = vec![
         ("placed", format!("{} of {} pixels, {}", count(arrived.pixels), count(all), percent(arrived.pixels, all))),
         ("messages", format!("{} seen, {}", arrived.messages, rate_words(each))),
-        ("a hop takes", duration(state.latency())),
-    ]
+    ];
+    if !state.handling.is_zero() {
+        words.push(("waiting", format!("{}, {} each", state.waiting(now), duration(state.handling))));
+    }
+    if state.sharing().is_farm() {
+        words.push(("handed out", parcels_words(state.handed_out, "part")));
+    }
+    let way = if state.sharing().is_ring() { "a hop takes" } else { "a message takes" };
+    words.push((way, duration(state.latency())));
+    words
+}
+
+/// What there is to know of the drawing itself, a line each.
+pub fn small_print(state: &RunState) -> Vec<String> {
+    let takes = duration(state.latency());
+    let mut lines = vec!["some atoms take longer than others".to_owned()];
+    match state.sharing() {
+        Sharing::Stealing => lines.push("threads share their memory, without messages".into()),
+        sharing if sharing.is_ring() => lines.push(format!("an offer takes {takes} a hop")),
+        _ if state.handling.is_zero() => lines.push(format!("a message takes {takes}")),
+        _ => lines.push(format!("a message takes {takes}, the parent {}", duration(state.handling))),
+    }
+    if !state.sharing().is_fixed() {
+        lines.push("parcels are drawn slower than they travel".into());
+    }
+    lines
 }
 
 /// Where an atom stands, in a sentence; empty if there is no such atom. For people atoms are numbered from 1 too.
@@ -53,6 +95,9 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
         }
         (_, Some(Flight { from: Party::Node(from), to: Party::Node(to), .. })) => {
             format!("on its way from {} to {}", node_name(*from), node_name(*to))
+        }
+        (_, Some(Flight { to: Party::Node(to), cargo: Cargo::Part(_), .. })) => {
+            format!("on its way to {}, in the part that it asked for", node_name(*to))
         }
         (_, Some(Flight { to: Party::Node(to), .. })) => format!("on its way to {}, in its band", node_name(*to)),
         (Place::With { node, since }, _) => with_words(state, atom, (node, since), now),
@@ -101,8 +146,8 @@ fn pipe_words(of: &NodeState) -> &'static str {
     }
 }
 
-fn parcels_words(Parcels { count, atoms }: Parcels) -> String {
-    if count == 0 { "nothing".into() } else { format!("{} in {}", atoms_words(atoms), counted(count, "parcel")) }
+fn parcels_words(Parcels { count, atoms }: Parcels, parcel: &str) -> String {
+    if count == 0 { "nothing".into() } else { format!("{} in {}", atoms_words(atoms), counted(count, parcel)) }
 }
 
 #[cfg(test)]

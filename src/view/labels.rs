@@ -151,7 +151,7 @@ pub(super) fn label(
     let labels = &plan.labels;
     let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail);
     let [x, y] = [plan.centre[0] + dx, plan.centre[1] + dy];
-    let ink = if activity == Activity::Retired { Hue::Quiet } else { Hue::Text }.full();
+    let ink = if activity.is_retired() { Hue::Quiet } else { Hue::Text }.full();
     let (size, small) = (labels.size(), TextSize::Small(labels.text));
     let [first, second] = match labels.form {
         Form::Nothing => return,
@@ -179,7 +179,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [St
     match activity {
         _ if state.finished().is_some() => [done, percent(of.done, state.atoms())],
         Activity::Waiting => [activity_word(activity).into(), String::new()],
-        Activity::Retired => [done, activity_word(activity).into()],
+        _ if activity.is_retired() => [done, activity_word(activity).into()],
         Activity::Computing => {
             let rate = rate_words(of.rate(now));
             let both = format!("{} · {rate}", fraction(of.speed));
@@ -191,7 +191,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [St
 
 /// The same in a number.
 fn number(state: &RunState, of: &NodeState, activity: Activity) -> String {
-    let done = state.finished().is_some() || activity == Activity::Retired;
+    let done = state.finished().is_some() || activity.is_retired();
     short(if done { of.done } else { of.left() })
 }
 

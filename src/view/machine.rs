@@ -29,19 +29,21 @@ pub(super) fn machine(
         Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
         Activity::Paused | Activity::Stopped => (0.3, Hue::Text),
-        Activity::Waiting | Activity::Offering | Activity::Idle => (0.18, Hue::Text),
-        Activity::Retired => (0.0, Hue::Quiet),
+        Activity::Waiting | Activity::Offering | Activity::Asking | Activity::InLine | Activity::Idle => {
+            (0.18, Hue::Text)
+        }
+        Activity::Retired | Activity::NoMore => (0.0, Hue::Quiet),
     };
     marks.push(Mark::Disc { centre, radius, ink: colour.faint(fill) });
     match activity {
-        Activity::Retired => dashes(centre, radius - 0.75, marks),
+        Activity::Retired | Activity::NoMore => dashes(centre, radius - 0.75, marks),
         _ if fill < 1.0 => {
             let points = Plan::arc(centre, radius - 0.75, 0.0, TAU);
             marks.push(Mark::Line { points, width: 1.5, ink: colour.faint(0.9) });
         }
         _ => {}
     }
-    let has_pipe = plan.node >= PIPE_SEEN && !matches!(activity, Activity::Retired | Activity::Done);
+    let has_pipe = plan.node >= PIPE_SEEN && !activity.is_retired() && activity != Activity::Done;
     if plan.node >= NUMBER_SEEN {
         marks.push(Mark::Label {
             at: [centre[0], centre[1] - if has_pipe { 0.2 * radius } else { 0.0 }],
@@ -71,7 +73,7 @@ fn progress(plan: &Plan, centre: Point, (node, of): (NodeId, &NodeState), activi
     marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
     marks.push(Mark::Line { points: Plan::arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
     if done > 0.0 {
-        let strength = if activity == Activity::Retired { 0.4 } else { 1.0 };
+        let strength = if activity.is_retired() { 0.4 } else { 1.0 };
         let points = Plan::arc(centre, track, -PI / 2.0, TAU * done);
         marks.push(Mark::Line { points, width, ink: colour.faint(strength) });
     }

@@ -3,6 +3,7 @@
 //! [`RunState`] is a fold over records; everything else looks at it at some time of the run's own clock, so a live
 //! run and a loaded one are shown by the same code, forwards and backwards.
 
+mod asking;
 mod bars;
 mod canvas;
 mod chart;
@@ -25,12 +26,14 @@ mod sample;
 mod scale;
 mod seen;
 mod sentences;
+mod sharing;
 mod sheet;
 mod standing;
 mod state;
 mod stroke;
 mod tones;
 mod traffic;
+mod without_ring;
 mod words;
 
 pub use bars::Bars;
@@ -38,7 +41,7 @@ pub use canvas::Canvas;
 pub use chart::{CHART_SIZE, Chart, Series, Style, series_hue};
 pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use flight::{Cargo, Flight};
-pub use hover::{atom_words, flight_words, node_words, parent_words};
+pub use hover::{atom_words, flight_words, node_words, parent_words, small_print};
 pub use narrator::Narrator;
 pub use node::{Activity, NodeState, Parcels, Slot};
 pub use nodes::{Row, Share, rows, shares};
@@ -46,6 +49,7 @@ pub use outcome::{Outcome, figures, parts_words, result_words};
 pub use place::Place;
 pub use ring::{Overlay, Spot, parcel_at, ring, ring_at};
 pub use scale::{Axis, Scale};
+pub use sharing::Sharing;
 pub use state::{Arrived, RunState};
 pub use tones::picture_pixels;
 pub use words::{activity_word, count, duration, fraction, node_name, percent, rate_words};

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::events::Events;
+use super::events::{Events, is_done, jam};
 use super::flight::atoms_in;
 use super::sentences;
 use super::standing::standing;
@@ -69,6 +69,8 @@ impl Narrator {
     pub fn sentence(&self, state: &RunState, now: Time) -> String {
         match &self.told {
             Some(told) if now < told.at + FRESH || state.finished().is_some() => told.sentence.clone(),
+            // Nothing has been heard of it: its records begin when all costs are known.
+            _ if state.is_virtual && state.head() == Time::ZERO => sentences::BEFORE_VIRTUAL_TIME.into(),
             _ => standing(state),
         }
     }
@@ -96,9 +98,21 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             ((1, 0), sentences::offer(*who, false, *done))
         }
         What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
+        What::Retired { .. } if state.sharing.is_farm() => return None,
         What::Retired { node } => {
             ((2, 0), format!("{}'s offer came back, nobody needs help: it retires", node_name(*node)))
         }
+        // The bands follow, perhaps soon.
+        What::Estimating => ((1, 0), sentences::ESTIMATING.into()),
+        What::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
+            let weight = if part.is_empty() { 2 } else { 1 };
+            ((weight, 0), sentences::part(*to, part.len() as u32))
+        }
+        What::Received { by: Party::Parent, .. } => {
+            let waiting = jam(state, record.at)?;
+            ((2, waiting.ilog2()), sentences::jam(state, waiting))
+        }
+        What::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), sentences::done(&[*node])),
         What::Finished => (END, sentences::COMPLETE.into()),
         _ => return None,
     };
@@ -107,8 +121,12 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::super::sample;
     use super::*;
+    use crate::balance::{Rules, Strategy};
+    use crate::runlog::{Driver, Header};
 
     #[test]
     fn the_story_of_a_slow_machine() {
@@ -186,5 +204,100 @@ mod tests {
         assert_eq!(set(300, 2, 0.6), "Machine 3 now runs at 60 %: it can take more work");
         assert_eq!(set(350, 2, 1.0), "Machine 3 now runs at 100 %: it can take more work");
         assert_eq!(set(9000, 2, 0.9), "Machine 3 now runs at 90 %: the others will make up for it");
+    }
+
+    /// What is heard of a run by this strategy whose last machine is slow, and what is left in the list at its end.
+    fn story(strategy: Strategy, handling: u64) -> (BTreeSet<String>, Vec<String>) {
+        let plain = sample::header(&[1.0, 1.0, 1.0, 1.0, 0.1], 2000);
+        let rules = Rules { strategy, part: strategy.usual_part(plain.division, 5), ..plain.rules };
+        let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
+        let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), BTreeSet::new());
+        for record in sample::records(&header) {
+            // How things stood before it.
+            heard.insert(narrator.sentence(&state, record.at));
+            state.apply(&record);
+            narrator.apply(&record, &state);
+            heard.insert(narrator.sentence(&state, record.at));
+        }
+        assert!(heard.iter().all(|sentence| sentence.chars().count() <= 105), "{heard:#?}");
+        let listed: Vec<_> = narrator.events().map(|(_, sentence)| sentence.to_owned()).collect();
+        assert!(listed.iter().all(|sentence| sentence.chars().count() <= 95), "{listed:#?}");
+        (heard, listed)
+    }
+
+    /// Each of these is somewhere in what is heard.
+    fn assert_heard(heard: &BTreeSet<String>, parts: &[&str]) {
+        for part in parts {
+            assert!(heard.iter().any(|sentence| sentence.contains(part)), "{part}: {heard:#?}");
+        }
+        let of_the_ring = |sentence: &&String| sentence.contains("offer") || sentence.contains("retire");
+        assert_eq!(heard.iter().find(of_the_ring), None);
+    }
+
+    #[test]
+    fn in_a_farm_nodes_ask_and_their_parts_are_one_event() {
+        let (heard, listed) = story(Strategy::Farm, 0);
+        assert_heard(
+            &heard,
+            &[
+                "The parent gives each of 5 machines a first part: 25 atoms",
+                " asks the parent for more and gets 25 atoms",
+                " asks the parent for more, but all is given away: it is no longer needed",
+            ],
+        );
+        let parts = listed.iter().filter(|event| event.starts_with("The parent has handed out")).count();
+        assert!(parts == 1 && listed.len() < 12, "{listed:#?}");
+        assert!(listed.iter().any(|event| event.ends_with(" asked for more, but all is given away")), "{listed:#?}");
+    }
+
+    #[test]
+    fn a_slow_parent_is_told_of() {
+        let (heard, listed) = story(Strategy::Farm, 40);
+        assert_heard(&heard, &[" messages wait at the parent, which needs 40 ms for each"]);
+        let jams = listed.iter().filter(|event| event.contains("messages wait")).count();
+        assert!((1..40).contains(&jams), "{listed:#?}");
+    }
+
+    #[test]
+    fn with_fixed_bands_all_wait_for_the_slow_one() {
+        let (heard, listed) = story(Strategy::Static, 0);
+        assert_heard(
+            &heard,
+            &[
+                "The parent gives each of 5 machines an equal band",
+                "1 is done and waits: nobody shares with it",
+                "All wait for 5, which is slow (10 %): ",
+            ],
+        );
+        assert!(listed.iter().any(|event| event == "1, 2, 3 and 4 are done and wait: nobody shares with them"));
+        let (heard, _) = story(Strategy::StaticEstimate, 0);
+        assert_heard(&heard, &[sentences::ESTIMATING, "a band that should cost the same", "All wait for 5"]);
+        let (heard, _) = story(Strategy::Serial, 0);
+        assert_heard(&heard, &["one machine the whole picture", "1 computes alone: "]);
+    }
+
+    #[test]
+    fn threads_steal() {
+        let header = Header { driver: Driver::WorkStealing, ..sample::header(&[1.0, 1.0, 0.1], 600) };
+        let mut state = RunState::new(&header);
+        let mut narrator = Narrator::default();
+        let mut say = |ms: u64, from, atoms| {
+            let (from, to, at) = (Party::Node(from), Party::Node(2), Time(ms * 1_000_000));
+            let message = Message::Transfer(std::iter::once(0..atoms).collect());
+            let record = Record { at, what: What::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
+            state.apply(&record);
+            narrator.apply(&record, &state);
+            narrator.sentence(&state, at)
+        };
+        assert_eq!(say(0, 0, 96), "3 steals 96 atoms from 1");
+        assert_eq!(say(9000, 1, 1), "3 steals 1 atom from 2");
+        let listed: Vec<_> = narrator.events().map(|(_, sentence)| sentence).collect();
+        assert_eq!(listed, ["3 steals 96 atoms from 1", "3 steals few atoms at a time from 2: 1 atom"]);
+    }
+
+    #[test]
+    fn before_virtual_time_begins_something_is_said() {
+        let state = RunState::new(&sample::header(&[1.0, 1.0], 9));
+        assert_eq!(Narrator::default().sentence(&state, Time::ZERO), sentences::BEFORE_VIRTUAL_TIME);
     }
 }

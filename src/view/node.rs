@@ -17,7 +17,7 @@ pub struct NodeState {
     pub done: u32,
     /// The atom that its worker is tracing.
     pub atom: Option<Atom>,
-    /// Its own offer came back.
+    /// Its own offer came back; in a farm, the parent has no more for it.
     pub retired: bool,
     /// Offers that it has made.
     pub offers: u32,
@@ -25,16 +25,20 @@ pub struct NodeState {
     pub hops: u32,
     /// What it has given to nodes that offered help.
     pub given: Parcels,
-    /// What it has got for its own offers.
+    /// What it has got for its own offers, or when it asked for it.
     pub got: Parcels,
+    /// How often it has asked the parent for atoms.
+    pub requests: u32,
     /// Its speed before that was last set.
     pub(super) speed_before: f64,
     // Signed, since the record of an atom may come before that of the band it belongs to.
     pub(super) left: i64,
     /// When its band arrived.
     pub(super) band_at: Option<Time>,
+    /// Its offer, or its request, is not answered yet.
     pub(super) offer_out: bool,
-    pub(super) last_results: Option<Time>,
+    /// When the last of its results, its requests and its parts left that are drawn.
+    pub(super) last_drawn: [Option<Time>; 3],
     idle: Duration,
     idle_since: Option<Time>,
     rate: Rate,
@@ -65,14 +69,27 @@ pub enum Activity {
     Paused,
     /// Its offer of help is on its way.
     Offering,
+    /// Its request for atoms is on its way to the parent.
+    Asking,
+    /// Its request has arrived, and the parent has not answered it yet.
+    InLine,
     /// Atoms are on their way to it.
     Receiving,
     /// It has nothing to do.
     Idle,
     /// Its own offer came back: nobody needs it.
     Retired,
+    /// The parent has no more atoms for it.
+    NoMore,
     /// The picture is complete.
     Done,
+}
+
+impl Activity {
+    /// Whether nothing is left to do for it in this run, although the picture is not complete.
+    pub fn is_retired(self) -> bool {
+        matches!(self, Self::Retired | Self::NoMore)
+    }
 }
 
 /// One of the two places in a worker's pipe.
@@ -139,11 +156,12 @@ impl NodeState {
             hops: 0,
             given: Parcels::default(),
             got: Parcels::default(),
+            requests: 0,
             speed_before: speed,
             left: 0,
             band_at: None,
             offer_out: false,
-            last_results: None,
+            last_drawn: [None; 3],
             idle: Duration::ZERO,
             idle_since: None,
             rate: Rate::default(),

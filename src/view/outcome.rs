@@ -5,9 +5,11 @@ use std::time::Duration;
 
 use super::node::NodeState;
 use super::place::Place;
+use super::sharing::Sharing;
 use super::state::RunState;
-use super::words::{atoms_words, count, duration, fraction, node_name};
-use crate::balance::NodeId;
+use super::words::{atoms_words, count, counted, duration, fraction, node_name};
+use crate::balance::{NodeId, Strategy};
+use crate::time::Time;
 
 /// What a finished run amounts to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +47,10 @@ pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
     if machines == 1 {
         return words;
     }
-    words += &format!(". {machines} machines were done within {}", seconds(spread));
+    let what = if state.sharing() == Sharing::Stealing { "threads" } else { "machines" };
+    if state.sharing() != Sharing::By(Strategy::Serial) {
+        words += &format!(". {machines} {what} were done within {}", seconds(spread));
+    }
     if let Some(parts) = parts_words(state) {
         words += &format!(". {parts}");
     }
@@ -57,12 +62,61 @@ fn seconds(length: Duration) -> String {
     if length < Duration::from_millis(95) { duration(length) } else { format!("{:.1} s", length.as_secs_f64()) }
 }
 
-/// Who did most and least of the work, and why; `None` if all did about the same.
+/// Who did most and least of the work, and why, or who was waited for; `None` if all did about the same.
 pub fn parts_words(state: &RunState) -> Option<String> {
+    match state.sharing() {
+        _ if state.nodes().len() == 1 => None,
+        Sharing::By(Strategy::Serial) => {
+            Some(format!("{} traced all of it alone", most_and_least(state).map(|[(most, _), _]| node_name(most))?))
+        }
+        Sharing::By(Strategy::Static | Strategy::StaticEstimate) => waited_for(state).or_else(|| uneven(state)),
+        sharing if sharing.is_farm() => {
+            let handed_out = format!("The parent was asked for {}", counted(state.handed_out.count, "part"));
+            Some(uneven(state).map_or_else(|| handed_out.clone(), |uneven| format!("{uneven}. {handed_out}")))
+        }
+        Sharing::By(_) | Sharing::Stealing => uneven(state),
+    }
+}
+
+/// The machine that all others waited for, if they waited long.
+fn waited_for(state: &RunState) -> Option<String> {
+    let end = state.finished()?.secs();
+    let ends = last_atoms(state);
+    // Of equals the first is named.
+    let (last, &latest) = (0..).zip(&ends).min_by_key(|&(_, &at)| Reverse(at))?;
+    let (first, &earliest) = (0..).zip(&ends).filter(|&(_, &at)| at > Time::ZERO).min_by_key(|&(_, &at)| at)?;
+    let waited = latest.since(earliest);
+    let worth_a_word = waited.as_secs_f64() > 0.05 * end;
+    let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node)).unwrap_or_default();
+    worth_a_word.then(|| {
+        let (last, first): (u32, u32) = (node_name(last), node_name(first));
+        format!("All waited for {last}, {slow}: {first} was done {} before it, and nobody shared", seconds(waited))
+    })
+}
+
+/// By node: when it was done with its last atom.
+fn last_atoms(state: &RunState) -> Vec<Time> {
+    let mut last = vec![Time::ZERO; state.nodes().len()];
+    for place in state.places() {
+        if let Place::Traced { by, at, .. } = *place
+            && let Some(last) = last.get_mut(usize::from(by))
+        {
+            *last = at.max(*last);
+        }
+    }
+    last
+}
+
+/// The nodes that did most and least of the work.
+fn most_and_least(state: &RunState) -> Option<[(NodeId, &NodeState); 2]> {
     let nodes = || (0..).zip(state.nodes());
     // Of equals the first is named.
-    let (most, fast): (NodeId, _) = nodes().min_by_key(|(_, node)| Reverse(node.done))?;
-    let (least, slow) = nodes().min_by_key(|(_, node)| node.done)?;
+    Some([nodes().min_by_key(|(_, node)| Reverse(node.done))?, nodes().min_by_key(|(_, node)| node.done)?])
+}
+
+/// Who did most and least of the work, and why; `None` if all did about the same.
+fn uneven(state: &RunState) -> Option<String> {
+    let [(most, fast), (least, slow)] = most_and_least(state)?;
     if f64::from(fast.done) < 1.05 * f64::from(slow.done) {
         return None;
     }
@@ -101,8 +155,8 @@ fn mean_cost(state: &RunState, node: NodeId) -> f64 {
 mod tests {
     use super::super::sample;
     use super::*;
+    use crate::balance::Rules;
     use crate::record::{Record, What};
-    use crate::time::Time;
 
     const OUTCOME: Outcome = Outcome {
         makespan: Duration::from_millis(20_440),
@@ -147,6 +201,29 @@ mod tests {
         );
         let dearer = ended(&[(1.0, 50, 1), (1.0, 25, 2)]);
         assert!(dearer.ends_with("2 least: 25 at 100 % (its atoms took longer)"), "{dearer}");
+    }
+
+    /// What is said of a whole run by this strategy whose last machine is slow.
+    fn shared(strategy: Strategy) -> String {
+        let mut header = sample::header(&[1.0, 1.0, 0.1], 300);
+        header.rules = Rules { strategy, part: 10, ..header.rules };
+        let mut state = RunState::new(&header);
+        sample::records(&header).iter().for_each(|record| state.apply(record));
+        result_words(&state, &OUTCOME)
+    }
+
+    #[test]
+    fn what_came_of_other_strategies_is_told_in_their_words() {
+        let all = "Done in 20.4 s; shared perfectly it takes 19.8 s: efficiency 97 %";
+        assert_eq!(shared(Strategy::Serial), format!("{all}. 1 traced all of it alone"));
+        let three = format!("{all}. 3 machines were done within 0.3 s");
+        assert_eq!(
+            shared(Strategy::Static),
+            format!("{three}. All waited for 3, at 10 %: 1 was done 9.0 s before it, and nobody shared")
+        );
+        let farm = shared(Strategy::Farm);
+        assert!(farm.starts_with(&format!("{three}. 1 traced most: ")), "{farm}");
+        assert!(farm.ends_with(" at 10 %. The parent was asked for 27 parts"), "{farm}");
     }
 
     #[test]

@@ -5,16 +5,18 @@
 
 use std::f32::consts::{PI, TAU};
 
+use super::asking;
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
 use super::flight::Flight;
 use super::labels::{is_labelled, label};
 use super::machine::machine;
 use super::outcome::Outcome;
 use super::plan::Plan;
+use super::sharing::Sharing;
 use super::state::RunState;
 use super::traffic;
 use super::words::{duration, fraction, percent};
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Strategy};
 use crate::time::Time;
 
 /// What is laid over the ring.
@@ -39,8 +41,12 @@ pub enum Spot {
 pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<Mark> {
     let plan = Plan::new(state.nodes().len(), size);
     let mut marks = Vec::new();
-    rail(&plan, &mut marks);
-    spokes(&plan, &mut marks);
+    if state.sharing.is_ring() {
+        rail(&plan, &mut marks);
+    }
+    if state.sharing != Sharing::Stealing {
+        spokes(&plan, state.sharing.is_farm(), &mut marks);
+    }
     traffic::results(&plan, state, now, &mut marks);
     traffic::offers(&plan, state, now, &mut marks);
     for node in 0..state.nodes().len() as NodeId {
@@ -53,8 +59,9 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
     }
     match overlay.outcome {
         Some(outcome) => result(&plan, &outcome, &mut marks),
-        None => parent(&plan, state, &mut marks),
+        None => parent(&plan, state, now, &mut marks),
     }
+    asking::draw(&plan, state, now, &mut marks);
     traffic::parcels(&plan, state, now, &mut marks);
     marks
 }
@@ -71,9 +78,10 @@ pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<Spot> {
     }
 }
 
-/// The message whose parcel of atoms is drawn at `point` at `now`, in an area of `size`.
+/// The message that is drawn at `point` at `now`, in an area of `size`: a parcel of atoms, a request, or its answer.
 pub fn parcel_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
-    traffic::parcel_at(&Plan::new(state.nodes().len(), size), state, now, point)
+    let plan = Plan::new(state.nodes().len(), size);
+    traffic::parcel_at(&plan, state, now, point).or_else(|| asking::token_at(&plan, state, now, point))
 }
 
 /// Arrowheads on the rail, and spokes.
@@ -97,23 +105,39 @@ fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The ways between parent and nodes.
-fn spokes(plan: &Plan, marks: &mut Vec<Mark>) {
+/// The ways between parent and nodes; in a farm, where everything goes that way, they are `strong`.
+fn spokes(plan: &Plan, strong: bool, marks: &mut Vec<Mark>) {
+    let (width, ink) = if strong { (1.5, Hue::Hairline.full()) } else { (1.0, Hue::Hairline.faint(0.7)) };
     for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
         let angle = plan.angle(node as NodeId);
         let (inner, outer) = (plan.at(angle, plan.parent), plan.at(angle, plan.seats - plan.node * 1.3));
-        marks.push(Mark::Line { points: vec![inner, outer], width: 1.0, ink: Hue::Hairline.faint(0.7) });
+        marks.push(Mark::Line { points: vec![inner, outer], width, ink });
     }
 }
 
-/// The parent, and how far the picture is.
-fn parent(plan: &Plan, state: &RunState, marks: &mut Vec<Mark>) {
-    let (done, large, captions) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan), has_captions(plan));
+/// The parent, how far the picture is, and whether it is busy.
+fn parent(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+    let waiting = state.waiting(now);
+    if waiting > 0 || state.is_estimating {
+        marks.push(Mark::Disc { centre: plan.centre, radius: plan.parent, ink: Hue::Hairline.faint(0.6) });
+    }
+    // A single message is soon handled: its number would only flicker.
+    let (caption, hue) = match waiting {
+        _ if state.is_estimating => ("estimating".into(), Hue::Text),
+        0..2 if state.sharing == Sharing::Stealing => ("picture".into(), Hue::Quiet),
+        0..2 => ("parent".into(), Hue::Quiet),
+        many => (format!("{many} waiting"), Hue::Text),
+    };
+    let (done, large) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan));
+    // Where the parent may be busy that is said wherever there is room; what it is called goes without saying.
+    let is_busy_at_times = !state.handling.is_zero() || state.sharing == Sharing::By(Strategy::StaticEstimate);
+    let has_room = TextSize::Small(plan.labels.text).width("estimating".len()) < 2.0 * plan.parent;
+    let captions = has_captions(plan) || is_busy_at_times && has_room;
     let lift = if captions { large * 0.25 } else { 0.0 };
     let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
     text(plan, -lift, percent(state.done(), state.atoms()), size, Hue::Text, marks);
     if captions {
-        text(plan, large * 0.6, "parent".into(), small, Hue::Quiet, marks);
+        text(plan, large * 0.6, caption, small, hue, marks);
     }
     let points = Plan::arc(plan.centre, plan.parent, 0.0, TAU);
     marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });

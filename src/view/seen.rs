@@ -11,11 +11,12 @@ use crate::picture::Atom;
 use crate::time::Time;
 
 impl RunState {
-    /// Whether anything moves at `now`: a message that is drawn, a machine that computes, or a rate that sinks.
+    /// Whether anything moves at `now`: a message that is drawn, a machine that computes, a rate that sinks, or the line
+    /// at the parent.
     pub fn moves(&self, now: Time) -> bool {
         let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
         let works = |node: &NodeState| node.computes() || node.rate(now) > 0.0;
-        flies || self.finished.is_none() && self.nodes.iter().any(works)
+        flies || self.finished.is_none() && (self.nodes.iter().any(works) || self.is_in_line(now))
     }
 
     /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
@@ -26,12 +27,38 @@ impl RunState {
         1.0 - (after.as_secs_f64() / FADE.as_secs_f64()).min(1.0) as f32
     }
 
+    /// How many messages have arrived at the parent that it has not handled yet at `now`.
+    pub fn waiting(&self, now: Time) -> usize {
+        self.in_line(now).count()
+    }
+
+    /// Whether messages wait for a parent that takes its time.
+    fn is_in_line(&self, now: Time) -> bool {
+        !self.handling.is_zero() && self.waiting(now) > 0
+    }
+
+    /// The messages that have arrived at the parent and that it has not handled yet at `now`, in the order in which they
+    /// left.
+    pub(super) fn in_line(&self, now: Time) -> impl Iterator<Item = &Flight> {
+        /// Records come in batches, and so a little late.
+        const LATE: Duration = Duration::from_millis(100);
+        // By its own records the parent would have handled what was there before them.
+        let known = self.parent_head.min(now);
+        let goes_on = self.finished.is_none_or(|end| now < end);
+        let waits = move |flight: &&Flight| {
+            goes_on && flight.to == Party::Parent && (flight.arrives < known || flight.arrives + LATE <= now)
+        };
+        self.pending.values().filter(waits)
+    }
+
     /// A node as it is seen at `now`: parcels are drawn slower than they travel, and what is in one that is still drawn
-    /// on its way does not count as the node's yet.
+    /// on its way does not count as the node's yet. The parts of a farm are drawn about as fast as they travel.
     pub(super) fn seen(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
         let state = &self.nodes[usize::from(node)];
-        let lands =
-            |flight: &&Flight| flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now);
+        let lands = |flight: &&Flight| {
+            let is_part = matches!(flight.cargo, Cargo::Part(_));
+            flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now) && !is_part
+        };
         let landing: u32 = match self.finished {
             None => self.flights.iter().filter(lands).map(|flight| flight.cargo.atoms()).sum(),
             Some(_) => 0,
@@ -64,7 +91,7 @@ impl RunState {
         if self.finished.is_some_and(|end| end <= now) {
             Activity::Done
         } else if state.retired {
-            Activity::Retired
+            if self.sharing.is_farm() { Activity::NoMore } else { Activity::Retired }
         } else if state.band_at.is_none() {
             Activity::Waiting
         } else if state.paused && state.left() > 0 {
@@ -73,10 +100,26 @@ impl RunState {
             Activity::Receiving
         } else if state.left() > 0 {
             if state.speed > 0.0 { Activity::Computing } else { Activity::Stopped }
+        } else if self.sharing.is_farm() && state.offer_out {
+            self.asks(node, now)
         } else if state.offer_out || offers {
             Activity::Offering
         } else {
             Activity::Idle
+        }
+    }
+
+    /// How far the request is that `node` has made.
+    fn asks(&self, node: NodeId, now: Time) -> Activity {
+        let (mut asks, mut gets) = (false, false);
+        for flight in self.pending.values() {
+            asks |= flight.from == Party::Node(node) && flight.cargo == Cargo::Request && now < flight.arrives;
+            gets |= flight.to == Party::Node(node) && matches!(flight.cargo, Cargo::Part(_));
+        }
+        match (asks, gets) {
+            (_, true) => Activity::Receiving,
+            (true, false) => Activity::Asking,
+            (false, false) => Activity::InLine,
         }
     }
 

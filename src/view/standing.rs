@@ -2,6 +2,7 @@
 
 use super::node::NodeState;
 use super::state::RunState;
+use super::without_ring::without_ring;
 use super::words::{atoms_words, fraction, names, node_name};
 use crate::balance::NodeId;
 
@@ -9,10 +10,13 @@ use crate::balance::NodeId;
 pub(super) const PIPE: u32 = 2;
 
 /// A node and what is known of it.
-type Machine<'a> = (NodeId, &'a NodeState);
+pub(super) type Machine<'a> = (NodeId, &'a NodeState);
 
 /// How things stand.
 pub(super) fn standing(state: &RunState) -> String {
+    if !state.sharing.is_ring() {
+        return without_ring(state);
+    }
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     match *busy {
@@ -123,7 +127,8 @@ fn stuck(state: &RunState, still: &[Machine<'_>]) -> String {
     }
 }
 
-fn all_still(still: &[Machine<'_>]) -> String {
+/// Every machine stands still, and has atoms.
+pub(super) fn all_still(still: &[Machine<'_>]) -> String {
     match still.iter().filter(|(_, node)| node.paused).count() {
         _ if still.len() == 1 => format!("The only machine {}: {}", why(still[0].1), remedy(still)),
         0 => "All machines stand still at 0 %: raise a speed and the work goes on".into(),
@@ -133,12 +138,12 @@ fn all_still(still: &[Machine<'_>]) -> String {
 }
 
 /// Why a machine stands still.
-fn why(node: &NodeState) -> &'static str {
+pub(super) fn why(node: &NodeState) -> &'static str {
     if node.paused { "is paused" } else { "stands still at 0 %" }
 }
 
 /// What makes machines that stand still go on.
-fn remedy(still: &[Machine<'_>]) -> &'static str {
+pub(super) fn remedy(still: &[Machine<'_>]) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
         (1, 0) => "raise its speed",
         (1, _) => "let it go on",
@@ -152,7 +157,8 @@ fn retired(state: &RunState) -> Vec<NodeId> {
     (0..).zip(state.nodes()).filter(|(_, node)| node.retired).map(|(node, _)| node).collect()
 }
 
-fn all_left(machines: &[Machine<'_>]) -> u32 {
+/// How many atoms machines have together.
+pub(super) fn all_left(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left()).sum()
 }
 

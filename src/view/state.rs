@@ -5,12 +5,13 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::flight::{Cargo, Flight, atoms_in};
-use super::node::NodeState;
+use super::node::{NodeState, Parcels};
 use super::place::Place;
+use super::sharing::Sharing;
 use crate::balance::{NodeId, Party};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
-use crate::runlog::Header;
+use crate::runlog::{Driver, Header};
 use crate::time::Time;
 
 /// What is known of a run after some of its records.
@@ -26,9 +27,20 @@ pub struct RunState {
     early: BTreeSet<u64>,
     touched: Vec<Range<Atom>>,
     division: Division,
+    pub(super) sharing: Sharing,
+    /// In virtual time the whole picture is traced before the run begins.
+    pub(super) is_virtual: bool,
     latency: Duration,
+    /// How long the parent is busy with each message.
+    pub(super) handling: Duration,
     arrived: Arrived,
+    /// What the parent of a farm has given to nodes that asked.
+    pub(super) handed_out: Parcels,
+    /// The parent samples the picture.
+    pub(super) is_estimating: bool,
     head: Time,
+    /// The time of the parent's latest record.
+    pub(super) parent_head: Time,
     pub(super) finished: Option<Time>,
 }
 
@@ -52,9 +64,15 @@ impl RunState {
             early: BTreeSet::new(),
             touched: Vec::new(),
             division: header.division,
+            sharing: Sharing::of(header),
+            is_virtual: header.driver == Driver::Sim,
             latency: header.link.latency,
+            handling: header.handling,
             arrived: Arrived::default(),
+            handed_out: Parcels::default(),
+            is_estimating: false,
             head: Time::ZERO,
+            parent_head: Time::ZERO,
             finished: None,
         }
     }
@@ -65,10 +83,15 @@ impl RunState {
         self.head = self.head.max(at);
         match &record.what {
             What::Sent { id, from, to, message, arrives, .. } => {
+                if *from == Party::Parent {
+                    (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
+                }
                 self.sent(*id, Flight::new(*from, *to, message, at, *arrives));
             }
             What::Received { id, by } => {
-                self.arrived.messages += u64::from(*by == Party::Parent);
+                if *by == Party::Parent {
+                    (self.arrived.messages, self.parent_head) = (self.arrived.messages + 1, self.parent_head.max(at));
+                }
                 match self.pending.remove(id) {
                     Some(flight) => self.received(flight, at),
                     None => _ = self.early.insert(*id),
@@ -90,7 +113,7 @@ impl RunState {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
-            What::Estimating => {}
+            What::Estimating => self.is_estimating = true,
             What::Finished => self.finished = Some(at),
         }
     }
@@ -124,6 +147,11 @@ impl RunState {
     /// How the picture is cut into atoms.
     pub fn division(&self) -> Division {
         self.division
+    }
+
+    /// How the atoms are shared.
+    pub fn sharing(&self) -> Sharing {
+        self.sharing
     }
 
     /// How long a message travels that leaves now, apart from what its weight takes.
@@ -179,9 +207,14 @@ impl RunState {
                     sender.offer_out = true;
                 }
                 Cargo::Offer { .. } => sender.hops += 1,
-                Cargo::Request => sender.offer_out = true,
+                Cargo::Request => (sender.requests, sender.offer_out) = (sender.requests + 1, true),
                 Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
             }
+        }
+        if let Cargo::Part(part) = &flight.cargo
+            && !part.is_empty()
+        {
+            self.handed_out.add(part.len() as u32);
         }
         if self.is_drawn(&flight) {
             self.flights.retain(|earlier| earlier.gone() > flight.sent);
@@ -195,9 +228,9 @@ impl RunState {
         }
     }
 
-    /// Results are many: of each node only as many are drawn as can be told apart.
+    /// Results are many, and requests and parts may be: of each node only as many are drawn as can be told apart.
     fn is_drawn(&mut self, flight: &Flight) -> bool {
-        const BETWEEN_RESULTS: Duration = Duration::from_millis(90);
+        let between = [90, 300, 450].map(Duration::from_millis);
         let known = |party: Party| match party {
             Party::Parent => true,
             Party::Node(node) => usize::from(node) < self.nodes.len(),
@@ -205,18 +238,19 @@ impl RunState {
         if !known(flight.from) || !known(flight.to) {
             return false;
         }
-        match (flight.from, &flight.cargo) {
-            (_, Cargo::Shutdown) => false,
-            (Party::Node(from), Cargo::Results(_)) => {
-                let last = &mut self.nodes[usize::from(from)].last_results;
-                let drawn = last.is_none_or(|last| flight.sent >= last + BETWEEN_RESULTS);
-                if drawn {
-                    *last = Some(flight.sent);
-                }
-                drawn
-            }
-            _ => true,
+        let (node, kind) = match (flight.from, flight.to, &flight.cargo) {
+            (_, _, Cargo::Shutdown) => return false,
+            (Party::Node(from), _, Cargo::Results(_)) => (from, 0),
+            (Party::Node(from), _, Cargo::Request) => (from, 1),
+            (_, Party::Node(to), Cargo::Part(part)) if !part.is_empty() => (to, 2),
+            _ => return true,
+        };
+        let last = &mut self.nodes[usize::from(node)].last_drawn[kind];
+        let drawn = last.is_none_or(|last| flight.sent >= last + between[kind]);
+        if drawn {
+            *last = Some(flight.sent);
         }
+        drawn
     }
 
     fn received(&mut self, flight: Flight, at: Time) {
@@ -236,6 +270,9 @@ impl RunState {
             }
             Cargo::Part(part) => {
                 state.offer_out = false;
+                if !part.is_empty() {
+                    state.got.add(part.len() as u32);
+                }
                 vec![part]
             }
             Cargo::Transfer(ranges) => {

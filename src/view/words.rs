@@ -69,9 +69,12 @@ pub fn activity_word(activity: Activity) -> &'static str {
         Activity::Stopped => "stopped",
         Activity::Paused => "paused",
         Activity::Offering => "offering",
+        Activity::Asking => "asking",
+        Activity::InLine => "in line",
         Activity::Receiving => "receiving",
         Activity::Idle => "idle",
         Activity::Retired => "retired",
+        Activity::NoMore => "no more",
         Activity::Done => "done",
     }
 }

@@ -76,6 +76,14 @@ pub fn press(window: &mut Window, name: &str) {
     window.run_steps(3);
 }
 
+/// Chooses from the list of this name.
+pub fn choose(window: &mut Window, list: &str, name: &str) {
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::ComboBox, list).click();
+    window.run_steps(3);
+    press(window, name);
+}
+
 /// Presses a key.
 pub fn key(window: &mut Window, key: Key) {
     window.key_press(key);

@@ -9,3 +9,4 @@ mod remembering;
 mod run;
 mod saving;
 mod setup;
+mod sharing;

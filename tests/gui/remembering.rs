@@ -77,6 +77,29 @@ fn a_scene_that_is_gone_makes_way_for_the_demonstration() {
 }
 
 #[test]
+fn what_an_earlier_version_wrote_down_is_read() {
+    let written = "(settings: (size: (width: 320, height: 240), strategy: ring, part: 3, tempo: Lasts(7), latency: 9))";
+    let window = reopen(&Storage(Some(written.into())));
+    let settings = session(&window).settings();
+    assert_eq!((settings.part, settings.latency, settings.size.width()), (3, 9, 320));
+    assert_eq!((settings.handling, settings.bandwidth, settings.shared_wire), (0, 0, false));
+}
+
+#[test]
+fn how_atoms_are_shared_is_remembered() {
+    let mut window = open(SIZE);
+    key(&mut window, Key::E);
+    choose(&mut window, "Strategy", "Work stealing (rayon)");
+    let again = reopen(&write_down(&mut window));
+    assert_eq!(session(&again).settings(), session(&window).settings());
+    assert_ne!(*session(&again).settings(), anel::gui::Settings::default());
+    choose(&mut window, "Strategy", "Estimated bands");
+    press(&mut window, "Virtual");
+    let again = reopen(&write_down(&mut window));
+    assert_eq!(session(&again).settings(), session(&window).settings());
+}
+
+#[test]
 fn what_cannot_be_read_or_is_impossible_is_forgotten() {
     for damaged in ["", "}{", "(settings: 7)", "(settings: (speeds: []))", "(settings: (speeds: [7.0], atom: 0))"] {
         let window = reopen(&Storage(Some(damaged.into())));

@@ -96,11 +96,11 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x300");
     type_number(&mut window, "Samples", "2");
     until(&mut window, "samples", |window| session(window).header().samples == 2);
-    press(&mut window, "Serial");
+    choose(&mut window, "Strategy", "Serial");
     assert_eq!(session(&window).header().rules.strategy, Strategy::Serial);
     until(&mut window, "atoms of the first", |window| session(window).stage().state.nodes()[0].done > 10);
     assert_eq!(done(&window), session(&window).stage().state.nodes()[0].done);
-    press(&mut window, "Ring");
+    choose(&mut window, "Strategy", "Ring");
     assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
     window.get_by_label("Usual sizes").click();
     window.run_steps(3);

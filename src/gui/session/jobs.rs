@@ -11,10 +11,10 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::super::opening::Opening;
 use super::super::settings::Settings;
-use crate::driver::probe;
+use crate::driver::{RAY, probe};
 use crate::output::OutputError;
 use crate::picture::{Frame, Size, write_png};
-use crate::runlog::RunLog;
+use crate::runlog::{Driver, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Quality, Scratch, Tracer};
 
@@ -70,7 +70,9 @@ pub struct Prepared {
     /// Of the picture that it is compiled for.
     pub samples: u32,
     /// The estimated CPU time of the whole picture, traced by threads that rest after each atom.
-    pub work: Duration,
+    cpu: Duration,
+    /// The estimated time of the whole picture in virtual time.
+    virtual_time: Duration,
 }
 
 /// A recorded run.
@@ -86,6 +88,11 @@ impl Prepared {
     /// Whether it is compiled for the picture that is set.
     pub fn is_for(&self, settings: &Settings) -> bool {
         (self.size, self.samples) == (settings.size, settings.samples)
+    }
+
+    /// The estimated time of the whole picture on the reference machine at full pace.
+    pub fn work(&self, driver: Driver) -> Duration {
+        if driver == Driver::Sim { self.virtual_time } else { self.cpu }
     }
 }
 
@@ -131,8 +138,10 @@ impl Jobs {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
                     let tracer = tracer(&opened.scene, size, samples);
-                    let work = probe(&tracer, division, PROBE).whole_with_rests(&tracer, division);
-                    Ok(Ready::Scene(Prepared { opened, tracer, size, samples, work }))
+                    let found = probe(&tracer, division, PROBE);
+                    let cpu = found.whole_with_rests(&tracer, division);
+                    let virtual_time = RAY.mul_f64(found.rays as f64);
+                    Ok(Ready::Scene(Prepared { opened, tracer, size, samples, cpu, virtual_time }))
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size)?;

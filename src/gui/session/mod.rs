@@ -303,7 +303,8 @@ impl Session {
             self.write_log();
         }
         let opened = &prepared.opened;
-        let header = self.settings.header(&opened.name, &opened.text, prepared.work, cores());
+        let work = prepared.work(self.settings.driver);
+        let header = self.settings.header(&opened.name, &opened.text, work, cores());
         let run = Run::start(Arc::clone(&prepared.tracer), &header);
         self.set_stage(Performer::Live(run), header);
     }

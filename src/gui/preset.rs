@@ -1,0 +1,82 @@
+//! Speeds that are offered for all machines at once.
+
+/// Speeds for all machines at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// All as fast as the reference machine.
+    Equal,
+    /// The last one at a tenth.
+    OneSlow,
+    /// Anything from a tenth to full speed, by the seed.
+    Random,
+    /// What stood in a laboratory of about 1997.
+    Laboratory,
+}
+
+/// The machines of such a laboratory, by how fast they were. The first and the last are the article's (§9, Figures 6
+/// and 7: 580 s and 6,099 s for the same picture); those between are guessed from their clocks.
+const LABORATORY: [(&str, f64); 8] = [
+    ("Pentium 75", 1.0),
+    ("486 DX4 100", 0.62),
+    ("Pentium 75", 1.0),
+    ("486 DX2 66", 0.41),
+    ("HP 9000/710, busy as a file server", 580.0 / 6099.0),
+    ("Pentium 60", 0.8),
+    ("486 DX 33", 0.21),
+    ("Pentium 75", 1.0),
+];
+
+impl Preset {
+    /// All of them, in the order in which they are offered.
+    pub const ALL: [Self; 4] = [Self::Equal, Self::OneSlow, Self::Random, Self::Laboratory];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equal => "All equal",
+            Self::OneSlow => "One slow",
+            Self::Random => "Random",
+            Self::Laboratory => "Old laboratory",
+        }
+    }
+
+    /// What it does, in a sentence.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Equal => "Every machine at full speed",
+            Self::OneSlow => "One machine at 10 %, the others at full speed",
+            Self::Random => "Each machine anywhere from 10 to 100 %, by the seed",
+            Self::Laboratory => "Machines of a laboratory of 1997: Pentiums, 486s, and a busy HP 9000/710",
+        }
+    }
+
+    /// So many machines at these speeds; random ones are made from `seed`.
+    pub fn speeds(self, nodes: usize, seed: u32) -> Vec<f64> {
+        match self {
+            Self::Equal => vec![1.0; nodes],
+            Self::OneSlow => (0..nodes).map(|node| if node + 1 == nodes { 0.1 } else { 1.0 }).collect(),
+            Self::Random => {
+                let mut random = fastrand::Rng::with_seed(seed.into());
+                (0..nodes).map(|_| f64::from(random.u8(10..=100)) / 100.0).collect()
+            }
+            Self::Laboratory => LABORATORY.iter().cycle().take(nodes).map(|(_, speed)| *speed).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn presets_are_possible_and_repeatable() {
+        for preset in Preset::ALL {
+            for nodes in 1..=32 {
+                let speeds = preset.speeds(nodes, 1);
+                assert!(speeds.len() == nodes && speeds.iter().all(|speed| (0.0..=1.0).contains(speed)));
+                assert_eq!(speeds, preset.speeds(nodes, 1));
+                assert!(nodes < 3 || preset != Preset::Random || speeds != preset.speeds(nodes, 2));
+            }
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
+
+use super::sentences::{ESTIMATING, is_slow};
+use super::sharing::Sharing;
+use super::standing::{Machine, all_left, all_still, remedy, why};
+use super::state::RunState;
+use super::words::{atoms_words, fraction, names, node_name};
+use crate::balance::NodeId;
+
+/// How things stand.
+pub(super) fn without_ring(state: &RunState) -> String {
+    let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
+    let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
+    let machines = state.nodes().len();
+    let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
+    match (&*busy, &*still) {
+        _ if state.is_estimating => ESTIMATING.into(),
+        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines),
+        ([], []) if state.has_atoms_under_way() => "Atoms are on their way".into(),
+        ([], []) => "Waiting for the parent".into(),
+        ([], still) if still.len() == machines => all_still(still),
+        ([], still) => nobody_computes(still),
+        ([only], []) if machines == 1 => format!("The only machine computes: {} left", atoms_words(only.1.left())),
+        ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last),
+        (busy, still) => several(state, busy, still, &asking),
+    }
+}
+
+/// Nobody can get any more than they have.
+fn all_is_given_away(state: &RunState) -> bool {
+    !state.sharing.is_farm() || state.nodes().iter().any(|node| node.retired)
+}
+
+/// One machine has all atoms that are left.
+fn all_wait_for(state: &RunState, (node, last): Machine<'_>) -> String {
+    let (name, left) = (node_name(node), atoms_words(last.left()));
+    if state.sharing == Sharing::Stealing {
+        return format!("Only {name} still computes: {left} left");
+    }
+    if last.done + last.left() == state.atoms() {
+        return format!("{name} computes alone: {left} left; the others have nothing to do");
+    }
+    let name =
+        if is_slow(last) { format!("{name}, which is slow ({})", fraction(last.speed)) } else { name.to_string() };
+    format!("All wait for {name}: {left} left")
+}
+
+/// Some machines compute.
+fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking: &[NodeId]) -> String {
+    let (machines, what) =
+        (state.nodes().len(), if state.sharing == Sharing::Stealing { "threads" } else { "machines" });
+    let compute = match busy.len() {
+        all if all == machines => format!("All {machines} {what} compute"),
+        some => format!("{some} of {machines} {what} compute"),
+    };
+    if let [(node, machine), ..] = still {
+        let (who, is, they) = match still.len() {
+            1 => (node_name(*node).to_string(), why(machine), "its"),
+            _ => (names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>()), "stand still", "their"),
+        };
+        let left = atoms_words(all_left(still));
+        return match state.sharing {
+            Sharing::Stealing => format!("{compute}; {who} {is}: {they} {left} can be stolen"),
+            _ => format!("{compute}; {who} {is}, and nobody takes over {they} {left}"),
+        };
+    }
+    // Of equals the first is named.
+    let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
+    let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
+    let left = atoms_words(last.left());
+    match state.sharing {
+        Sharing::Stealing if busy.len() == machines => format!("{compute} their own atoms"),
+        Sharing::Stealing => format!("{compute}; {name} has most left"),
+        sharing if sharing.is_farm() => match asking {
+            [] if !all_is_given_away(state) => format!("{compute}; whoever is done asks the parent for more"),
+            [] => format!("{compute} their last atoms; the parent has no more"),
+            [one] => format!("{compute}; {} waits for the parent", node_name(*one)),
+            some => format!("{compute}; {} wait for the parent", names(some)),
+        },
+        _ if is_slow(last) => {
+            format!(
+                "{compute}; {name} is slow ({}) and has most left: {left}, which nobody takes over",
+                fraction(last.speed)
+            )
+        }
+        _ if busy.len() == machines => format!("{compute} their own bands, whatever these cost"),
+        _ => format!("{compute}; the others are done, and nobody shares with them"),
+    }
+}
+
+/// Nobody computes, and the atoms that are left are with machines that stand still.
+fn nobody_computes(still: &[Machine<'_>]) -> String {
+    let (left, remedy) = (atoms_words(all_left(still)), remedy(still));
+    match still {
+        [(node, machine)] => format!("All wait for {}, which {} with {left}: {remedy}", node_name(*node), why(machine)),
+        _ => format!("All wait for {} machines that stand still with {left}: {remedy}", still.len()),
+    }
+}
+
+/// Nobody has atoms, and some have asked for them.
+fn waiting_for_the_parent(asking: &[NodeId], machines: usize) -> String {
+    match asking {
+        _ if machines == 1 => "The only machine waits for the parent".into(),
+        all if all.len() == machines => format!("All {machines} machines wait for the parent"),
+        [one] => format!("{} waits for the parent", node_name(*one)),
+        some => format!("{} wait for the parent", names(some)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+    use crate::balance::{Message, Party, Strategy};
+    use crate::record::{Record, What};
+    use crate::runlog::{Driver, Header};
+    use crate::time::Time;
+
+    const STATIC: Sharing = Sharing::By(Strategy::Static);
+    const FARM: Sharing = Sharing::By(Strategy::Farm);
+
+    /// How things stand where machines have so many atoms left at these speeds, and some have asked or are not needed.
+    fn stands(sharing: Sharing, machines: &[(u32, f64)], asking: &[NodeId], retired: &[NodeId]) -> String {
+        let mut header = sample::header(&vec![1.0; machines.len()], 900);
+        match sharing {
+            Sharing::By(strategy) => header.rules.strategy = strategy,
+            Sharing::Stealing => header = Header { driver: Driver::WorkStealing, ..header },
+        }
+        let mut state = RunState::new(&header);
+        let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
+        let mut send = |id, from, to, message| {
+            apply(What::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO });
+            apply(What::Received { id, by: to });
+        };
+        for ((id, node), &(left, _)) in (0..).zip(0..).zip(machines) {
+            send(id, Party::Parent, Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
+        }
+        (90..).zip(asking).for_each(|(id, &node)| send(id, Party::Node(node), Party::Parent, Message::Request));
+        for (node, &(_, speed)) in (0..).zip(machines) {
+            apply(What::SpeedSet { node, speed });
+        }
+        retired.iter().for_each(|&node| apply(What::Retired { node }));
+        without_ring(&state)
+    }
+
+    #[test]
+    fn bands_stay_where_they_are() {
+        let stands = |machines: &[(u32, f64)]| stands(STATIC, machines, &[], &[]);
+        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 machines compute their own bands, whatever these cost");
+        assert_eq!(
+            stands(&[(0, 1.0), (9, 1.0), (64, 0.1)]),
+            "2 of 3 machines compute; 3 is slow (10 %) and has most left: 64 atoms, which nobody takes over"
+        );
+        assert_eq!(
+            stands(&[(0, 1.0), (9, 1.0), (9, 1.0)]),
+            "2 of 3 machines compute; the others are done, and nobody shares with them"
+        );
+        assert_eq!(stands(&[(0, 1.0), (64, 0.1)]), "All wait for 2, which is slow (10 %): 64 atoms left");
+        assert_eq!(stands(&[(0, 1.0), (64, 1.0)]), "All wait for 2: 64 atoms left");
+        assert_eq!(
+            stands(&[(0, 1.0), (64, 0.0)]),
+            "All wait for 2, which stands still at 0 % with 64 atoms: raise its speed"
+        );
+        assert_eq!(
+            stands(&[(9, 1.0), (64, 0.0)]),
+            "1 of 2 machines compute; 2 stands still at 0 %, and nobody takes over its 64 atoms"
+        );
+        assert!(stands(&[(9, 0.0), (9, 0.0)]).starts_with("All machines stand still at 0 %"));
+    }
+
+    #[test]
+    fn in_a_farm_all_depends_on_the_parent() {
+        let busy = [(5, 1.0), (5, 1.0), (5, 1.0)];
+        assert_eq!(stands(FARM, &busy, &[], &[]), "All 3 machines compute; whoever is done asks the parent for more");
+        let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &one, &[2], &[]), "2 of 3 machines compute; 3 waits for the parent");
+        assert_eq!(stands(FARM, &one, &[], &[2]), "2 of 3 machines compute their last atoms; the parent has no more");
+        let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &none, &[0, 1, 2], &[]), "All 3 machines wait for the parent");
+        assert_eq!(
+            stands(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1]),
+            "All wait for 3, which is slow (10 %): 7 atoms left"
+        );
+    }
+
+    #[test]
+    fn threads_steal_from_whoever_stands_still_too() {
+        let stands = |machines: &[(u32, f64)]| stands(Sharing::Stealing, machines, &[], &[]);
+        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
+        assert_eq!(stands(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
+        assert_eq!(
+            stands(&[(5, 1.0), (5, 0.0)]),
+            "1 of 2 threads compute; 2 stands still at 0 %: its 5 atoms can be stolen"
+        );
+    }
+}
