@@ -14,39 +14,32 @@ pub(super) struct Parts {
     /// Atoms in a part.
     part: u32,
     by_speed: bool,
-    /// By node: what it was given last, and when.
-    given: Vec<(Time, u32)>,
-    /// Of the quickest node so far, in atoms a second.
-    best: f64,
+    /// By node: the atoms of its last part, and those of all before.
+    given: Vec<(u32, u32)>,
 }
 
 impl Parts {
     /// All of so many `atoms`, in parts of `part` (0 counts as 1); *by speed* the parts of slower nodes are smaller.
     pub fn new(atoms: Atom, nodes: NodeId, part: u32, by_speed: bool) -> Self {
-        Self {
-            rest: 0..atoms,
-            part: part.max(1),
-            by_speed,
-            given: vec![(Time::ZERO, 0); usize::from(nodes)],
-            best: 0.0,
-        }
+        Self { rest: 0..atoms, part: part.max(1), by_speed, given: vec![(0, 0); usize::from(nodes)] }
     }
 
-    /// The next part for `node`, which asks for it at `now`; an empty one if there are no more.
+    /// The next part for `node`, which is done with its last; an empty one if there are no more.
     ///
-    /// *By speed*, what the node did with its last part tells how fast it is: a node that is half as fast as the
-    /// quickest gets parts half as large. The time of the messages counts as the node's.
-    pub fn next(&mut self, node: NodeId, now: Time) -> Range<Atom> {
-        let (since, atoms) = self.given[usize::from(node)];
+    /// *By speed*, what a node has traced tells how fast it is, as in the ring, since all began together: one that has
+    /// traced half as much as the first of them gets parts half as large.
+    pub fn next(&mut self, node: NodeId) -> Range<Atom> {
+        let first = self.given.iter().map(|(_, done)| *done).max().unwrap_or_default();
+        let (last, done) = &mut self.given[usize::from(node)];
+        *done += *last;
         let mut size = self.part;
-        if self.by_speed && atoms > 0 {
-            let rate = f64::from(atoms) / now.since(since).as_secs_f64().max(1e-9);
-            self.best = self.best.max(rate);
-            size = ((f64::from(self.part) * rate / self.best).round() as u32).max(1);
+        if self.by_speed && *done > 0 {
+            let share = f64::from(*done) / f64::from(first.max(*done));
+            size = ((f64::from(self.part) * share).round() as u32).max(1);
         }
         let end = self.rest.end.min(self.rest.start.saturating_add(size));
         let part = std::mem::replace(&mut self.rest.start, end)..end;
-        self.given[usize::from(node)] = (now, part.len() as u32);
+        *last = part.len() as u32;
         part
     }
 }

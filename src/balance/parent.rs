@@ -49,11 +49,11 @@ impl Parent {
         Self { sharing, division, nodes, placed: vec![false; missing as usize], missing }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    /// Answers `event` by appending to `actions`; the time does not matter to a parent.
     ///
     /// # Panics
     /// If the event is impossible: an atom that has been placed before, or a message that no node sends here.
-    pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
+    pub fn handle(&mut self, _now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
             Event::Started => {
                 let nodes = usize::from(self.nodes);
@@ -64,7 +64,7 @@ impl Parent {
                     }
                     Sharing::Bands => hand_out(self.division.bands(nodes), actions),
                     Sharing::Estimate => actions.push(Action::Estimate),
-                    Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node, now)), actions),
+                    Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
                 }
             }
             Event::Estimated(costs) => {
@@ -80,7 +80,7 @@ impl Parent {
                 let Sharing::Farm(parts) = &mut self.sharing else {
                     unreachable!("node {node} asks for atoms, and there is no farm");
                 };
-                let message = Message::Part(parts.next(node, now));
+                let message = Message::Part(parts.next(node));
                 actions.push(Action::Send { to: Party::Node(node), message });
             }
             other => unreachable!("a parent is never handed {other:?}"),
