@@ -193,6 +193,12 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
         (&["--out", "/dev/null"], "not a regular file"),
         (&["--log", "missing/run.log"], "does not exist"),
         (&["--sise", "1x1"], "--sise"),
+        (&["--strategy", "rayon", "--latency", "1"], "share their memory"),
+        (&["--strategy", "rayon", "--bandwidth", "1e6"], "share their memory"),
+        (&["--strategy", "rayon", "--handling", "1"], "share their memory"),
+        (&["--strategy", "rayon", "--shared-wire"], "share their memory"),
+        (&["--strategy", "rayon", "--driver", "pairs"], "threads of its own"),
+        (&["--strategy", "rayon", "--driver", "sim"], "threads of its own"),
     ];
     for (arguments, names) in cases {
         let mut all = vec!["render", "glass"];
@@ -295,8 +301,24 @@ fn a_disk_that_fills_leaves_no_half_file() {
 #[test]
 fn json_is_one_object_on_standard_output_and_nothing_else() {
     let directory = TempDir::new().expect("a temporary directory");
-    let arguments = ["render", "glass", "--out", "out.png", "--size", "64x48", "--speeds", "1,0.5", "--json"];
-    let output = anel(directory.path(), &arguments);
+    for rest in [&["--speeds", "1,0.5"][..], &["--strategy", "rayon", "--speeds", "1,0.5"]] {
+        let strategy = if rest.contains(&"rayon") { ("rayon", "rayon") } else { ("ring", "threads") };
+        let mut arguments = vec!["render", "glass", "--out", "out.png", "--size", "64x48", "--json"];
+        arguments.extend(rest);
+        let report = json(directory.path(), &arguments);
+        assert_eq!((&report["strategy"], &report["driver"]), (&strategy.0.into(), &strategy.1.into()));
+        assert_eq!((&report["nodes"], &report["rays"]["primary"]), (&2.into(), &(64 * 48).into()));
+        let by_node = report["atoms_by_node"].as_array().expect("a list");
+        assert_eq!(
+            by_node.iter().filter_map(serde_json::Value::as_u64).sum::<u64>(),
+            report["atoms"].as_u64().expect("a number")
+        );
+    }
+}
+
+/// The one object that the program prints, with all its fields.
+fn json(directory: &Path, arguments: &[&str]) -> serde_json::Value {
+    let output = anel(directory, arguments);
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).expect("text");
     assert_eq!(text.trim_end().lines().count(), 1);
@@ -313,10 +335,5 @@ fn json_is_one_object_on_standard_output_and_nothing_else() {
     for field in ["requests", "offers", "hops", "transfers", "atoms_moved", "bytes"] {
         assert!(report["messages"][field].is_u64(), "messages.{field}");
     }
-    assert_eq!((&report["nodes"], &report["rays"]["primary"]), (&2.into(), &(64 * 48).into()));
-    let by_node = report["atoms_by_node"].as_array().expect("a list");
-    assert_eq!(
-        by_node.iter().filter_map(serde_json::Value::as_u64).sum::<u64>(),
-        report["atoms"].as_u64().expect("a number")
-    );
+    report
 }

@@ -10,7 +10,7 @@ use anel::balance::{Message, NodeId, Party, Strategy};
 use anel::driver::{Replay, Run, Update};
 use anel::picture::{Colour, Size};
 use anel::record::{Record, What};
-use anel::runlog::{Header, Link, RunLog};
+use anel::runlog::{Driver, Header, Link, RunLog};
 use anel::time::Time;
 use anel::tracer::Scratch;
 
@@ -37,7 +37,8 @@ fn header(number: u32) -> Header {
     // Every third node stands still from the start.
     let speeds = (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect();
     let plain = Header::plain(size, [10, 50_000][number as usize % 2], Strategy::Ring, speeds);
-    Header { link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link }, ..plain }
+    let driver = [Driver::Threads, Driver::WorkStealing, Driver::Pairs][number as usize / 2 % 3];
+    Header { driver, link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link }, ..plain }
 }
 
 /// The whole picture would take three minutes.

@@ -19,6 +19,10 @@ use anel::tracer::Scratch;
 
 const MS: Duration = Duration::from_millis(1);
 
+/// Those that trace in real time, and what they call the threads that do.
+const REAL: [(Driver, &str); 3] =
+    [(Driver::Threads, "node "), (Driver::Pairs, "worker "), (Driver::WorkStealing, "node ")];
+
 /// Random numbers from a seed: SplitMix64.
 struct Random(u64);
 
@@ -106,12 +110,17 @@ fn nine_hundred_in_virtual_time() {
 fn one_hundred_on_threads() {
     with_seeds(0..100, |random| {
         let size = Size::new(1 + random.below(40) as u32, 1 + random.below(20) as u32).unwrap();
-        let speeds = (0..random.one_of(&[1, 2, 3, 5, 8, 20])).map(|_| random.speed()).collect();
+        let driver =
+            random.one_of(&[Driver::Threads, Driver::Threads, Driver::Sim, Driver::WorkStealing, Driver::Pairs]);
+        // Pairs are at full speed.
+        let throttled = driver != Driver::Pairs;
+        let speed = |random: &mut Random| if throttled { random.speed() } else { 1.0 };
+        let speeds = (0..random.one_of(&[1, 2, 3, 5, 8, 20])).map(|_| speed(random)).collect();
         let plain = Header::plain(size, random.one_of(&[1, 10, 50, 1000]), random.one_of(&Strategy::ALL), speeds);
         let header = Header {
-            driver: random.one_of(&[Driver::Threads, Driver::Threads, Driver::Sim]),
+            driver,
             rules: Rules { part: random.one_of(&[1, 3, plain.rules.part]), ..plain.rules },
-            pace: random.one_of(&[1.0, 0.5]),
+            pace: if throttled { random.one_of(&[1.0, 0.5]) } else { 1.0 },
             link: Link {
                 latency: random.one_of(&[0, 0, 1, 5]) * MS,
                 bandwidth: random.one_of(&[None, None, Some(1e7)]),
@@ -127,7 +136,7 @@ fn one_hundred_on_threads() {
         let mut set = vec![header.link.latency];
         for _ in 0..random.below(6) {
             std::thread::sleep(random.below(3) as u32 * MS);
-            run.set_speed(random.below(nodes) as NodeId, random.speed());
+            run.set_speed(random.below(nodes) as NodeId, speed(random));
             run.set_paused(random.below(nodes) as NodeId, random.below(2) == 0);
             set.push(random.below(5) as u32 * MS);
             run.set_latency(set[set.len() - 1]);
@@ -143,17 +152,19 @@ fn one_hundred_on_threads() {
 
 #[test]
 fn a_paused_run_stands_still_and_goes_on() {
-    let header = header(Size::new(100, 50).unwrap(), 10, vec![0.5, 1.0, 0.1]);
-    let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
-    std::thread::sleep(3 * MS);
-    run.pause();
-    let paused = run.now();
-    std::thread::sleep(60 * MS);
-    assert_eq!(run.now(), paused);
-    run.resume();
-    let log = finish(&run, &header);
-    // Nothing was dated more than a moment beyond the clock, neither before the pause nor after.
-    assert!(log.records().iter().all(|record| record.at <= run.now() + 2 * MS));
+    for (driver, _) in REAL {
+        let header = Header { driver, ..header(Size::new(100, 50).unwrap(), 10, vec![0.5, 1.0, 0.1]) };
+        let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
+        std::thread::sleep(3 * MS);
+        run.pause();
+        let paused = run.now();
+        std::thread::sleep(60 * MS);
+        assert_eq!(run.now(), paused);
+        run.resume();
+        let log = finish(&run, &header);
+        // Nothing was dated more than a moment beyond the clock, neither before the pause nor after.
+        assert!(log.records().iter().all(|record| record.at <= run.now() + 2 * MS));
+    }
 }
 
 #[test]
@@ -214,8 +225,9 @@ fn only_real_pauses_and_latencies_are_recorded() {
 #[test]
 fn dropping_a_run_ends_its_threads_in_the_middle_of_an_atom() {
     // One atom, the whole picture, would take a quarter of an hour.
-    let header = header(Size::new(10_000, 1000).unwrap(), u32::MAX, vec![1.0, 1.0]);
-    for paused in [false, true] {
+    let plain = header(Size::new(10_000, 1000).unwrap(), u32::MAX, vec![1.0, 1.0]);
+    for (driver, paused) in REAL.iter().flat_map(|(driver, _)| [(*driver, false), (*driver, true)]) {
+        let header = Header { driver, ..plain.clone() };
         let traced = Arc::new(AtomicU32::new(0));
         let count = traced.clone();
         let run = Run::start_with(
@@ -240,21 +252,23 @@ fn dropping_a_run_ends_its_threads_in_the_middle_of_an_atom() {
 
 #[test]
 fn a_panicking_worker_fails_the_run() {
-    let header = header(Size::new(100, 10).unwrap(), 10, vec![1.0, 0.3, 1.0]);
-    let run = Run::start_with(
-        |pixels, _, out| {
-            assert!(pixels.start < 500, "no way to trace pixel {}", pixels.start);
-            trace(pixels, out, |_| 10);
-        },
-        &header,
-    );
-    let last = run.updates().iter().find_map(|update| match update {
-        Update::Failed(why) => Some(why),
-        Update::Finished => panic!("the run finished without half of its pixels"),
-        _ => None,
-    });
-    let why = last.unwrap();
-    assert!(why.starts_with("node ") && why.contains(" failed: no way to trace pixel "), "{why}");
+    for (driver, name) in REAL {
+        let header = Header { driver, ..header(Size::new(100, 10).unwrap(), 10, vec![1.0, 0.3, 1.0]) };
+        let run = Run::start_with(
+            |pixels, _, out| {
+                assert!(pixels.start < 500, "no way to trace pixel {}", pixels.start);
+                trace(pixels, out, |_| 10);
+            },
+            &header,
+        );
+        let last = run.updates().iter().find_map(|update| match update {
+            Update::Failed(why) => Some(why),
+            Update::Finished => panic!("the run finished without half of its pixels"),
+            _ => None,
+        });
+        let why = last.unwrap();
+        assert!(why.starts_with(name) && why.contains(" failed: no way to trace pixel "), "{why}");
+    }
 }
 
 /// Adds colours that cost about `steps(pixel)` times 10 ns each.

@@ -10,7 +10,7 @@ use anel::balance::{Message, Party, Strategy};
 use anel::driver::{Replay, Run, Update};
 use anel::picture::{Atom, Colour, Division, Frame, Size};
 use anel::record::{Record, What};
-use anel::runlog::{Header, Link, RunLog};
+use anel::runlog::{Driver, Header, Link, RunLog};
 use anel::scene::{Scene, built_in};
 use anel::time::Time;
 use anel::tracer::{Quality, Scratch, Tracer};
@@ -135,16 +135,18 @@ fn bits(frame: &Frame) -> Vec<[u32; 3]> {
 
 #[test]
 fn the_same_records_and_the_same_pixels() {
-    let header = header(&[0.4, 0.2, 0.05]);
-    let tracer = tracer(&header);
-    let run = recorded(&tracer, &header);
-    let replay = Replay::start(tracer, Arc::new(run.log.clone()));
-    let mut told = Told::new(&header);
-    told.take_all(&replay);
-    assert_eq!(told.end, Some(Ok(())));
-    assert_eq!(told.log, run.log);
-    assert!(told.placed.iter().all(|&placed| placed == 1));
-    assert_eq!(bits(&told.frame), bits(&run.frame));
+    for driver in [Driver::Threads, Driver::WorkStealing, Driver::Pairs] {
+        let header = Header { driver, ..header(&[0.4, 0.2, 0.05]) };
+        let tracer = tracer(&header);
+        let run = recorded(&tracer, &header);
+        let replay = Replay::start(tracer, Arc::new(run.log.clone()));
+        let mut told = Told::new(&header);
+        told.take_all(&replay);
+        assert_eq!(told.end, Some(Ok(())));
+        assert_eq!(told.log, run.log);
+        assert!(told.placed.iter().all(|&placed| placed == 1));
+        assert_eq!(bits(&told.frame), bits(&run.frame));
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anel::balance::Strategy;
 use anel::driver::{Run, Update};
 use anel::picture::{Colour, Frame, Size};
-use anel::runlog::Header;
+use anel::runlog::{Driver, Header};
 use anel::scene::{Scene, built_in};
 use anel::tracer::{Quality, Scratch, Tracer};
 
@@ -13,20 +13,39 @@ const ATOMS: [u32; 4] = [1, 50, 333, 5000];
 
 #[test]
 fn the_ring_of_equal_machines() {
-    compare(Strategy::Ring, |_| 1.0);
+    compare(Driver::Threads, Strategy::Ring, |_| 1.0);
 }
 
 #[test]
 fn the_ring_of_wildly_different_machines() {
-    compare(Strategy::Ring, |node| [0.3, 1.0, 0.02, 0.7, 0.1][node % 5]);
+    compare(Driver::Threads, Strategy::Ring, wildly_different);
 }
 
 #[test]
 fn one_node_that_traces_all() {
-    compare(Strategy::Serial, |_| 1.0);
+    compare(Driver::Threads, Strategy::Serial, |_| 1.0);
 }
 
-fn compare(strategy: Strategy, speed: fn(usize) -> f64) {
+#[test]
+fn two_threads_a_node() {
+    compare(Driver::Pairs, Strategy::Ring, |_| 1.0);
+}
+
+#[test]
+fn work_stealing_of_equal_machines() {
+    compare(Driver::WorkStealing, Strategy::Ring, |_| 1.0);
+}
+
+#[test]
+fn work_stealing_of_wildly_different_machines() {
+    compare(Driver::WorkStealing, Strategy::Ring, wildly_different);
+}
+
+fn wildly_different(node: usize) -> f64 {
+    [0.3, 1.0, 0.02, 0.7, 0.1][node % 5]
+}
+
+fn compare(driver: Driver, strategy: Strategy, speed: fn(usize) -> f64) {
     let size = Size::new(40, 25).unwrap();
     let scene = Scene::parse(built_in("ten-objects").unwrap()).unwrap();
     let tracer = Arc::new(Tracer::new(&scene, size, Quality::default()));
@@ -36,7 +55,7 @@ fn compare(strategy: Strategy, speed: fn(usize) -> f64) {
     }
     for nodes in [1, 2, 3, 4, 7, 8, 16, 32] {
         for atom_pixels in ATOMS {
-            let header = header(strategy, size, atom_pixels, (0..nodes).map(speed).collect());
+            let header = header(driver, strategy, size, atom_pixels, (0..nodes).map(speed).collect());
             let frame = picture(&tracer, &header);
             assert!(bits(frame.pixels()).eq(bits(&plain)), "{nodes} nodes, atoms of {atom_pixels}");
         }
@@ -66,6 +85,6 @@ fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
     panic!("the run ended without saying so");
 }
 
-fn header(strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
-    Header { scene: "ten-objects".into(), ..Header::plain(size, atom_pixels, strategy, speeds) }
+fn header(driver: Driver, strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {
+    Header { scene: "ten-objects".into(), driver, ..Header::plain(size, atom_pixels, strategy, speeds) }
 }

@@ -56,6 +56,14 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
             ));
         }
     };
+    let travels = !args.latency.is_zero() || args.bandwidth.is_some() || args.shared_wire || !args.handling.is_zero();
+    if driver == Driver::WorkStealing && travels {
+        return Err(
+            "nothing travels between rayon's threads, which share their memory; leave out --latency, --bandwidth, \
+                    --shared-wire and --handling"
+                .into(),
+        );
+    }
     if args.costs.is_some() && driver != Driver::Sim {
         return Err("measured costs are for runs in virtual time; add --driver sim".into());
     }

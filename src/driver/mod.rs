@@ -8,6 +8,9 @@
 //! would have done it, and what comes of it is due accordingly. Machines at full speed are not emulated: their times
 //! are the clock's.
 //!
+//! Two kinds of runs are there to be compared with this one: that with two threads a node, as the article has it, and
+//! that in which rayon shares the atoms by work stealing. Their workers, their parent and their ports are the same.
+//!
 //! A replay has no parties: one thread tells the records in their time, and as many as the computer has cores trace the
 //! pixels again.
 
@@ -16,16 +19,20 @@ mod jobs;
 mod meter;
 mod node_thread;
 mod pace;
+mod pair_threads;
 mod parent_thread;
 mod port;
 mod probe;
 mod replay;
 mod run;
+mod setting;
 mod shared;
 mod sim_thread;
+mod stealing;
 mod supervisor;
 mod teller;
 mod whole;
+mod worker;
 
 pub use pace::{auto_pace, cores};
 pub use probe::{Probe, probe};

@@ -2,6 +2,7 @@
 
 use std::mem;
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::meter::Meter;
@@ -16,10 +17,10 @@ use crate::sim::Machine;
 use crate::tracer::Scratch;
 
 /// What the parent's thread holds.
-pub(super) struct ParentThread<'run> {
+pub(super) struct ParentThread {
     parent: Parent,
-    port: Port<'run>,
-    trace: &'run TracePixels,
+    port: Port,
+    trace: Arc<TracePixels>,
     division: Division,
     /// Traces for an estimate, as fast as the reference machine.
     machine: Machine,
@@ -47,9 +48,9 @@ impl Placed {
     }
 }
 
-impl<'run> ParentThread<'run> {
+impl ParentThread {
     /// The parent of the run that `header` describes.
-    pub fn new(header: &Header, port: Port<'run>, trace: &'run TracePixels) -> Self {
+    pub fn new(header: &Header, port: Port, trace: Arc<TracePixels>) -> Self {
         let parent = Parent::new(&header.rules, header.division, header.speeds.len() as NodeId);
         let machine = Machine::new(1.0, header.pace);
         let (division, placed) = (header.division, Placed::default());
@@ -82,6 +83,7 @@ impl<'run> ParentThread<'run> {
                     self.port.record(What::LatencySet { latency });
                 }
                 Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
+                Some(Incoming::Order(_)) => unreachable!("the parent is no worker"),
                 None => self.port.wait(None),
             }
         }
@@ -133,7 +135,7 @@ impl<'run> ParentThread<'run> {
     }
 }
 
-fn flush(port: &mut Port<'_>, placed: &mut Placed) {
+fn flush(port: &mut Port, placed: &mut Placed) {
     if !placed.atoms.is_empty() {
         let Placed { atoms, pixels } = mem::take(placed);
         port.update(Update::Placed { atoms, pixels });

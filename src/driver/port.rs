@@ -2,12 +2,13 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
-use super::shared::{Content, Parcel, Shared};
+use super::shared::{Content, Order, Parcel, Shared};
 use crate::balance::{Event, Message, Party};
 use crate::picture::Colour;
 use crate::record::{Record, What};
@@ -19,21 +20,26 @@ use crate::time::Time;
 /// How long records (and placed pixels) wait at most before they leave their thread.
 pub(super) const FLUSH: Duration = Duration::from_millis(15);
 
+/// What a message that goes no way takes: every cause lies before its effects.
+const LEAST: Duration = Duration::from_nanos(1);
+
 /// The run was stopped from outside, or another party's thread has panicked.
 #[derive(Debug)]
 pub(super) struct Stopped;
 
 /// What happens to a party next.
 pub(super) enum Incoming {
-    /// To be handed to the protocol, with the pixels of results.
+    /// To be handed to the protocol, with the pixels of results or of the traced atom.
     Event(Event, Vec<Colour>),
     /// What the user does to its machine.
     Command(Command),
+    /// Something for a worker that has a thread of its own.
+    Order(Order),
 }
 
 /// One party's port; it lives on the party's thread.
-pub(super) struct Port<'run> {
-    pub shared: &'run Shared,
+pub(super) struct Port {
+    pub shared: Arc<Shared>,
     me: Party,
     inbox: Receiver<Parcel>,
     /// What has come but is not due yet, the earliest on top.
@@ -50,17 +56,17 @@ pub(super) struct Port<'run> {
     flushed: Time,
 }
 
-impl<'run> Port<'run> {
+impl Port {
     /// The port of `me`, whose messages come out of `inbox`.
     pub fn new(
         me: Party,
         header: &Header,
-        shared: &'run Shared,
+        shared: &Arc<Shared>,
         inbox: Receiver<Parcel>,
         updates: Sender<Update>,
     ) -> Self {
         Self {
-            shared,
+            shared: Arc::clone(shared),
             me,
             inbox,
             held: BinaryHeap::new(),
@@ -99,13 +105,20 @@ impl<'run> Port<'run> {
 
     /// Sends a message at the party's time, with the pixels of the atoms in it.
     pub fn send(&mut self, to: Party, message: Message, pixels: Vec<Colour>) {
-        let shared = self.shared;
-        let bytes = message.bytes(shared.division, shared.scene_bytes);
-        let receiver = shared.index(to);
-        let arrives = shared.arrival(&mut self.links[receiver], self.time, bytes);
+        let bytes = self.shared.bytes(&message);
+        let receiver = self.shared.index(to);
+        let arrives = self.shared.arrival(&mut self.links[receiver], self.time, bytes);
         let content = Content::Message { from: self.me, message: message.clone(), pixels };
-        let id = shared.deliver(receiver, arrives, content);
+        let id = self.shared.deliver(receiver, arrives, content);
         self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
+    }
+
+    /// Notes down a message that went no way, since the party has itself taken from `from` what it says.
+    pub fn take(&mut self, from: Party, message: Message) {
+        let (id, bytes, arrives) = (self.shared.new_id(), self.shared.bytes(&message), self.time + LEAST);
+        self.record(What::Sent { id, from, to: self.me, message, bytes, arrives });
+        self.advance(arrives);
+        self.record(What::Received { id, by: self.me });
     }
 
     /// Makes [`Port::next`] return [`Event::Timer`] at `at`; a later call replaces an earlier one.
@@ -132,7 +145,9 @@ impl<'run> Port<'run> {
                 self.record(What::Received { id, by: self.me });
                 Some(Incoming::Event(Event::Message { from, message }, pixels))
             }
+            Content::Traced { atom, cost, pixels } => Some(Incoming::Event(Event::AtomDone { atom, cost }, pixels)),
             Content::Command(command) => Some(Incoming::Command(command)),
+            Content::Order(order) => Some(Incoming::Order(order)),
             Content::Wake => None,
         }
     }
@@ -140,16 +155,15 @@ impl<'run> Port<'run> {
     /// To be called before every step: blocks while the run is paused, flushes when it is time, and fails if the run
     /// was stopped. Returns the clock's time.
     pub fn step(&mut self, flush: impl FnOnce(&mut Self)) -> Result<Time, Stopped> {
-        let clock = &self.shared.clock;
-        let paused = clock.is_paused();
-        let mut now = clock.now();
+        let paused = self.shared.clock.is_paused();
+        let mut now = self.shared.clock.now();
         if paused || now.since(self.flushed) >= FLUSH {
             self.flushed = now;
             flush(self);
         }
         if paused {
-            clock.wait_until_resumed();
-            now = clock.now();
+            self.shared.clock.wait_until_resumed();
+            now = self.shared.clock.now();
         }
         if self.shared.is_stopped() { Err(Stopped) } else { Ok(now) }
     }
@@ -216,8 +230,10 @@ mod tests {
     fn results(header: &Header, horizons: &[u32]) -> Vec<Option<(Party, u64)>> {
         let (shared, mut inboxes) = Shared::new(header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut port = |me| Port::new(me, header, &shared, inboxes.pop().unwrap(), updates.clone());
-        let (mut parent, mut second, mut first) = (port(Party::Parent), port(Party::Node(1)), port(Party::Node(0)));
+        let port = |me, inbox| Port::new(me, header, &shared, inbox, updates.clone());
+        let mut parent = port(Party::Parent, inboxes.parent);
+        let mut second = port(Party::Node(1), inboxes.nodes.remove(1));
+        let mut first = port(Party::Node(0), inboxes.nodes.remove(0));
         for (port, at) in [(&mut first, 4), (&mut second, 3)] {
             port.advance(Time::ZERO + at * MS);
             port.send(Party::Parent, Message::Results(Vec::new()), Vec::new());
@@ -246,9 +262,9 @@ mod tests {
     #[test]
     fn a_command_takes_no_handling_time() {
         let header = header(5 * MS, Duration::ZERO);
-        let (shared, mut inboxes) = Shared::new(&header);
+        let (shared, inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut parent = Port::new(Party::Parent, &header, &shared, inboxes.pop().unwrap(), updates);
+        let mut parent = Port::new(Party::Parent, &header, &shared, inboxes.parent, updates);
         // The clock stands still, so that the command is due then.
         shared.clock.pause();
         shared.command(Command::Latency(MS));
@@ -264,7 +280,7 @@ mod tests {
         let header = header(Duration::ZERO, Duration::ZERO);
         let (shared, mut inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.remove(0), updates);
+        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
         port.set_timer(Time::ZERO + MS);
         port.set_timer(Time::ZERO + 3 * MS);
         assert!(port.next(Time::ZERO + 2 * MS).is_none());
@@ -278,7 +294,7 @@ mod tests {
         let header = header(Duration::ZERO, Duration::ZERO);
         let (shared, mut inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.remove(0), updates);
+        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
         shared.stop();
         // It takes what was sent to wake it out of the inbox, and nothing else would.
         assert!(port.next(Time::ZERO).is_none());

@@ -8,10 +8,10 @@ use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
 use super::jobs::plan;
-use super::node_thread::PIECE;
 use super::pace::cores;
 use super::supervisor::{Supervisor, Threads};
 use super::teller::{Note, Teller};
+use super::worker::PIECE;
 use super::{TracePixels, Update};
 use crate::picture::Colour;
 use crate::runlog::RunLog;

@@ -7,14 +7,12 @@ use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
-use super::node_thread::NodeThread;
-use super::parent_thread::ParentThread;
-use super::port::Port;
-use super::shared::{Parcel, Shared};
-use super::sim_thread;
+use super::setting::Setting;
+use super::shared::{Inboxes, Shared};
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};
-use crate::balance::{NodeId, Party};
+use super::{node_thread, pair_threads, sim_thread, stealing};
+use crate::balance::NodeId;
 use crate::picture::Colour;
 use crate::runlog::{Driver, Header};
 use crate::scenario::Command;
@@ -60,9 +58,12 @@ impl Run {
                 Self { control: Control::Sim(shared), supervisor: Supervisor::start("run", play) }
             }
             Driver::Threads | Driver::Pairs | Driver::WorkStealing => {
-                let (shared, inboxes) = Shared::new(header);
-                let (shared, its) = twice(shared);
-                let supervise = move |updates: &Sender<Update>| supervise(&its_header, &its, inboxes, &trace, updates);
+                let header = if header.driver == Driver::WorkStealing { stealing::header(header) } else { its_header };
+                let (shared, inboxes) = Shared::new(&header);
+                let (its, trace): (_, Arc<TracePixels>) = (Arc::clone(&shared), Arc::new(trace));
+                let supervise = move |updates: &Sender<Update>| {
+                    supervise(Setting { header: &header, shared: &its, trace: &trace, updates }, inboxes)
+                };
                 Self { control: Control::Parties(shared), supervisor: Supervisor::start("run", supervise) }
             }
         }
@@ -155,31 +156,17 @@ fn twice<T>(thing: T) -> (Arc<T>, Arc<T>) {
 }
 
 /// Runs all parties on threads of their own until all have ended.
-fn supervise(
-    header: &Header,
-    shared: &Shared,
-    inboxes: Vec<Receiver<Parcel>>,
-    trace: &TracePixels,
-    updates: &Sender<Update>,
-) -> Result<(), String> {
-    let nodes = header.speeds.len();
+fn supervise(setting: Setting<'_>, inboxes: Inboxes) -> Result<(), String> {
     thread::scope(|scope| {
-        let mut threads = Threads::new(scope, || shared.stop());
-        for (index, inbox) in inboxes.into_iter().enumerate() {
-            // Made on the party's own thread.
-            let port = |me| Port::new(me, header, shared, inbox, updates.clone());
-            // The parent's inbox is the last, and so the nodes are there before it starts them.
-            if index < nodes {
-                let id = index as NodeId;
-                let node = move || NodeThread::new(id, header, port(Party::Node(id)), trace).run();
-                threads.start(&format!("node {index}"), node);
-            } else {
-                threads.start("parent", move || ParentThread::new(header, port(Party::Parent), trace).run());
-            }
+        let mut threads = Threads::new(scope, || setting.shared.stop());
+        match setting.header.driver {
+            Driver::Pairs => pair_threads::start(setting, inboxes, &mut threads),
+            Driver::WorkStealing => stealing::run(setting, inboxes, &mut threads),
+            Driver::Threads | Driver::Sim => node_thread::start(setting, inboxes, &mut threads),
         }
         threads.join()
     })?;
-    if shared.is_stopped() { Err("the run was stopped".into()) } else { Ok(()) }
+    if setting.shared.is_stopped() { Err("the run was stopped".into()) } else { Ok(()) }
 }
 
 #[cfg(test)]

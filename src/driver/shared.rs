@@ -2,15 +2,15 @@
 
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicU64};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use crate::balance::{Message, Party};
-use crate::picture::{Colour, Division};
-use crate::runlog::Header;
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::{Atom, Colour, Division};
+use crate::runlog::{Driver, Header};
 use crate::scenario::Command;
 use crate::sim::{Link, Wire};
 use crate::time::Time;
@@ -18,9 +18,12 @@ use crate::time::Time;
 /// What all parties of a run share.
 pub(super) struct Shared {
     pub clock: Clock,
-    /// By node, and the parent's last.
+    /// By node, the parent's, and by node those of the workers that have threads of their own.
     inboxes: Vec<Sender<Parcel>>,
+    nodes: usize,
     next_id: AtomicU64,
+    /// Whether messages travel at all: rayon's threads share their memory.
+    travels: bool,
     /// Of every link, in nanoseconds.
     latency: AtomicU64,
     bandwidth: Option<f64>,
@@ -45,40 +48,82 @@ pub(super) enum Content {
         /// Of the atoms of [`Message::Results`], in their order.
         pixels: Vec<Colour>,
     },
+    /// From a worker with a thread of its own to its node.
+    Traced {
+        atom: Atom,
+        cost: Duration,
+        pixels: Vec<Colour>,
+    },
+    /// From a node to such a worker.
+    Order(Order),
     Command(Command),
     /// Nothing but a reason to look whether the run was stopped.
     Wake,
 }
 
+/// Where the parties' parcels come out.
+pub(super) struct Inboxes {
+    pub nodes: Vec<Receiver<Parcel>>,
+    pub parent: Receiver<Parcel>,
+    /// By node, but only where workers have threads of their own ([`Driver::Pairs`]).
+    pub workers: Vec<Receiver<Parcel>>,
+}
+
+/// What a worker with a thread of its own is told through its pipe.
+pub(super) enum Order {
+    Trace(Atom),
+    /// There is nothing more to do.
+    End,
+}
+
 impl Shared {
-    /// What the parties share, and their inboxes: by node, and the parent's last.
-    pub fn new(header: &Header) -> (Self, Vec<Receiver<Parcel>>) {
+    /// What the parties share, and their inboxes.
+    pub fn new(header: &Header) -> (Arc<Self>, Inboxes) {
+        let nodes = header.speeds.len();
+        let workers = if header.driver == Driver::Pairs { nodes } else { 0 };
         // Unbounded, so that no party ever waits for another; `balance::ring` argues how little is in flight.
-        let (inboxes, receivers) = (0..=header.speeds.len()).map(|_| crossbeam_channel::unbounded()).unzip();
+        let (inboxes, receivers) = (0..=nodes + workers).map(|_| crossbeam_channel::unbounded()).unzip();
         let shared = Self {
             clock: Clock::start(),
             inboxes,
+            nodes,
             next_id: AtomicU64::new(0),
+            travels: header.driver != Driver::WorkStealing,
             latency: AtomicU64::new(nanoseconds(header.link.latency)),
             bandwidth: header.link.bandwidth,
             wire: header.link.shared.then(Mutex::default),
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,
         };
-        (shared, receivers)
+        let mut receivers: Vec<_> = receivers;
+        let workers = receivers.split_off(nodes + 1);
+        // There is one more than there are nodes.
+        let parent = receivers.remove(nodes);
+        (Arc::new(shared), Inboxes { nodes: receivers, parent, workers })
     }
 
     /// How many parties there are.
     pub fn parties(&self) -> usize {
-        self.inboxes.len()
+        self.nodes + 1
     }
 
     /// The place of a party among all: by node, and the parent last.
     pub fn index(&self, party: Party) -> usize {
         match party {
             Party::Node(node) => usize::from(node),
-            Party::Parent => self.inboxes.len() - 1,
+            Party::Parent => self.nodes,
         }
+    }
+
+    /// The place of the inbox of a node's worker: the node's own, unless the worker has a thread of its own.
+    pub fn worker(&self, node: NodeId) -> usize {
+        let own = self.inboxes.len() > self.parties();
+        usize::from(node) + if own { self.parties() } else { 0 }
+    }
+
+    /// What a message weighs.
+    pub fn bytes(&self, message: &Message) -> u64 {
+        message.bytes(self.division, self.scene_bytes)
     }
 
     /// When a message of `bytes` arrives that leaves by `link` at `at`.
@@ -89,14 +134,14 @@ impl Shared {
         link.arrival(at, bytes, latency, self.bandwidth, wire.as_deref_mut())
     }
 
-    /// Gives a command now: a node's to the node (one that has ended, or never was, does not mind), and a change of the
+    /// Gives a command now: a node's to its worker (one that has ended, or never was, does not mind), and a change of the
     /// latency to the parent, to be noted down.
     pub fn command(&self, command: Command) {
         match command {
             Command::Latency(latency) => self.set_latency(latency),
             Command::Speed { node, .. } | Command::Pause { node, .. } => {
-                if usize::from(node) + 1 < self.inboxes.len() {
-                    self.deliver(usize::from(node), self.clock.now(), Content::Command(command));
+                if usize::from(node) < self.nodes {
+                    self.deliver(self.worker(node), self.clock.now(), Content::Command(command));
                 }
             }
         }
@@ -105,15 +150,20 @@ impl Shared {
     /// Sets the latency of every link for the messages that leave from now on, and tells the parent of a change.
     fn set_latency(&self, latency: Duration) {
         let nanoseconds = nanoseconds(latency);
-        if self.latency.swap(nanoseconds, atomic::Ordering::Relaxed) != nanoseconds {
+        if self.travels && self.latency.swap(nanoseconds, atomic::Ordering::Relaxed) != nanoseconds {
             let command = Content::Command(Command::Latency(latency));
             self.deliver(self.index(Party::Parent), self.clock.now(), command);
         }
     }
 
+    /// The next thing's id.
+    pub fn new_id(&self) -> u64 {
+        self.next_id.fetch_add(1, atomic::Ordering::Relaxed)
+    }
+
     /// Puts something into the inbox of the party with this index; returns the id that it was given.
     pub fn deliver(&self, to: usize, due: Time, content: Content) -> u64 {
-        let id = self.next_id.fetch_add(1, atomic::Ordering::Relaxed);
+        let id = self.new_id();
         // A party that has ended no longer listens: what still comes its way is void.
         let _ = self.inboxes[to].send(Parcel { due, id, content });
         id

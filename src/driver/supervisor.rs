@@ -65,10 +65,10 @@ impl<'scope, 'env, Stop: Fn() + Copy + Send + 'scope> Threads<'scope, 'env, Stop
         Self { scope, stop, running: Vec::new(), outcome: Ok(()) }
     }
 
-    /// Starts `work` on a thread of this name, unless an earlier one could not be started.
-    pub fn start(&mut self, name: &str, work: impl FnOnce() + Send + 'scope) {
+    /// Starts `work` on a thread of this name, unless an earlier one could not be started. Returns whether all could.
+    pub fn start(&mut self, name: &str, work: impl FnOnce() + Send + 'scope) -> bool {
         if self.outcome.is_err() {
-            return;
+            return false;
         }
         let guard = StopOnPanic(self.stop);
         let guarded = move || {
@@ -82,6 +82,7 @@ impl<'scope, 'env, Stop: Fn() + Copy + Send + 'scope> Threads<'scope, 'env, Stop
                 self.outcome = Err(format!("the thread of {name} could not be started: {error}"));
             }
         }
+        self.outcome.is_ok()
     }
 
     /// Blocks until all have ended.

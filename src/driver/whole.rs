@@ -7,9 +7,9 @@ use std::thread;
 use std::time::Duration;
 
 use super::TracePixels;
-use super::node_thread::PIECE;
 use super::pace::cores;
 use super::supervisor::Threads;
+use super::worker::PIECE;
 use crate::picture::{Atom, Colour, Division};
 use crate::tracer::{RayCounts, Scratch, Tracer};
 

@@ -47,7 +47,8 @@ pub enum Driver {
     Pairs,
     /// Virtual time.
     Sim,
-    /// Real time: rayon's work stealing over the atoms, a thread for each node; no strategy of ours.
+    /// Real time: rayon's work stealing over the atoms, a thread for each node; no strategy of ours. The threads share
+    /// their memory: nothing travels, so that [`Header::link`] and [`Header::handling`] do not apply.
     WorkStealing,
 }
 

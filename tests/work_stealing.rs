@@ -1,0 +1,147 @@
+//! Rayon's work stealing as a run like others: emulated machines, and records from which everything can be seen.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::time::Duration;
+
+use anel::balance::{Message, NodeId, Party, Strategy};
+use anel::driver::{Run, Update};
+use anel::picture::{Atom, Colour, Size};
+use anel::record::What;
+use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::time::Time;
+use anel::tracer::Scratch;
+
+const MS: Duration = Duration::from_millis(1);
+
+/// 500 atoms of 10 pixels.
+fn header(speeds: &[f64], pace: f64) -> Header {
+    let plain = Header::plain(Size::new(100, 50).unwrap(), 10, Strategy::Ring, speeds.to_vec());
+    // What does not apply to it must do nothing.
+    let link = Link { latency: 3_600_000 * MS, bandwidth: Some(1.0), shared: true };
+    Header { driver: Driver::WorkStealing, pace, link, handling: 1000 * MS, ..plain }
+}
+
+/// A pixel costs some microseconds.
+fn trace(pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>) {
+    for pixel in pixels {
+        let x = (0..500).fold(pixel as f32, |x, _| (x + 1.3).sin());
+        out.push([x, pixel as f32, 0.0]);
+    }
+}
+
+/// All that the run tells; it must finish.
+fn log_of(run: &Run, header: &Header) -> RunLog {
+    let mut log = RunLog::new(header.clone());
+    for update in run.updates() {
+        match update {
+            Update::Records(records) => log.add(records),
+            Update::Finished => return log,
+            Update::Failed(why) => panic!("{why}"),
+            Update::Placed { .. } | Update::Rays(_) => {}
+        }
+    }
+    panic!("the run ended without saying so");
+}
+
+#[test]
+fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
+    let header = header(&[0.5, 0.1, 1.0], 0.5);
+    let log = log_of(&Run::start_with(trace, &header), &header);
+    let mut started = [Time::ZERO; 3];
+    for record in log.records() {
+        match record.what {
+            What::AtomStarted { node, .. } => {
+                assert!(record.at >= started[usize::from(node)]);
+                started[usize::from(node)] = record.at;
+            }
+            What::AtomDone { node, cost, .. } => {
+                let rate = header.speeds[usize::from(node)] * header.pace;
+                let took = record.at.since(started[usize::from(node)]);
+                assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
+            }
+            _ => {}
+        }
+    }
+    let by_node = Tally::of(&log).atoms_by_node();
+    assert!(by_node.is_sorted_by_key(|&atoms| atoms) || by_node[2] > by_node[1], "the fast one did most: {by_node:?}");
+}
+
+/// Every cause lies before its effects: an atom is begun by the node that has it, which is the one that stole it last.
+#[test]
+fn the_records_tell_whose_each_atom_is() {
+    for pace in [1.0, 0.3] {
+        let header = header(&[1.0, 1.0, 1.0, 1.0], pace);
+        let log = log_of(&Run::start_with(trace, &header), &header);
+        let mut owner: Vec<Option<NodeId>> = vec![None; header.division.atoms() as usize];
+        let (mut on_their_way, mut ids) = (BTreeMap::new(), BTreeSet::new());
+        let (mut bands, mut shutdowns) = (0, 0);
+        for record in log.records() {
+            match &record.what {
+                What::Sent { id, from, to, message, arrives, .. } => {
+                    assert!(ids.insert(*id) && *arrives > record.at);
+                    on_their_way.insert(*id, (*from, *to, message.clone(), *arrives));
+                }
+                What::Received { id, by } => {
+                    let (from, to, message, arrives) = on_their_way.remove(id).expect("it was sent");
+                    assert!(to == *by && arrives <= record.at);
+                    match (from, to, message) {
+                        (Party::Parent, Party::Node(node), Message::Band(atoms)) => {
+                            bands += 1;
+                            set(&mut owner, atoms, None, node);
+                        }
+                        (Party::Node(from), Party::Node(to), Message::Transfer(ranges)) => {
+                            ranges.into_iter().for_each(|atoms| set(&mut owner, atoms, Some(from), to));
+                        }
+                        (Party::Parent, _, Message::Shutdown) => shutdowns += 1,
+                        (_, Party::Parent, Message::Results(_)) => {}
+                        other => panic!("{other:?}"),
+                    }
+                }
+                What::AtomStarted { node, atom } => assert_eq!(owner[*atom as usize], Some(*node)),
+                _ => {}
+            }
+        }
+        assert_eq!((bands, shutdowns, on_their_way.len()), (4, 4, 0));
+        assert!(Tally::of(&log).messages().transfers >= 3);
+    }
+}
+
+fn set(owner: &mut [Option<NodeId>], atoms: Range<Atom>, from: Option<NodeId>, to: NodeId) {
+    for owner in &mut owner[atoms.start as usize..atoms.end as usize] {
+        assert_eq!(*owner, from);
+        *owner = Some(to);
+    }
+}
+
+/// Two go on while one stands still, until there is nothing left to steal, and the picture shows all that they have done.
+#[test]
+fn a_machine_that_stands_still_does_so_in_its_atom() {
+    for speed in [1.0, 0.4] {
+        let header = header(&[speed, 1.0, 1.0], 1.0);
+        let run = Run::start_with(trace, &header);
+        run.set_paused(0, true);
+        let mut placed = 0;
+        // What the paused one holds is one atom at most, and it may not have sent what it did before.
+        while placed < header.division.atoms() * 9 / 10 {
+            match run.updates().recv_timeout(Duration::from_secs(60)).expect("the others go on") {
+                Update::Placed { atoms, .. } => placed += atoms.iter().map(|atoms| atoms.len() as u32).sum::<u32>(),
+                Update::Finished => return assert!(placed == header.division.atoms(), "it was done before"),
+                Update::Failed(why) => panic!("{why}"),
+                Update::Records(_) | Update::Rays(_) => {}
+            }
+        }
+        run.set_paused(0, false);
+        log_of(&run, &header);
+    }
+}
+
+#[test]
+fn a_saved_run_can_be_loaded() {
+    let header = header(&[1.0, 0.5], 1.0);
+    let log = log_of(&Run::start_with(trace, &header), &header);
+    let directory = tempfile::TempDir::new().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    log.save(&path).expect("it can be written");
+    assert_eq!(RunLog::load(&path).expect("it can be read"), log);
+}
