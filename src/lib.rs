@@ -28,8 +28,9 @@ pub mod tracer; // a scene compiled to what it needs, and the article's equation
 // Floor 5: machines and links as they are emulated.
 pub mod sim; // machines, links, and whole runs in virtual time
 
-// Floor 6: two ends that never name each other.
+// Floor 6: ends that never name each other.
 pub mod driver; // executes the protocol on threads, as emulated machines on links
+pub mod space; // the scene shared instead of the picture (§5): counted, not built
 pub mod view; // pure functions from records to what is drawn; no egui
 
 // Floor 7: what leaves the program.

@@ -3,6 +3,7 @@
 mod article;
 mod charts;
 mod claims;
+mod division;
 mod measure;
 mod report;
 mod rows;
@@ -24,7 +25,7 @@ use measure::{Measuring, pace};
 /// # Errors
 /// A sentence, if a run failed.
 pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
-    let mut progress = Progress::new(2 + Measuring::THREAD_STEPS + Measuring::COMPETING_STEPS, tell);
+    let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + Measuring::COMPETING_STEPS, tell);
     progress.next("what the picture costs");
     let size = Size::new(640, 480)?;
     let (samples, work) = long_enough(scene, size);
@@ -37,13 +38,15 @@ pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
     let handling = measuring.handling();
     measuring.threads(&mut progress)?;
     let competing = measuring.competing(&mut progress)?;
+    progress.next("rays that change hands");
+    let divisions = division::count(&bench.tracer);
     let rows = measuring.rows;
     let mut study = Study::new("paper");
     study.add_rows(&rows)?;
     for (name, marks) in charts::all(&rows, &handling) {
         study.add_chart(name, &marks);
     }
-    study.add_report(report::report(&bench, &rows, &handling, competing));
+    study.add_report(report::report(&bench, &rows, &handling, competing, &divisions));
     Ok(study)
 }
 
