@@ -111,11 +111,17 @@ impl Aabb {
     /// the very plane of a face may miss, so what must not be missed needs a box that is [`Aabb::padded`].
     #[inline(always)]
     pub fn entry(&self, ray: &Ray, from: f64, to: f64) -> Option<f64> {
+        self.stay(ray, from, to).map(|[near, _]| near)
+    }
+
+    /// As [`Aabb::entry`], and where it leaves; never more than `to`.
+    #[inline(always)]
+    pub fn stay(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
         let a = (self.min - ray.origin) * ray.inverse;
         let b = (self.max - ray.origin) * ray.inverse;
         let near = greater(greater(lesser(a.x, b.x), lesser(a.y, b.y)), greater(lesser(a.z, b.z), from));
         let far = lesser(lesser(greater(a.x, b.x), greater(a.y, b.y)), lesser(greater(a.z, b.z), to));
-        (near <= far).then_some(near)
+        (near <= far).then_some([near, far])
     }
 }
 

@@ -24,8 +24,9 @@ pub mod scene; // scene, camera, light, material, the scene file, the built-in s
 pub mod runlog; // a run's header, its file, its metrics
 pub mod tracer; // a scene compiled to what it needs, and the article's equation
 
-// Floor 5: two ends that never name each other.
+// Floor 5: ends that never name each other.
 pub mod driver; // executes the protocol on threads, as emulated machines on links
+pub mod space; // the scene shared instead of the picture (§5): counted, not built
 pub mod view; // pure functions from records to what is drawn; no egui
 
 // Floor 6: what leaves the program.

@@ -145,6 +145,18 @@ impl Tree {
         }
     }
 
+    /// The box of every leaf of the solid `root`, cut down to where the leaf can matter: the bounds of all
+    /// compositions around it. Leaves that matter nowhere have none.
+    pub fn boxes_of(&self, root: u32) -> Vec<Aabb> {
+        let Node { bounds, kind } = &self.nodes[root as usize];
+        let boxes: Vec<Aabb> = match kind {
+            Kind::Leaf(_) => vec![*bounds],
+            Kind::Convex(leaves) => vec![*bounds; leaves.len()],
+            Kind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_of(child)).collect(),
+        };
+        boxes.into_iter().map(|inner| inner.intersection(*bounds)).filter(|inner| !inner.is_empty()).collect()
+    }
+
     /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
     #[inline]
     pub fn nearest(&self, root: u32, ray: &Ray, start: Option<Start>, t_max: f64, stack: &mut Stack) -> Option<Hit> {

@@ -3,18 +3,22 @@
 mod bvh;
 mod camera;
 mod hit;
+mod path;
 mod shade;
 mod world;
 
+pub use path::{Path, RayKind};
 pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Aabb;
 use crate::picture::{Colour, Size};
 use crate::scene::Scene;
 use camera::Camera;
+use path::{Nobody, Watch};
 use world::World;
 
 /// How good the picture is to be.
@@ -77,16 +81,29 @@ impl Tracer {
         self.world.compiled()
     }
 
+    /// Width and height of the picture.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The boxes of all primitives of solids with bounds, each no larger than its solid's. Outside of its box a
+    /// primitive cannot matter.
+    pub fn boxes(&self) -> Vec<Aabb> {
+        self.world.bounded.roots().flat_map(|root| self.world.tree.boxes_of(root)).collect()
+    }
+
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.
     ///
     /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        for pixel in pixels {
-            let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
-            let sum = self.camera.rays(x, y).map(|ray| self.sample(&ray, scratch)).reduce(|sum, colour| sum + colour);
-            let mean = sum.unwrap_or_default() / self.camera.rays_a_pixel();
-            out.push(mean.as_vec3().to_array());
-        }
+        out.extend(pixels.map(|pixel| self.pixel(pixel, scratch, &mut Nobody)));
+    }
+
+    fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
+        let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
+        let samples = self.camera.rays(x, y).map(|ray| self.sample(&ray, scratch, watch));
+        let mean = samples.reduce(|sum, colour| sum + colour).unwrap_or_default() / self.camera.rays_a_pixel();
+        mean.as_vec3().to_array()
     }
 }
 

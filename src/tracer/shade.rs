@@ -5,6 +5,7 @@
 use glam::DVec3;
 
 use super::hit::{Memory, has_turned_at};
+use super::path::{Path, RayKind, Watch};
 use super::world::Finish;
 use super::{RayCounts, Tracer};
 use crate::csg::{Hit, Start, rank};
@@ -41,6 +42,7 @@ impl Place<'_> {
 /// How a ray stands in the tree of rays.
 #[derive(Clone, Copy)]
 struct Branch {
+    kind: RayKind,
     /// What the pixel keeps of the ray's colour, at most.
     weight: f64,
     /// 1 for a primary ray.
@@ -49,14 +51,28 @@ struct Branch {
 
 impl Tracer {
     /// The colour that a primary ray brings, in linear light.
-    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch) -> DVec3 {
+    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
         scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.primary += 1;
-        self.colour(ray, None, Branch { weight: 1.0, level: 1 }, scratch)
+        self.colour(ray, None, Branch { kind: RayKind::Primary, weight: 1.0, level: 1 }, scratch, watch)
     }
 
-    fn colour(&self, ray: &Ray, start: Option<Start>, branch: Branch, scratch: &mut Scratch) -> DVec3 {
-        let Some((root, hit)) = self.world.nearest(ray, start, &mut scratch.memory) else {
+    fn colour(
+        &self,
+        ray: &Ray,
+        start: Option<Start>,
+        branch: Branch,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> DVec3 {
+        let nearest = self.world.nearest(ray, start, &mut scratch.memory);
+        watch.see(|| Path {
+            kind: branch.kind,
+            level: branch.level,
+            ray: *ray,
+            to: nearest.map_or(f64::INFINITY, |(_, hit)| hit.t),
+        });
+        let Some((root, hit)) = nearest else {
             return self.world.background;
         };
         let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t));
@@ -64,7 +80,7 @@ impl Tracer {
         let mut colour = finish.ambient;
         if finish.lit {
             for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, &place, scratch);
+                colour += self.light(index, ray, &place, branch.level, scratch, watch);
             }
         }
         if finish.ks == 0.0 && finish.kt == 0.0 {
@@ -73,22 +89,23 @@ impl Tracer {
         let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, &place)).flatten();
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
-        if let Some(next) = self.follow(branch, reflection) {
+        if let Some(next) = self.follow(branch, RayKind::Reflected, reflection) {
             scratch.rays.reflected += 1;
             let direction = reflect(ray.direction, place.normal);
             let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.turned()), next, scratch) * reflection;
+            colour += self.colour(&onward, Some(place.turned()), next, scratch, watch) * reflection;
         }
         if let Some(direction) = refracted
-            && let Some(next) = self.follow(branch, finish.kt)
+            && let Some(next) = self.follow(branch, RayKind::Refracted, finish.kt)
         {
             scratch.rays.refracted += 1;
             let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.start), next, scratch) * finish.kt;
+            colour += self.colour(&onward, Some(place.start), next, scratch, watch) * finish.kt;
         }
         colour
     }
 
+    #[inline(always)]
     fn place(&self, ray: &Ray, root: u32, hit: &Hit, turned: bool) -> Place<'_> {
         let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
@@ -102,7 +119,15 @@ impl Tracer {
     }
 
     /// The diffuse and the specular term of one light.
-    fn light(&self, index: usize, ray: &Ray, place: &Place<'_>, scratch: &mut Scratch) -> DVec3 {
+    fn light(
+        &self,
+        index: usize,
+        ray: &Ray,
+        place: &Place<'_>,
+        level: u32,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> DVec3 {
         let point = ray.at(place.t);
         let (direction, distance, intensity) = match self.world.lights[index] {
             Light::Point { position, colour } => {
@@ -121,6 +146,12 @@ impl Tracer {
         scratch.rays.shadow += 1;
         let Scratch { memory, suspects, .. } = scratch;
         let onward = ray.onward(place.t, direction);
+        watch.see(|| Path {
+            kind: RayKind::Shadow,
+            level,
+            ray: onward,
+            to: self.world.light_ends(&onward, place.turned(), distance, memory),
+        });
         let arriving = self.world.light_arriving(&onward, place.turned(), distance, &mut suspects[index], memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
@@ -136,8 +167,8 @@ impl Tracer {
     }
 
     /// The next branch, unless the tree ends here: its rays would be too deep or contribute too little.
-    fn follow(&self, branch: Branch, coefficient: f64) -> Option<Branch> {
-        let next = Branch { weight: branch.weight * coefficient, level: branch.level + 1 };
+    fn follow(&self, branch: Branch, kind: RayKind, coefficient: f64) -> Option<Branch> {
+        let next = Branch { kind, weight: branch.weight * coefficient, level: branch.level + 1 };
         (next.weight > self.quality.cutoff && next.level <= self.quality.max_depth).then_some(next)
     }
 }

@@ -1,0 +1,64 @@
+//! The ways of single rays, for those who study them.
+
+use std::ops::Range;
+
+use super::{Scratch, Tracer};
+use crate::geometry::Ray;
+
+/// A ray's way, from where it starts to where it ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    /// Why the ray was sent.
+    pub kind: RayKind,
+    /// Its place in the tree of rays: 1 for a primary ray, one more for each reflection and refraction. A shadow ray
+    /// has the level of the ray at whose end it starts.
+    pub level: u32,
+    /// Where it starts and where it goes.
+    pub ray: Ray,
+    /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
+    /// no light through. Infinite if it ends nowhere.
+    pub to: f64,
+}
+
+/// Why a ray is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// From the camera.
+    Primary,
+    /// Towards a light.
+    Shadow,
+    /// From a surface that reflects.
+    Reflected,
+    /// Through a surface that transmits.
+    Refracted,
+}
+
+impl Tracer {
+    /// Traces `pixels` (positions in scan order) and hands over each ray's path instead of colours: first a ray's own,
+    /// then those of the rays that start at its end.
+    pub fn paths(&self, pixels: Range<u32>, scratch: &mut Scratch, mut each: impl FnMut(Path)) {
+        for pixel in pixels {
+            self.pixel(pixel, scratch, &mut each);
+        }
+    }
+}
+
+/// Whoever looks on while rays are traced. It is compiled in, so that nobody costs nothing.
+pub(super) trait Watch {
+    /// A ray was traced; `path` tells its way, which may take work.
+    fn see(&mut self, path: impl FnOnce() -> Path);
+}
+
+/// Does not look, so that no path is ever worked out.
+pub(super) struct Nobody;
+
+impl Watch for Nobody {
+    #[inline(always)]
+    fn see(&mut self, _: impl FnOnce() -> Path) {}
+}
+
+impl<F: FnMut(Path)> Watch for F {
+    fn see(&mut self, path: impl FnOnce() -> Path) {
+        self(path());
+    }
+}

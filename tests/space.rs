@@ -1,0 +1,167 @@
+//! The paths of rays, and what they say of sharing the scene's space (the article, §5).
+
+use anel::picture::Size;
+use anel::scene::{BUILT_IN, Scene};
+use anel::space::{Deal, traffic};
+use anel::tracer::{Path, Quality, RayCounts, RayKind, Scratch, Tracer};
+
+fn tracer(text: &str, width: u32, height: u32) -> Tracer {
+    let scene = Scene::parse(text).unwrap_or_else(|error| panic!("{error}"));
+    Tracer::new(&scene, Size::new(width, height).expect("a size"), Quality::default())
+}
+
+fn built_in() -> impl Iterator<Item = (&'static str, Tracer)> {
+    BUILT_IN.iter().map(|&(name, text)| (name, tracer(text, 60, 45)))
+}
+
+fn paths(tracer: &Tracer, scratch: &mut Scratch) -> Vec<Path> {
+    let mut paths = Vec::new();
+    tracer.paths(0..tracer.size().pixels(), scratch, |path| paths.push(path));
+    paths
+}
+
+#[test]
+fn there_is_a_path_for_every_ray_and_looking_on_changes_nothing() {
+    for (name, tracer) in built_in() {
+        let pixels = 0..tracer.size().pixels();
+        let (mut alone, mut watched) = (Scratch::default(), Scratch::default());
+        let (mut picture, mut after) = (Vec::new(), Vec::new());
+        tracer.trace(pixels.clone(), &mut alone, &mut picture);
+        let mut counts = RayCounts::default();
+        for path in paths(&tracer, &mut watched) {
+            *match path.kind {
+                RayKind::Primary => &mut counts.primary,
+                RayKind::Shadow => &mut counts.shadow,
+                RayKind::Reflected => &mut counts.reflected,
+                RayKind::Refracted => &mut counts.refracted,
+            } += 1;
+        }
+        assert_eq!((counts, watched.rays), (alone.rays, alone.rays), "{name}");
+        tracer.trace(pixels, &mut watched, &mut after);
+        assert_eq!(picture, after, "{name}");
+    }
+}
+
+#[test]
+fn a_path_starts_where_the_one_before_it_in_the_tree_of_rays_ends() {
+    for (name, tracer) in built_in() {
+        // The present rays from the camera on, by level.
+        let mut branch: Vec<Path> = Vec::new();
+        for path in paths(&tracer, &mut Scratch::default()) {
+            assert!(path.to >= 0.0, "{name}: {path:?}");
+            let is_shadow = path.kind == RayKind::Shadow;
+            branch.truncate(path.level as usize - usize::from(!is_shadow));
+            assert_eq!(path.kind == RayKind::Primary, branch.is_empty(), "{name}: {path:?}");
+            if let Some(before) = branch.last() {
+                assert_eq!(before.ray.at(before.to), path.ray.origin, "{name}: {path:?} after {before:?}");
+            }
+            if !is_shadow {
+                branch.push(path);
+                assert_eq!(branch.len(), path.level as usize, "{name}: {path:?}");
+            }
+        }
+    }
+}
+
+/// A shadow ray's test stops at the first solid that blocks, in no certain order; its path ends at the nearest.
+#[test]
+fn where_a_path_ends_depends_on_no_other_ray() {
+    for (name, tracer) in built_in() {
+        let together = paths(&tracer, &mut Scratch::default());
+        let mut together = together.iter();
+        for pixel in 0..tracer.size().pixels() {
+            tracer.paths(pixel..pixel + 1, &mut Scratch::default(), |path| {
+                assert_eq!(
+                    Some(path.to.to_bits()),
+                    together.next().map(|other| other.to.to_bits()),
+                    "{name}: {path:?}"
+                );
+            });
+        }
+        assert!(together.next().is_none());
+    }
+}
+
+/// A lamp 10 above a floor, a pane of glass and a lid between them: light ends at the lid, not at the glass.
+#[test]
+fn the_path_of_a_shadow_ray_goes_to_its_light_or_to_what_blocks_it() {
+    let ends = |objects: &str| {
+        let tracer = tracer(
+            &format!(
+                r#"(camera: (eye: (0, 1, 0), look_at: (0, 0, 0), up: (1, 0, 0)),
+                    lights: [Point(position: (0, 10, 0))],
+                    materials: {{"floor": (), "glass": (kt: 0.5, kd: 0)}},
+                    objects: [HalfSpace(normal: (0, 1, 0), material: "floor"), {objects}])"#
+            ),
+            1,
+            1,
+        );
+        let paths = paths(&tracer, &mut Scratch::default());
+        let shadows = paths.iter().filter(|path| path.kind == RayKind::Shadow);
+        shadows.map(|path| (path.to * 1000.0).round() / 1000.0).collect::<Vec<_>>()
+    };
+    let glass = r#"Box(min: (-1, 2, -1), max: (1, 3, 1), material: "glass"),"#;
+    let lids = r#"Box(min: (-1, 7, -1), max: (1, 8, 1), material: "floor"),
+                  Box(min: (-1, 5, -1), max: (1, 6, 1), material: "floor"),"#;
+    assert_eq!(ends(""), [10.0]);
+    assert_eq!(ends(glass), [10.0]);
+    assert_eq!(ends(&format!("{lids}{glass}")), [5.0]);
+}
+
+/// One ray passes two cells, is reflected by a mirror that everybody has, and comes back through both.
+#[test]
+fn a_ray_and_its_reflection_are_counted_as_thought_out() {
+    let balls: Vec<_> = [(2, 2), (-2, -2), (2, -2)]
+        .iter()
+        .flat_map(|(y, z)| [-8, 8].map(|x| format!(r#"Sphere(centre: ({x}, {y}, {z}), radius: 1, material: "m"),"#)))
+        .collect();
+    let text = format!(
+        r#"(camera: (eye: (-20, 0.5, 0.5), look_at: (0, 0.5, 0.5)), materials: {{"m": (ks: 1)}},
+            objects: [{} HalfSpace(normal: (-1, 0, 0), offset: -12, material: "m")])"#,
+        balls.concat()
+    );
+    let tracer = tracer(&text, 1, 1);
+    let one = traffic(&tracer, 2, Deal::Runs, 1);
+    assert_eq!((one.leaves, one.rays, one.staying), (6, 2, 0));
+    assert_eq!((one.messages, one.answers, one.most), (2, 1, 1));
+    assert_eq!((one.shares.as_slice(), one.imbalance()), ([0.5, 0.5].as_slice(), 1.0));
+    // Of four owners two have nothing to do.
+    assert!((traffic(&tracer, 4, Deal::Runs, 1).imbalance() - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn with_one_owner_there_is_no_message() {
+    for (name, tracer) in built_in() {
+        let mut scratch = Scratch::default();
+        let rays = paths(&tracer, &mut scratch).len() as u64;
+        for how in [Deal::Runs, Deal::RoundRobin] {
+            let alone = traffic(&tracer, 1, how, 1);
+            assert_eq!((alone.messages, alone.answers, alone.most), (0, 0, 0), "{name}");
+            assert_eq!((alone.rays, alone.staying, alone.shares.as_slice()), (rays, rays, [1.0].as_slice()), "{name}");
+        }
+    }
+}
+
+#[test]
+fn runs_of_neighbours_need_fewer_messages_than_leaves_dealt_like_cards() {
+    for (name, tracer) in built_in() {
+        for owners in [2, 8] {
+            let [runs, cards] = [Deal::Runs, Deal::RoundRobin].map(|how| traffic(&tracer, owners, how, 1));
+            assert!(runs.messages < cards.messages, "{name}: {runs:?} {cards:?}");
+            for traffic in [&runs, &cards] {
+                assert!(traffic.messages >= traffic.rays - traffic.staying, "{name}: {traffic:?}");
+                assert!(traffic.answers <= traffic.rays - traffic.staying, "{name}: {traffic:?}");
+                assert!((traffic.shares.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{name}: {traffic:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_part_of_the_pixels_tells_about_all() {
+    for (name, tracer) in built_in() {
+        let [all, part] = [1, 7].map(|every| traffic(&tracer, 4, Deal::Runs, every));
+        let near = |a: u64, b: u64| (a as f64 / b as f64 - 1.0).abs() < 0.15;
+        assert!(near(part.rays, all.rays) && near(part.messages, all.messages), "{name}: {all:?} {part:?}");
+    }
+}
