@@ -186,7 +186,8 @@ mod tests {
             for leaf in octree.leaves() {
                 let reach = boxes.iter().filter(|one| !one.intersection(leaf.bounds).is_empty()).count();
                 prop_assert_eq!(reach, leaf.boxes as usize);
-                let is_filled = boxes.iter().filter(|one| one.intersection(leaf.bounds) == leaf.bounds).count() == reach;
+                let fills = |one: &&Aabb| one.intersection(leaf.bounds) == leaf.bounds;
+                let is_filled = boxes.iter().filter(fills).count() == reach;
                 let is_finest = (leaf.bounds.max - leaf.bounds.min).cmple(finest * 1.001).all();
                 prop_assert!(reach > 0 && (reach <= Octree::MOST_BOXES || is_finest || is_filled));
             }

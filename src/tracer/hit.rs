@@ -100,7 +100,8 @@ impl World {
     }
 
     /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
-    /// transmits nothing, else at `t_max`. Unlike [`World::light_arriving`] it does not stop at the first that it finds.
+    /// transmits nothing, else at `t_max`. Unlike [`World::light_arriving`] it goes on from the first that it finds to
+    /// the nearest.
     pub fn light_ends(&self, ray: &Ray, start: Start, t_max: f64, memory: &mut Memory) -> f64 {
         let Memory { spans, boxes } = memory;
         let mut end = t_max;

@@ -202,7 +202,7 @@ fn space(text: &mut String, divisions: &[Division], bench: &Workbench) {
     }
     say!(
         text,
-        "\nThe ring says less than a hundred messages for the same picture, apart from its pixels. The article's fear is borne out: *exige \
+        "\nThe ring says less than a hundred messages for the same picture. The article's fear is borne out: *exige \
          muita comunicação entre os nós*."
     );
 }
