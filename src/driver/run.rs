@@ -52,7 +52,8 @@ impl Run {
         match header.driver {
             Driver::Sim => {
                 let (shared, orders) = sim_thread::Shared::new();
-                let (shared, its) = twice(shared);
+                let shared = Arc::new(shared);
+                let its = Arc::clone(&shared);
                 let play =
                     move |updates: &Sender<Update>| sim_thread::play(&its_header, &its, &orders, &trace, updates);
                 Self { control: Control::Sim(shared), supervisor: Supervisor::start("run", play) }
@@ -147,12 +148,6 @@ impl Drop for Run {
         self.stop();
         self.supervisor.join();
     }
-}
-
-/// A thing for two to share.
-fn twice<T>(thing: T) -> (Arc<T>, Arc<T>) {
-    let thing = Arc::new(thing);
-    (thing.clone(), thing)
 }
 
 /// Runs all parties on threads of their own until all have ended.

@@ -97,7 +97,6 @@ impl Shared {
         };
         let mut receivers: Vec<_> = receivers;
         let workers = receivers.split_off(nodes + 1);
-        // There is one more than there are nodes.
         let parent = receivers.remove(nodes);
         (Arc::new(shared), Inboxes { nodes: receivers, parent, workers })
     }
@@ -134,8 +133,8 @@ impl Shared {
         link.arrival(at, bytes, latency, self.bandwidth, wire.as_deref_mut())
     }
 
-    /// Gives a command now: a node's to its worker (one that has ended, or never was, does not mind), and a change of the
-    /// latency to the parent, to be noted down.
+    /// Gives a command now: a node's to its worker (one that has ended, or never was, does not mind), and a change of
+    /// the latency to the parent, to be noted down.
     pub fn command(&self, command: Command) {
         match command {
             Command::Latency(latency) => self.set_latency(latency),

@@ -5,8 +5,8 @@
 //! bandwidth and handling do not apply. They are the same emulated machines as in other runs. The parent only collects:
 //! to it this is a run in which the first node has the whole picture as its band.
 //!
-//! The records are those of other runs: a stolen half is a transfer, whose sender knows nothing of it, at the time of the
-//! thief.
+//! The records are those of other runs: a stolen half is a transfer at the time of the thief, whose sender knows nothing
+//! of it.
 
 use std::any::Any;
 use std::cell::RefCell;
