@@ -26,6 +26,16 @@ pub enum Command {
     Latency(Duration),
 }
 
+impl Command {
+    /// The same with a speed that is possible: above 1 counts as 1, and what is not above 0 as 0, NaN too.
+    pub fn possible(self) -> Self {
+        match self {
+            Self::Speed { node, speed } => Self::Speed { node, speed: if speed > 0.0 { speed.min(1.0) } else { 0.0 } },
+            other => other,
+        }
+    }
+}
+
 /// Commands and their times, in the order of time.
 pub type Script = Vec<(Time, Command)>;
 
@@ -41,6 +51,14 @@ pub fn square_wave(node: NodeId, high: f64, low: f64, period: Duration, end: Tim
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_impossible_speed_becomes_the_nearest_that_is_possible() {
+        let speed = |speed| Command::Speed { node: 1, speed };
+        for (asked, given) in [(-1.0, 0.0), (f64::NAN, 0.0), (0.25, 0.25), (7.0, 1.0)] {
+            assert_eq!(speed(asked).possible(), speed(given));
+        }
+    }
 
     #[test]
     fn a_square_wave_begins_high_and_swings_each_half_period() {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::message::{Action, Event, Message, NodeId, Party};
+use super::solo;
 use super::work::Work;
 use crate::picture::Atom;
 use crate::time::Time;
@@ -44,43 +45,31 @@ impl Parts {
     }
 }
 
-/// A node of a farm.
+/// A node of a farm: one on its own that asks for more.
 #[derive(Debug)]
 pub(super) struct Node {
-    work: Work,
+    solo: solo::Node,
 }
 
 impl Node {
     /// A node with this work, which is none yet.
     pub fn new(work: Work) -> Self {
-        Self { work }
+        Self { solo: solo::Node::new(work) }
     }
 
     /// Answers `event`, which happens at `now`, by appending to `actions`.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
-            Event::Message { message: Message::Band(atoms), .. } => {
-                self.work.add([atoms], actions);
-                if self.work.is_idle() {
-                    ask(actions);
-                }
-            }
             Event::Message { message: Message::Part(atoms), .. } if atoms.is_empty() => actions.push(Action::Retire),
-            Event::Message { message: Message::Part(atoms), .. } => self.work.add([atoms], actions),
-            Event::Message { message: Message::Shutdown, .. } => actions.push(Action::Finish),
-            Event::AtomDone { atom, .. } => {
-                self.work.atom_done(now, atom, actions);
-                if self.work.is_idle() {
-                    self.work.send_results(actions);
-                    ask(actions);
+            Event::Message { message: Message::Part(atoms), .. } => self.solo.work.add([atoms], actions),
+            event => {
+                let may_run_out =
+                    matches!(event, Event::AtomDone { .. } | Event::Message { message: Message::Band(_), .. });
+                self.solo.handle(now, event, actions);
+                if may_run_out && self.solo.work.is_idle() {
+                    actions.push(Action::Send { to: Party::Parent, message: Message::Request });
                 }
             }
-            Event::Timer => self.work.send_results(actions),
-            other => unreachable!("a node of a farm is never handed {other:?}"),
         }
     }
-}
-
-fn ask(actions: &mut Vec<Action>) {
-    actions.push(Action::Send { to: Party::Parent, message: Message::Request });
 }

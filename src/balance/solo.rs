@@ -7,7 +7,7 @@ use crate::time::Time;
 /// A node on its own.
 #[derive(Debug)]
 pub(super) struct Node {
-    work: Work,
+    pub work: Work,
 }
 
 impl Node {

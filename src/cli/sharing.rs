@@ -5,6 +5,7 @@ use std::str::FromStr;
 use super::args::{Pace, RenderArgs};
 use crate::balance::{Rules, Strategy};
 use crate::driver::{auto_pace, cores};
+use crate::gui::Preset;
 use crate::picture::Division;
 use crate::runlog::{Driver, Header, Link};
 use crate::scene::Opened;
@@ -112,10 +113,7 @@ fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
     }
     match (args.speeds.len(), args.seed) {
         (0, None) => Ok(vec![1.0; nodes]),
-        (0, Some(seed)) => {
-            let mut random = fastrand::Rng::with_seed(seed);
-            Ok((0..nodes).map(|_| f64::from(random.u8(10..=100)) / 100.0).collect())
-        }
+        (0, Some(seed)) => Ok(Preset::Random.speeds(nodes, seed)),
         (speeds, _) if speeds != nodes => {
             Err(format!("there are {nodes} nodes but {speeds} speeds; give each node one speed, or none at all"))
         }

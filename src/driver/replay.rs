@@ -11,7 +11,7 @@ use super::jobs::plan;
 use super::pace::cores;
 use super::supervisor::{Supervisor, Threads};
 use super::teller::{Note, Teller};
-use super::worker::PIECE;
+use super::worker::trace_pieces;
 use super::{TracePixels, Update};
 use crate::picture::Colour;
 use crate::runlog::RunLog;
@@ -132,11 +132,8 @@ fn trace_jobs(todo: &Receiver<(usize, Range<u32>)>, shared: &Shared, trace: &Tra
     let mut scratch = Scratch::default();
     for (job, pixels) in todo {
         let mut colours = Vec::with_capacity(pixels.len());
-        for start in pixels.clone().step_by(PIECE as usize) {
-            if shared.clock.has_ended() {
-                return;
-            }
-            trace(start..pixels.end.min(start + PIECE), &mut scratch, &mut colours);
+        if !trace_pieces(trace, pixels, &mut scratch, &mut colours, || shared.clock.has_ended()) {
+            return;
         }
         let _ = shared.notes.send(Note::Traced(job, colours));
     }

@@ -85,6 +85,7 @@ impl Run {
 
     /// Does something to the run at once; what it does to a node that has ended, or to a parent that has, is void.
     pub fn command(&self, command: Command) {
+        let command = command.possible();
         match &self.control {
             Control::Parties(shared) => shared.command(command),
             Control::Sim(shared) => shared.command(command),
@@ -94,8 +95,6 @@ impl Run {
     /// Changes a node's speed (0 to 1) at once, in the middle of an atom too. At 0 its worker stands still, but the
     /// node still answers messages. A node that has ended does not mind.
     pub fn set_speed(&self, node: NodeId, speed: f64) {
-        // NaN is not above 0 either.
-        let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
         self.command(Command::Speed { node, speed });
     }
 

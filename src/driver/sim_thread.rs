@@ -147,10 +147,9 @@ impl News<'_> {
             let _ = self.updates.send(Update::Records(records));
         }
         if !atoms.is_empty() {
-            let places = atoms.iter().filter(|range| !range.is_empty()).map(|range| {
-                self.division.pixels(range.start).start as usize..self.division.pixels(range.end - 1).end as usize
-            });
-            let pixels = places.flat_map(|place| self.whole.pixels[place].iter().copied()).collect();
+            let places = atoms.iter().map(|range| self.division.pixels_of(range));
+            let of = |place: Range<u32>| &self.whole.pixels[place.start as usize..place.end as usize];
+            let pixels = places.flat_map(of).copied().collect();
             let _ = self.updates.send(Update::Placed { atoms, pixels });
         }
     }

@@ -102,7 +102,7 @@ impl<'a> Teller<'a> {
             && let Some(job) = self.jobs.get(self.handed_out)
         {
             self.ahead += self.division.pixels_in(&job.atoms);
-            let pixels = self.division.pixels(job.atoms.start).start..self.division.pixels(job.atoms.end - 1).end;
+            let pixels = self.division.pixels_of(&job.atoms);
             // Never disconnected: whoever started the tracers holds a receiver too.
             let _ = self.todo.send((self.handed_out, pixels));
             self.handed_out += 1;

@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::TracePixels;
 use super::pace::cores;
 use super::supervisor::Threads;
-use super::worker::PIECE;
+use super::worker::trace_pieces;
 use crate::picture::{Atom, Colour, Division};
 use crate::tracer::{RayCounts, Scratch, Tracer};
 
@@ -116,12 +116,8 @@ fn trace_atoms(
     let mut piece = Piece { pixels: Vec::new(), rays: Vec::new(), counts: RayCounts::default() };
     for atom in atoms {
         scratch.rays = RayCounts::default();
-        let pixels = division.pixels(atom);
-        for start in pixels.clone().step_by(PIECE as usize) {
-            if is_over() {
-                return piece;
-            }
-            trace(start..pixels.end.min(start + PIECE), scratch, &mut piece.pixels);
+        if !trace_pieces(trace, division.pixels(atom), scratch, &mut piece.pixels, &is_over) {
+            break;
         }
         piece.rays.push(u32::try_from(scratch.rays.total()).unwrap_or(u32::MAX));
         piece.counts += scratch.rays;

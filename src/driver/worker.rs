@@ -21,7 +21,7 @@ use crate::time::Time;
 use crate::tracer::Scratch;
 
 /// A worker looks for messages, changed speeds, pauses and the run's end after at most this many pixels.
-pub(super) const PIECE: u32 = 64;
+const PIECE: u32 = 64;
 
 /// A machine may be ahead of the clock by this much, so that its thread does not sleep after each atom.
 const AHEAD: Duration = Duration::from_millis(1);
@@ -271,6 +271,23 @@ impl Worker {
     fn split_batch(&mut self) {
         split(&mut self.batch, &mut self.meter, &mut self.port);
     }
+}
+
+/// Traces `pixels` for whoever has no machine, in pieces. Whether it did: it ends when it `is_over`.
+pub(super) fn trace_pieces(
+    trace: &TracePixels,
+    pixels: Range<u32>,
+    scratch: &mut Scratch,
+    out: &mut Vec<Colour>,
+    is_over: impl Fn() -> bool,
+) -> bool {
+    for start in pixels.clone().step_by(PIECE as usize) {
+        if is_over() {
+            return false;
+        }
+        trace(start..pixels.end.min(start + PIECE), scratch, out);
+    }
+    true
 }
 
 /// Takes the pixels of these atoms, which are the first of `pixels`.

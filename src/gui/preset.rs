@@ -51,12 +51,12 @@ impl Preset {
     }
 
     /// So many machines at these speeds; random ones are made from `seed`.
-    pub fn speeds(self, nodes: usize, seed: u32) -> Vec<f64> {
+    pub fn speeds(self, nodes: usize, seed: u64) -> Vec<f64> {
         match self {
             Self::Equal => vec![1.0; nodes],
             Self::OneSlow => (0..nodes).map(|node| if node + 1 == nodes { 0.1 } else { 1.0 }).collect(),
             Self::Random => {
-                let mut random = fastrand::Rng::with_seed(seed.into());
+                let mut random = fastrand::Rng::with_seed(seed);
                 (0..nodes).map(|_| f64::from(random.u8(10..=100)) / 100.0).collect()
             }
             Self::Laboratory => LABORATORY.iter().cycle().take(nodes).map(|(_, speed)| *speed).collect(),

@@ -120,12 +120,12 @@ impl Settings {
 
     /// Gives every machine a speed.
     pub fn set_preset(&mut self, preset: Preset) {
-        self.speeds = preset.speeds(self.speeds.len(), self.seed);
+        self.speeds = preset.speeds(self.speeds.len(), self.seed.into());
     }
 
     /// Whether the machines have these speeds.
     pub fn has_preset(&self, preset: Preset) -> bool {
-        self.speeds == preset.speeds(self.speeds.len(), self.seed)
+        self.speeds == preset.speeds(self.speeds.len(), self.seed.into())
     }
 
     /// How the atoms are shared.

@@ -42,9 +42,14 @@ impl Division {
         clip(start)..clip(end)
     }
 
+    /// The pixels of the atoms of `range`, as positions in scan order.
+    pub fn pixels_of(self, range: &Range<Atom>) -> Range<u32> {
+        if range.is_empty() { 0..0 } else { self.pixels(range.start).start..self.pixels(range.end - 1).end }
+    }
+
     /// How many pixels the atoms of `range` hold together.
     pub fn pixels_in(self, range: &Range<Atom>) -> u32 {
-        if range.is_empty() { 0 } else { self.pixels(range.end - 1).end - self.pixels(range.start).start }
+        self.pixels_of(range).len() as u32
     }
 
     /// Takes apart what was traced together: for each range of `atoms`, in their order, the places of its pixels in the

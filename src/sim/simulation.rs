@@ -120,11 +120,9 @@ impl Sim {
 
     /// Does something to the run now.
     pub fn command(&mut self, command: Command, tell: &mut dyn FnMut(Record)) {
-        match command {
+        match command.possible() {
             Command::Speed { node, speed } => {
                 let Some(index) = self.machine(node) else { return };
-                // NaN is not above 0 either.
-                let speed = if speed > 0.0 { speed.min(1.0) } else { 0.0 };
                 self.nodes[index].machine.set_speed(speed, self.now);
                 self.note(What::SpeedSet { node, speed }, tell);
                 self.go_on(node, tell);

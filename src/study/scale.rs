@@ -6,8 +6,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::progress::{Progress, Tell};
-use super::workbench::{Costs, Workbench, simulate};
-use crate::balance::Strategy;
+use super::workbench::{Costs, STRATEGIES, Workbench, simulate};
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, Link};
 use crate::scene::Opened;
@@ -24,10 +23,6 @@ pub(super) const ATOMS_A_NODE: u32 = 1024;
 /// What a message takes to travel, and how long the parent is busy with it, in milliseconds. Without the latter, the parent
 /// of a farm could answer any number of machines at once.
 pub(super) const NETWORKS: [(f64, f64); 4] = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (1.0, 0.1)];
-
-/// What is compared.
-pub(super) const STRATEGIES: [Strategy; 5] =
-    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
 
 const ATOM: u32 = 50;
 

@@ -16,6 +16,10 @@ use crate::tracer::{Quality, Tracer};
 /// What each atom costs the reference machine.
 pub(super) type Costs = Arc<[Duration]>;
 
+/// What studies compare.
+pub(super) const STRATEGIES: [Strategy; 5] =
+    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
+
 /// Costs are known for so many pixels together; atoms are multiples of it.
 pub(super) const GRAIN: u32 = 5;
 

@@ -62,7 +62,7 @@ fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
         };
         let is_worded = plan.nodes <= WORDED;
         let letters = text.chars().count();
-        let size = TextSize::Small(plan.labels.text);
+        let size = part(plan);
         let half = match &flight.cargo {
             Cargo::Request => [request(plan); 2],
             _ if is_worded => [size.width(letters) / 2.0 + 3.0, size.line() / 2.0],
@@ -85,7 +85,7 @@ impl Token<'_> {
         marks.push(Mark::Box { centre, half: self.half, round, ink: self.hue.faint(alpha) });
         let hue = if self.hue == Hue::Quiet { Hue::Ground } else { Hue::OnNode(self.node) };
         if !self.text.is_empty() {
-            let size = if is_request { TextSize::Fit(1.5 * width) } else { TextSize::Small(plan.labels.text) };
+            let size = if is_request { TextSize::Fit(1.5 * width) } else { part(plan) };
             let text = self.text.clone();
             marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size, ink: hue.faint(alpha) });
         }
@@ -115,6 +115,11 @@ fn line(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
 /// Radius of a message in line.
 fn dot(plan: &Plan) -> f32 {
     (plan.rail * 0.016).clamp(1.5, 4.0)
+}
+
+/// The text of a part: that of labels, unless it would hide the nodes of a small ring.
+fn part(plan: &Plan) -> TextSize {
+    TextSize::Fit((TextSize::SMALL * plan.labels.text).min(0.6 * plan.node))
 }
 
 /// Radius of a request.

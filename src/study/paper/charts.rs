@@ -1,7 +1,7 @@
 //! The article's charts anew, and others.
 
+use super::super::workbench::STRATEGIES;
 use super::article::{self, PACKETS, SERIAL};
-use super::measure::STRATEGIES;
 use super::rows::Row;
 use crate::balance::Strategy;
 use crate::view::{Axis, Bars, CHART_SIZE, Chart, Mark, Scale, Series, Style, series_hue};

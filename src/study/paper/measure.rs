@@ -3,13 +3,13 @@
 use std::time::Duration;
 
 use super::super::progress::Progress;
-use super::super::workbench::{Costs, Workbench, simulate, twin};
+use super::super::workbench::{Costs, STRATEGIES, Workbench, simulate, twin};
 use super::article::{ATOM, NETWORK, Network, SERIAL, slow_speed, times_ideal};
 use super::rows::{About, Row, middle};
 use crate::balance::Strategy;
 use crate::driver::cores;
 use crate::runlog::{Driver, Header, Tally};
-use crate::scenario::square_wave;
+use crate::scenario::{Command, square_wave};
 use crate::time::Time;
 
 /// Runs of the same kind on threads, of which the middle one counts.
@@ -17,10 +17,6 @@ pub(super) const RUNS: usize = 3;
 
 /// Runs at full speed of each kind.
 const COMPETING: usize = 7;
-
-/// What is compared, beside rayon.
-pub(super) const STRATEGIES: [Strategy; 5] =
-    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
 
 /// Sizes of atoms that are tried, in pixels.
 const ATOMS: [u32; 10] = [5, 10, 25, 50, 100, 250, 500, 1000, 2500, 10_000];
@@ -56,7 +52,7 @@ impl<'a> Measuring<'a> {
     }
 
     /// How many steps [`Measuring::threads`] takes.
-    pub const THREAD_STEPS: usize = RUNS * (1 + 2 * 4 * (STRATEGIES.len() + 1) - 4 + 4);
+    pub const THREAD_STEPS: usize = RUNS * (1 + 4 * (2 * STRATEGIES.len() + 1) + 4);
 
     /// Figures 6 and 7 on threads, without a network and on the modelled one, and the slow machine at every place: in turn,
     /// so that what disturbs the computer disturbs all alike.
@@ -117,19 +113,20 @@ impl<'a> Measuring<'a> {
     /// Time over sizes of atoms, of a farm's parts, and of a ring's smallest transfers (Figures 8 and 9).
     pub fn sizes(&mut self) {
         for modelled in [false, true] {
+            let on_network = |header| if modelled { NETWORK.with(header, 1.0) } else { header };
             let [.., equal, slow] = machines();
             for speeds in [equal, slow] {
                 for atom in ATOMS {
                     let costs = self.bench.costs(atom, SERIAL);
                     let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
-                    self.simulate_as_it_is(About { figure: "atom", modelled }, header, &costs);
+                    self.add(About { figure: "atom", modelled }, &on_network(header), &[], &costs);
                 }
                 for (part, strategy) in
                     PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)])
                 {
                     let mut header = self.bench.header(ATOM, strategy, speeds.clone());
                     header.rules.part = part;
-                    self.simulate_as_it_is(About { figure: "part", modelled }, header, &self.costs.clone());
+                    self.add(About { figure: "part", modelled }, &on_network(header), &[], &self.costs.clone());
                 }
             }
         }
@@ -142,18 +139,13 @@ impl<'a> Measuring<'a> {
         let lap = Duration::from_secs_f64(4.0 * NETWORK.latency);
         let steady = self.bench.header(ATOM, Strategy::Ring, vec![1.0, 1.0, 1.0, 0.55]);
         let steady = self.modelled(steady, 1.0);
-        let tally = simulate(&steady, &[], &self.costs);
-        let run = tally.makespan().unwrap_or_default();
+        let run = simulate(&steady, &[], &self.costs).makespan().unwrap_or_default();
         let about = About { figure: "swing", modelled: true };
-        let row = |header: &Header, tally: &Tally| {
-            let header = Header { driver: Driver::Sim, ..header.clone() };
-            Row::new(about, &header, tally, None)
-        };
-        self.rows.push(row(&steady, &tally));
+        let costs = self.costs.clone();
+        self.add(about, &steady, &[], &costs);
         for period in [lap, atom, run / 10, run] {
             let script = square_wave(3, 1.0, 0.1, period, Time::ZERO + 4 * run);
-            let header = Header { speeds: vec![1.0; 4], ..steady.clone() };
-            self.rows.push(row(&header, &simulate(&header, &script, &self.costs)));
+            self.add(about, &Header { speeds: vec![1.0; 4], ..steady.clone() }, &script, &costs);
         }
     }
 
@@ -196,6 +188,7 @@ impl<'a> Measuring<'a> {
     /// How many steps [`Measuring::competing`] takes.
     pub const COMPETING_STEPS: usize = 2 * COMPETING;
 
+    /// The run on the modelled network, with its farm's parts.
     fn modelled(&self, mut header: Header, scale: f64) -> Header {
         if header.rules.strategy.is_farm() {
             header.rules.part = Network::PART;
@@ -203,17 +196,15 @@ impl<'a> Measuring<'a> {
         NETWORK.with(header, scale)
     }
 
-    fn simulate(&mut self, about: About, mut header: Header) {
-        if about.modelled && header.rules.strategy.is_farm() {
-            header.rules.part = Network::PART;
-        }
-        self.simulate_as_it_is(about, header, &self.costs.clone());
+    fn simulate(&mut self, about: About, header: Header) {
+        let header = if about.modelled { self.modelled(header, 1.0) } else { header };
+        self.add(about, &header, &[], &self.costs.clone());
     }
 
-    fn simulate_as_it_is(&mut self, about: About, header: Header, costs: &Costs) {
-        let header = if about.modelled { NETWORK.with(header, 1.0) } else { header };
-        let tally = simulate(&header, &[], costs);
-        let header = Header { driver: Driver::Sim, ..header };
+    /// Adds the row of a run in virtual time.
+    fn add(&mut self, about: About, header: &Header, script: &[(Time, Command)], costs: &Costs) {
+        let header = Header { driver: Driver::Sim, ..header.clone() };
+        let tally = simulate(&header, script, costs);
         self.rows.push(Row::new(about, &header, &tally, None));
     }
 }

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use super::super::workbench::Workbench;
+use super::super::workbench::{STRATEGIES, Workbench};
 use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
 use super::charts::select;
 use super::claims;
 use super::division::Division;
-use super::measure::{RUNS, STRATEGIES, pace};
+use super::measure::{RUNS, pace};
 use super::rows::Row;
 use crate::balance::Strategy;
 
