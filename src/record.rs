@@ -45,8 +45,13 @@ pub enum What {
         /// The receiver.
         by: Party,
     },
-    /// The parent begins to sample what the picture costs; when it has done so, it sends the bands.
+    /// The parent begins to sample what the picture costs.
     Estimating,
+    /// The parent has sampled what the picture costs, and sends bands by it.
+    Estimated {
+        /// What the sample of each stretch cost ([`estimate`](crate::balance::estimate)), in CPU time of this computer.
+        costs: Vec<Duration>,
+    },
     /// A worker began an atom.
     AtomStarted {
         /// Whose worker.

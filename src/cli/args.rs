@@ -38,12 +38,13 @@ pub(super) enum Command {
     },
     /// Make many runs and say what they show: CSV, charts, and a report
     Study {
-        /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines
+        /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines; rivals: what sharing costs
+        /// at full speed
         #[arg(value_enum)]
         kind: StudyKind,
-        /// A scene file, or the name of a built-in scene
-        #[arg(long, default_value = "ten-objects")]
-        scene: String,
+        /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals all that are built in]
+        #[arg(long)]
+        scene: Option<String>,
         /// The directory for the files
         #[arg(long, value_name = "DIR", default_value = "study")]
         out: PathBuf,
@@ -64,6 +65,7 @@ pub(super) enum Command {
 pub(super) enum StudyKind {
     Paper,
     Scale,
+    Rivals,
 }
 
 #[derive(Debug, clap::Args)]

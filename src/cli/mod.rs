@@ -39,7 +39,7 @@ pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
-        Some(Command::Study { kind, scene, out, json }) => study::study(kind, &scene, &out, json),
+        Some(Command::Study { kind, scene, out, json }) => study::study(kind, scene.as_deref(), &out, json),
         Some(Command::Replay { log }) => replay(&log),
         None => window(args.scene.as_deref(), args.log),
     });

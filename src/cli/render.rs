@@ -38,20 +38,20 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let outputs: Vec<&Path> =
         [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&args.scene, &outputs)?;
-    let costs = args.costs.as_deref().map(|path| measured_costs(path, &header)).transpose()?;
+    let measured = args.costs.as_deref().map(|path| measured(path, &header)).transpose()?;
     let quality = Quality { samples: args.samples, ..Quality::default() };
     let tracer = Arc::new(Tracer::new(&opened.scene, args.size, quality));
-    run_and_save(&tracer, &header, costs, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
+    run_and_save(&tracer, &header, measured, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
 }
 
-/// Does the run that `header` describes, and says how it was; in virtual time, atoms have these `costs`, if any are given.
+/// Does the run that `header` describes, and says how it was; in virtual time it is `measured`, if that is given.
 pub(super) fn run_and_save(
     tracer: &Arc<Tracer>,
     header: &Header,
-    costs: Option<Vec<Duration>>,
+    measured: Option<Sim>,
     to: &Outputs<'_>,
 ) -> Result<(), Failure> {
-    let outcome = if header.driver == Driver::Sim { simulate(tracer, header, costs)? } else { run(tracer, header)? };
+    let outcome = if header.driver == Driver::Sim { simulate(tracer, header, measured)? } else { run(tracer, header)? };
     write_png(to.out, header.size, &outcome.frame.to_srgb8()).map_err(|error| Failure::Failed(error.to_string()))?;
     if let Some(log) = to.log {
         outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
@@ -105,38 +105,29 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
 
 /// Traces the picture, then runs its sharing in virtual time as fast as this computer can.
 #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-fn simulate(tracer: &Arc<Tracer>, header: &Header, costs: Option<Vec<Duration>>) -> Result<Outcome, Failure> {
+fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<Outcome, Failure> {
     let begun = Instant::now();
     let bar = progress(header);
     let whole = Whole::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
     bar.finish_and_clear();
     let mut frame = Frame::new(header.size);
     frame.place(0..header.size.pixels(), &whole.pixels);
-    let costs = costs.unwrap_or_else(|| whole.costs());
+    let mut sim = measured.unwrap_or_else(|| {
+        let costs = whole.costs();
+        Sim::new(header, &[], move |atom| costs[atom as usize])
+    });
     let mut records = Vec::new();
-    let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
     sim.run(&mut |record| records.push(record));
     let mut log = RunLog::new(header.clone());
     log.add(records);
     Ok(Outcome { frame, log, rays: whole.counts, wall: begun.elapsed() })
 }
 
-/// What each atom cost in a recorded run of the same picture.
-fn measured_costs(path: &Path, header: &Header) -> Result<Vec<Duration>, Failure> {
+/// The run in virtual time with the costs of a recorded run of the same picture.
+fn measured(path: &Path, header: &Header) -> Result<Sim, Failure> {
     let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
-    if log.header.division != header.division {
-        return Err(Failure::Refused(format!(
-            "{} is of a picture of {} in atoms of {} pixels, not of {} in atoms of {}",
-            path.display(),
-            log.header.size,
-            log.header.division.atom_pixels(),
-            header.size,
-            header.division.atom_pixels()
-        )));
-    }
-    log.costs().into_iter().collect::<Option<_>>().ok_or_else(|| {
-        Failure::Refused(format!("in {} not all atoms were traced, so that their costs are not known", path.display()))
-    })
+    Sim::measured(header, &log)
+        .map_err(|why| Failure::Refused(format!("the costs in {} cannot be used: {why}", path.display())))
 }
 
 /// A bar that counts atoms.

@@ -9,11 +9,17 @@ use serde_json::json;
 use super::args::StudyKind;
 use super::{Failure, open, print, tell};
 use crate::output::{check_writable, write_whole};
-use crate::study::{Study, paper, scale};
+use crate::scene::{BUILT_IN, Opened};
+use crate::study::{Study, paper, rivals, scale};
 
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
-pub(super) fn study(kind: StudyKind, scene: &str, out: &Path, as_json: bool) -> Result<(), Failure> {
-    let opened = open(scene)?;
+pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: bool) -> Result<(), Failure> {
+    let scenes: Vec<&str> = match (scene, kind) {
+        (Some(scene), _) => vec![scene],
+        (None, StudyKind::Rivals) => BUILT_IN.iter().map(|(name, _)| *name).collect(),
+        (None, _) => vec!["ten-objects"],
+    };
+    let scenes: Vec<Opened> = scenes.into_iter().map(open).collect::<Result<_, _>>()?;
     std::fs::create_dir_all(out)
         .map_err(|error| Failure::Refused(format!("the directory {} cannot be made: {error}", out.display())))?;
     check_writable(&out.join("study.md")).map_err(|error| Failure::Refused(error.to_string()))?;
@@ -26,8 +32,9 @@ pub(super) fn study(kind: StudyKind, scene: &str, out: &Path, as_json: bool) -> 
         bar.set_message(what.to_owned());
     };
     let study = match kind {
-        StudyKind::Paper => paper(&opened, &mut told),
-        StudyKind::Scale => scale(&opened, &mut told),
+        StudyKind::Paper => paper(&scenes[0], &mut told),
+        StudyKind::Scale => scale(&scenes[0], &mut told),
+        StudyKind::Rivals => rivals(&scenes, &mut told),
     };
     bar.finish_and_clear();
     let Study { name, rows, files } = study.map_err(Failure::Failed)?;

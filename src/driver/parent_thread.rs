@@ -68,6 +68,7 @@ impl ParentThread {
         self.hand_over(Event::Started);
         if self.estimate {
             let costs = self.estimate()?;
+            self.port.record(What::Estimated { costs: costs.clone() });
             self.hand_over(Event::Estimated(costs));
         }
         while !self.finished {

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::Header;
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Message, NodeId, Party, estimate};
 use crate::picture::{Atom, Division, Size};
 use crate::record::{Record, What};
 
@@ -51,6 +51,10 @@ pub(super) fn record(header: &Header, record: &Record) -> Result<(), String> {
         }
         What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
         What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
+        What::Estimated { costs } => {
+            let stretches = estimate::samples(header.division).len();
+            ensure(costs.len() == stretches, "the sample is not of this picture")
+        }
         What::Estimating | What::Finished => Ok(()),
     }
 }

@@ -198,6 +198,7 @@ mod tests {
             (0..=3_600_000u64).prop_map(|ms| What::LatencySet { latency: Duration::from_millis(ms) }),
             (0..NODES).prop_map(|node| What::Retired { node }),
             Just(What::Estimating),
+            any::<Duration>().prop_map(|cost| What::Estimated { costs: vec![cost] }),
             Just(What::Finished),
         ]
     }

@@ -98,7 +98,11 @@ impl Tally {
             What::Paused { node } => self.changes.push((at, *node, Change::Paused(true))),
             What::Resumed { node } => self.changes.push((at, *node, Change::Paused(false))),
             What::Finished => self.finished = Some(at),
-            What::Received { .. } | What::AtomStarted { .. } | What::LatencySet { .. } | What::Retired { .. } => {}
+            What::Received { .. }
+            | What::Estimated { .. }
+            | What::AtomStarted { .. }
+            | What::LatencySet { .. }
+            | What::Retired { .. } => {}
         }
     }
 

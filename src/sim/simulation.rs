@@ -10,7 +10,7 @@ use super::party::Party as Machinery;
 use crate::balance::{Action, Event, Message, NodeId, Parent, Party, estimate};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
-use crate::runlog::Header;
+use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
 use crate::time::Time;
 
@@ -33,6 +33,8 @@ pub struct Sim {
     division: Division,
     scene_bytes: u64,
     cost: Box<Cost>,
+    /// What an estimate's samples cost, if that was measured.
+    sample: Option<Vec<Duration>>,
     sent: u64,
     happened: u64,
     actions: Vec<Action>,
@@ -72,12 +74,42 @@ impl Sim {
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,
             cost: Box::new(cost),
+            sample: None,
             sent: 0,
             happened: 0,
             actions: Vec::new(),
         };
         sim.future.plan(Time::ZERO, Happening::Started);
         sim
+    }
+
+    /// The run that `header` describes, with the costs that were measured in a run of the same picture: without a change
+    /// the two should last the same time.
+    ///
+    /// # Errors
+    /// A sentence, if `measured` is of another division of the picture, or was not finished.
+    ///
+    /// # Panics
+    /// As [`Sim::new`].
+    pub fn measured(header: &Header, measured: &RunLog) -> Result<Self, String> {
+        let its = &measured.header;
+        if its.division != header.division {
+            return Err(format!(
+                "it is of a picture of {} in atoms of {} pixels, not of {} in atoms of {}",
+                its.size,
+                its.division.atom_pixels(),
+                header.size,
+                header.division.atom_pixels()
+            ));
+        }
+        let costs: Vec<Duration> =
+            measured.costs().into_iter().collect::<Option<_>>().ok_or("not all atoms were traced")?;
+        let mut sim = Self::new(header, &[], move |atom| costs[atom as usize]);
+        sim.sample = measured.records().iter().find_map(|record| match &record.what {
+            What::Estimated { costs } => Some(costs.clone()),
+            _ => None,
+        });
+        Ok(sim)
     }
 
     /// The time up to which everything has happened.
@@ -159,7 +191,10 @@ impl Sim {
             }
             Happening::Arrival { to, mail } => self.receive(to, mail, tell),
             Happening::Handled(mail) => self.receive(Party::Parent, mail, tell),
-            Happening::Estimated(costs) => self.hand_over(Party::Parent, Event::Estimated(costs), tell),
+            Happening::Estimated(costs) => {
+                self.note(What::Estimated { costs: costs.clone() }, tell);
+                self.hand_over(Party::Parent, Event::Estimated(costs), tell);
+            }
             Happening::Timer(node) => {
                 let now = self.now;
                 if self.nodes[usize::from(node)].timer.take_if(|at| *at <= now).is_some() {
@@ -254,14 +289,18 @@ impl Sim {
         self.future.plan(arrives, Happening::Arrival { to, mail: Mail { id, from, message } });
     }
 
-    /// The parent samples the picture as fast as the reference machine would; a pixel costs what is its atom's share.
+    /// The parent samples the picture as fast as the reference machine would; if it was not measured, a pixel costs what is
+    /// its atom's share.
     fn estimate(&mut self, tell: Tell<'_>) {
         self.note(What::Estimating, tell);
         let cost_of = |pixel: u32| {
             let atom = pixel / self.division.atom_pixels();
             (self.cost)(atom) / self.division.pixels_in(&(atom..atom + 1))
         };
-        let costs: Vec<Duration> = estimate::samples(self.division).map(|pixels| pixels.map(cost_of).sum()).collect();
+        let costs = self
+            .sample
+            .clone()
+            .unwrap_or_else(|| estimate::samples(self.division).map(|pixels| pixels.map(cost_of).sum()).collect());
         let all: Duration = costs.iter().sum();
         self.future.plan(self.now + all.div_f64(self.pace), Happening::Estimated(costs));
     }

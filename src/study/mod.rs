@@ -2,12 +2,14 @@
 
 mod paper;
 mod progress;
+mod rivals;
 mod scale;
 mod scale_report;
 mod workbench;
 
 pub use paper::paper;
 pub use progress::Tell;
+pub use rivals::rivals;
 pub use scale_report::scale;
 
 use serde::Serialize;

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use crossbeam_channel::RecvTimeoutError;
+
 use crate::balance::{Rules, Strategy};
-use crate::driver::{Run, Update, Whole};
+use crate::driver::{Run, Update, Whole, probe};
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::scenario::Command;
@@ -65,19 +67,26 @@ impl Workbench {
         }
     }
 
-    /// Runs on threads what `header` describes.
+    /// Runs on threads what `header` describes, and does to it what the script says.
     ///
     /// # Errors
     /// A sentence, if the run failed.
-    pub fn perform(&self, header: &Header) -> Result<RunLog, String> {
+    pub fn perform(&self, header: &Header, script: &[(Time, Command)]) -> Result<RunLog, String> {
         let run = Run::start(self.tracer.clone(), header);
         let mut records = Vec::new();
-        for update in run.updates() {
-            match update {
-                Update::Records(more) => records.extend(more),
-                Update::Placed { .. } | Update::Rays(_) => {}
-                Update::Finished => break,
-                Update::Failed(why) => return Err(why),
+        let mut script = script.iter().peekable();
+        loop {
+            while let Some((_, command)) = script.next_if(|(at, _)| *at <= run.now()) {
+                run.command(*command);
+            }
+            // Without a script there is nothing to wake for; an hour is as good as ever.
+            let next = script.peek().map_or(Duration::from_secs(3600), |(at, _)| at.since(run.now()));
+            match run.updates().recv_timeout(next) {
+                Ok(Update::Records(more)) => records.extend(more),
+                Ok(Update::Placed { .. } | Update::Rays(_)) | Err(RecvTimeoutError::Timeout) => {}
+                Ok(Update::Finished) => break,
+                Ok(Update::Failed(why)) => return Err(why),
+                Err(RecvTimeoutError::Disconnected) => return Err("the run ended without a result".into()),
             }
         }
         let mut log = RunLog::new(header.clone());
@@ -86,12 +95,26 @@ impl Workbench {
     }
 }
 
+/// The CPU time of a scene's picture on one thread, by a sample of it.
+pub(super) fn cost_of(scene: &Opened, size: Size, samples: u32) -> Duration {
+    let tracer = Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() });
+    probe(&tracer, Division::new(size.pixels(), 50), Duration::from_millis(300)).whole
+}
+
 /// Runs in virtual time what `header` describes, and counts what it amounts to.
 pub(super) fn simulate(header: &Header, script: &[(Time, Command)], costs: &Costs) -> Tally {
-    let header = Header { driver: Driver::Sim, cores: header.speeds.len(), ..header.clone() };
-    let costs = costs.clone();
-    let mut sim = Sim::new(&header, script, move |atom| costs[atom as usize]);
-    let mut tally = Tally::new(&header);
+    let (header, costs) = (virtually(header), costs.clone());
+    tally(&header, Sim::new(&header, script, move |atom| costs[atom as usize]))
+}
+
+/// The same in virtual time, where each machine has a core of its own.
+fn virtually(header: &Header) -> Header {
+    Header { driver: Driver::Sim, cores: header.speeds.len(), ..header.clone() }
+}
+
+/// Lets it run, and counts what it amounts to.
+fn tally(header: &Header, mut sim: Sim) -> Tally {
+    let mut tally = Tally::new(header);
     sim.run(&mut |record| tally.add(&record));
     tally
 }
@@ -101,6 +124,6 @@ pub(super) fn simulate(header: &Header, script: &[(Time, Command)], costs: &Cost
 /// # Errors
 /// A sentence, if not all atoms were traced.
 pub(super) fn twin(log: &RunLog) -> Result<Tally, String> {
-    let costs = log.costs().into_iter().collect::<Option<Vec<_>>>().ok_or("an atom was not traced")?;
-    Ok(simulate(&log.header, &[], &costs.into()))
+    let header = virtually(&log.header);
+    Ok(tally(&header, Sim::measured(&header, log)?))
 }

@@ -132,7 +132,11 @@ impl Events {
                 self.tell(at, Event::Retired(nodes), sentence);
             }
             What::Finished => self.tell(at, Event::End, sentences::COMPLETE.into()),
-            What::Sent { .. } | What::Received { .. } | What::AtomStarted { .. } | What::AtomDone { .. } => {}
+            What::Sent { .. }
+            | What::Received { .. }
+            | What::AtomStarted { .. }
+            | What::AtomDone { .. }
+            | What::Estimated { .. } => {}
         }
     }
 

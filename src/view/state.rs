@@ -114,6 +114,7 @@ impl RunState {
                 }
             }
             What::Estimating => self.is_estimating = true,
+            What::Estimated { .. } => self.is_estimating = false,
             What::Finished => self.finished = Some(at),
         }
     }
@@ -319,7 +320,7 @@ mod tests {
             | What::Paused { node }
             | What::Resumed { node }
             | What::Retired { node } => Party::Node(*node),
-            What::LatencySet { .. } | What::Estimating | What::Finished => Party::Parent,
+            What::LatencySet { .. } | What::Estimating | What::Estimated { .. } | What::Finished => Party::Parent,
         }
     }
 

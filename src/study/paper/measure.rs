@@ -1,5 +1,6 @@
 //! The runs of Figures 5 to 9, and of what the article leaves to be asked.
 
+use std::iter;
 use std::time::Duration;
 
 use super::super::progress::Progress;
@@ -9,20 +10,27 @@ use super::rows::{About, Row, middle};
 use crate::balance::Strategy;
 use crate::driver::cores;
 use crate::runlog::{Driver, Header, Tally};
-use crate::scenario::{Command, square_wave};
+use crate::scenario::{Command, Script, square_wave};
 use crate::time::Time;
 
 /// Runs of the same kind on threads, of which the middle one counts.
 pub(super) const RUNS: usize = 3;
-
-/// Runs at full speed of each kind.
-const COMPETING: usize = 7;
 
 /// Sizes of atoms that are tried, in pixels.
 const ATOMS: [u32; 10] = [5, 10, 25, 50, 100, 250, 500, 1000, 2500, 10_000];
 
 /// Sizes of a farm's parts, and least sizes of a ring's transfers, that are tried, in atoms.
 const PARTS: [u32; 10] = [1, 2, 5, 10, 20, 40, 80, 160, 320, 640];
+
+/// With how many periods a machine's speed swings.
+pub(super) const PERIODS: usize = 4;
+
+/// The periods: of an offer's lap, of an atom, of a tenth of the run and of the run, where a machine needs `scale` times the
+/// article's time.
+fn periods(scale: f64, atoms: usize) -> [Duration; PERIODS] {
+    let run = SERIAL.mul_f64(scale / (4.0 - 0.45));
+    [Duration::from_secs_f64(4.0 * NETWORK.latency * scale), SERIAL.mul_f64(scale) / atoms as u32, run / 10, run]
+}
 
 /// Two, three and four equal machines, and four with a slow one.
 pub(super) fn machines() -> [Vec<f64>; 4] {
@@ -44,51 +52,58 @@ pub(super) struct Measuring<'a> {
 }
 
 impl<'a> Measuring<'a> {
-    /// Nothing has run yet; `work` is the CPU time of the whole picture.
-    pub fn new(bench: &'a Workbench, work: Duration) -> Self {
-        let pace = pace();
+    /// Nothing has run yet; `work` is the CPU time of the whole picture, and a machine of the article's speed gets the part
+    /// `pace` of a core.
+    pub fn new(bench: &'a Workbench, work: Duration, pace: f64) -> Self {
         let scale = work.div_f64(pace).div_duration_f64(SERIAL);
         Self { bench, costs: bench.costs(ATOM, SERIAL), pace, scale, rows: Vec::new() }
     }
 
     /// How many steps [`Measuring::threads`] takes.
-    pub const THREAD_STEPS: usize = RUNS * (1 + 4 * (2 * STRATEGIES.len() + 1) + 4);
+    pub const THREAD_STEPS: usize = RUNS * (1 + 4 * (2 * STRATEGIES.len() + 1) + 4 + PERIODS);
 
-    /// Figures 6 and 7 on threads, without a network and on the modelled one, and the slow machine at every place: in turn,
-    /// so that what disturbs the computer disturbs all alike.
+    /// Figures 6 and 7 on threads, without a network and on the modelled one, the slow machine at every place, and a machine
+    /// that swings: in turn, so that what disturbs the computer disturbs all alike.
     ///
     /// # Errors
     /// A sentence, if a run failed.
     pub fn threads(&mut self, progress: &mut Progress<'_>) -> Result<(), String> {
-        let mut kinds: Vec<(About, Header)> = Vec::new();
-        let none = |figure| About { figure, modelled: false };
-        kinds.push((none("6"), self.bench.header(ATOM, Strategy::Serial, vec![1.0])));
-        for speeds in machines() {
-            let figure = if speeds.len() == 5 { "7" } else { "6" };
-            for strategy in STRATEGIES {
-                let header = self.bench.header(ATOM, strategy, speeds.clone());
-                kinds.push((none(figure), header.clone()));
-                kinds.push((About { figure, modelled: true }, self.modelled(header, self.scale)));
-            }
-            let rayon = self.bench.header(ATOM, Strategy::Ring, speeds);
-            kinds.push((none(figure), Header { driver: Driver::WorkStealing, ..rayon }));
-        }
-        for place in 0..4 {
-            kinds.push((none("place"), self.bench.header(ATOM, Strategy::Ring, slow_at(place))));
-        }
+        let kinds = self.kinds();
         let mut rows: Vec<Vec<Row>> = kinds.iter().map(|_| Vec::new()).collect();
         for _ in 0..RUNS {
-            for ((about, header), rows) in kinds.iter().zip(&mut rows) {
+            for ((about, header, script), rows) in kinds.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
                 progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
-                let log = self.bench.perform(&header)?;
-                // Rayon's rules are not ours to simulate.
-                let twin = if header.driver == Driver::Threads { Some(twin(&log)?) } else { None };
+                let log = self.bench.perform(&header, script)?;
+                // Rayon's rules are not ours to simulate; and when threads obey a script is not quite when it says.
+                let has_twin = header.driver == Driver::Threads && script.is_empty();
+                let twin = if has_twin { Some(twin(&log)?) } else { None };
                 rows.push(Row::new(*about, &header, &Tally::of(&log), twin.as_ref()));
             }
         }
         self.rows.extend(rows.into_iter().filter_map(middle));
         Ok(())
+    }
+
+    /// What runs on threads.
+    fn kinds(&self) -> Vec<(About, Header, Script)> {
+        let plain = |figure, header| (About::new(figure, false), header, Script::new());
+        let mut kinds = vec![plain("6", self.bench.header(ATOM, Strategy::Serial, vec![1.0]))];
+        for speeds in machines() {
+            let figure = if speeds.len() == 5 { "7" } else { "6" };
+            for strategy in STRATEGIES {
+                let header = self.bench.header(ATOM, strategy, speeds.clone());
+                kinds.push(plain(figure, header.clone()));
+                kinds.push((About::new(figure, true), self.modelled(header, self.scale), Script::new()));
+            }
+            let rayon = self.bench.header(ATOM, Strategy::Ring, speeds);
+            kinds.push(plain(figure, Header { driver: Driver::WorkStealing, ..rayon }));
+        }
+        kinds.extend((0..4).map(|place| plain("place", self.bench.header(ATOM, Strategy::Ring, slow_at(place)))));
+        let periods = periods(self.scale, self.costs.len());
+        // Nobody can swing a thread's speed with the lap of an offer, 70 µs of its time.
+        kinds.extend(self.swinging(self.scale, &periods[1..]));
+        kinds
     }
 
     /// Figures 6 and 7 in virtual time, at the article's times.
@@ -97,15 +112,15 @@ impl<'a> Measuring<'a> {
             for speeds in machines() {
                 let figure = if speeds.len() == 5 { "7" } else { "6" };
                 for strategy in STRATEGIES {
-                    self.simulate(About { figure, modelled }, self.bench.header(ATOM, strategy, speeds.clone()));
+                    self.simulate(About::new(figure, modelled), self.bench.header(ATOM, strategy, speeds.clone()));
                 }
             }
             let alone = |speed| self.bench.header(ATOM, Strategy::Serial, vec![speed]);
-            self.simulate(About { figure: "6", modelled }, alone(1.0));
-            self.simulate(About { figure: "7", modelled }, alone(slow_speed()));
+            self.simulate(About::new("6", modelled), alone(1.0));
+            self.simulate(About::new("7", modelled), alone(slow_speed()));
             for place in 0..5 {
                 let header = self.bench.header(ATOM, Strategy::Ring, slow_at(place));
-                self.simulate(About { figure: "place", modelled }, header);
+                self.simulate(About::new("place", modelled), header);
             }
         }
     }
@@ -119,34 +134,39 @@ impl<'a> Measuring<'a> {
                 for atom in ATOMS {
                     let costs = self.bench.costs(atom, SERIAL);
                     let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
-                    self.add(About { figure: "atom", modelled }, &on_network(header), &[], &costs);
+                    self.add(About::new("atom", modelled), &on_network(header), &[], &costs);
                 }
                 for (part, strategy) in
                     PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)])
                 {
                     let mut header = self.bench.header(ATOM, strategy, speeds.clone());
                     header.rules.part = part;
-                    self.add(About { figure: "part", modelled }, &on_network(header), &[], &self.costs.clone());
+                    self.add(About::new("part", modelled), &on_network(header), &[], &self.costs.clone());
                 }
             }
         }
     }
 
-    /// A ring of four of which one machine swings between full and a tenth of its speed, with the period of an atom, of an
-    /// offer's lap, and of the run: rows in this order, after one in which it has its mean speed throughout.
+    /// A ring of four of which one machine swings, in virtual time.
     pub fn swings(&mut self) {
-        let atom = SERIAL / self.costs.len() as u32;
-        let lap = Duration::from_secs_f64(4.0 * NETWORK.latency);
-        let steady = self.bench.header(ATOM, Strategy::Ring, vec![1.0, 1.0, 1.0, 0.55]);
-        let steady = self.modelled(steady, 1.0);
-        let run = simulate(&steady, &[], &self.costs).makespan().unwrap_or_default();
-        let about = About { figure: "swing", modelled: true };
-        let costs = self.costs.clone();
-        self.add(about, &steady, &[], &costs);
-        for period in [lap, atom, run / 10, run] {
-            let script = square_wave(3, 1.0, 0.1, period, Time::ZERO + 4 * run);
-            self.add(about, &Header { speeds: vec![1.0; 4], ..steady.clone() }, &script, &costs);
+        let periods = periods(1.0, self.costs.len());
+        for (about, header, script) in self.swinging(1.0, &periods) {
+            self.add(about, &header, &script, &self.costs.clone());
         }
+    }
+
+    /// A ring of four on the modelled network, of which one machine has its mean speed throughout, or swings between full and
+    /// a tenth of its speed with one of these periods.
+    fn swinging(&self, scale: f64, periods: &[Duration]) -> Vec<(About, Header, Script)> {
+        let run = |period: Option<Duration>| {
+            let last = if period.is_some() { 1.0 } else { 0.55 };
+            let header = self.modelled(self.bench.header(ATOM, Strategy::Ring, vec![1.0, 1.0, 1.0, last]), scale);
+            // Whatever it takes, it ends before.
+            let end = Time::ZERO + SERIAL.mul_f64(scale);
+            let script = period.map_or_else(Script::new, |period| square_wave(3, 1.0, 0.1, period, end));
+            (About { period, ..About::new("swing", true) }, header, script)
+        };
+        iter::once(None).chain(periods.iter().copied().map(Some)).map(run).collect()
     }
 
     /// By handling time of a message in ms, at four equal machines: times over the ideal of a farm with parts of one atom, of
@@ -164,29 +184,6 @@ impl<'a> Measuring<'a> {
         };
         [0.1, 0.3, 1.0, 3.0, 10.0, 15.0, 20.0, 30.0, 100.0].map(|handling| (handling, times(handling))).to_vec()
     }
-
-    /// Makespans in seconds of the same run at full speed, a machine a core: with one thread a node, and with two.
-    ///
-    /// # Errors
-    /// A sentence, if a run failed.
-    pub fn competing(&self, progress: &mut Progress<'_>) -> Result<[f64; 2], String> {
-        let mut seconds = [Vec::new(), Vec::new()];
-        for _ in 0..COMPETING {
-            for (driver, seconds) in [Driver::Threads, Driver::Pairs].into_iter().zip(&mut seconds) {
-                progress.next(&format!("full speed, {}", driver.name()));
-                let header = self.bench.header(ATOM, Strategy::Ring, vec![1.0; cores()]);
-                let log = self.bench.perform(&Header { driver, ..header })?;
-                seconds.push(Tally::of(&log).makespan().unwrap_or_default().as_secs_f64());
-            }
-        }
-        Ok(seconds.map(|mut seconds| {
-            seconds.sort_by(f64::total_cmp);
-            seconds[seconds.len() / 2]
-        }))
-    }
-
-    /// How many steps [`Measuring::competing`] takes.
-    pub const COMPETING_STEPS: usize = 2 * COMPETING;
 
     /// The run on the modelled network, with its farm's parts.
     fn modelled(&self, mut header: Header, scale: f64) -> Header {
@@ -214,9 +211,4 @@ fn slow_at(place: usize) -> Vec<f64> {
     let mut speeds = vec![1.0; 4];
     speeds.insert(place, slow_speed());
     speeds
-}
-
-/// What part of a core a machine gets: four and a slow one take less than half of the computer.
-pub(super) fn pace() -> f64 {
-    (0.1 * cores() as f64).min(1.0)
 }

@@ -11,13 +11,18 @@ mod rows;
 use std::time::Duration;
 
 use super::progress::Progress;
-use super::workbench::Workbench;
+use super::rivals;
+use super::workbench::{Workbench, cost_of};
 use super::{Study, Tell};
-use crate::driver::probe;
-use crate::picture::{Division, Size};
+use crate::driver::cores;
+use crate::picture::Size;
 use crate::scene::Opened;
 use crate::tracer::{Quality, Tracer};
-use measure::{Measuring, pace};
+use measure::Measuring;
+use report::About;
+
+/// How long a run of four machines is to last on threads: "a second or more", and the threads' rests make work dearer.
+const RUN: Duration = Duration::from_millis(1100);
 
 /// Figures 5 to 9 on threads and in virtual time, without a network and on a modelled one; what else one wants to know of
 /// the strategies; and a verdict on each claim of §7, §10 and §11.
@@ -25,39 +30,40 @@ use measure::{Measuring, pace};
 /// # Errors
 /// A sentence, if a run failed.
 pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
-    let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + Measuring::COMPETING_STEPS, tell);
+    let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + rivals::STEPS, tell);
     progress.next("what the picture costs");
     let size = Size::new(640, 480)?;
-    let (samples, work) = long_enough(scene, size);
+    let (samples, work, pace) = long_enough(scene, size);
     let bench = Workbench::new(scene, size, samples)?;
-    let mut measuring = Measuring::new(&bench, work);
+    let mut measuring = Measuring::new(&bench, work, pace);
     progress.next("virtual time");
     measuring.simulated();
     measuring.sizes();
     measuring.swings();
     let handling = measuring.handling();
     measuring.threads(&mut progress)?;
-    let competing = measuring.competing(&mut progress)?;
+    let competing = rivals::compete(&bench, &mut progress)?;
     progress.next("rays that change hands");
-    let divisions = division::count(&bench.tracer);
+    // The article's picture has one sample a pixel.
+    let divisions = division::count(&Tracer::new(&scene.scene, size, Quality::default()));
     let rows = measuring.rows;
     let mut study = Study::new("paper");
     study.add_rows(&rows)?;
     for (name, marks) in charts::all(&rows, &handling) {
         study.add_chart(name, &marks);
     }
-    study.add_report(report::report(&bench, &rows, &handling, competing, &divisions));
+    study.add_report(report::report(&About { bench: &bench, pace }, &rows, &handling, &competing, &divisions));
     Ok(study)
 }
 
-/// How many samples a pixel make a run of four machines last more than a second, and what CPU time the picture then takes.
-fn long_enough(scene: &Opened, size: Size) -> (u32, Duration) {
-    let work = |samples| {
-        let tracer = Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() });
-        probe(&tracer, Division::new(size.pixels(), article::ATOM), Duration::from_millis(300)).whole
-    };
-    let least = Duration::from_secs_f64(1.2 * 4.0 * pace());
-    // An average computer needs two.
-    let found = (1..=8).map(|samples| (samples, work(samples))).find(|(_, work)| *work >= least);
-    found.unwrap_or_else(|| (8, work(8)))
+/// Samples a pixel, the CPU time that the picture then takes, and the part of a core that a machine is given: together they
+/// make a run of four machines last [`RUN`], and five machines take no more than half of the computer.
+fn long_enough(scene: &Opened, size: Size) -> (u32, Duration, f64) {
+    let most = (0.1 * cores() as f64).min(1.0);
+    let pace = |work: Duration| work.div_duration_f64(4 * RUN);
+    let costs = (1..=8).map(|samples| (samples, cost_of(scene, size, samples)));
+    // Where even one sample takes too long, runs last longer.
+    let fitting = costs.take_while(|&(samples, work)| samples == 1 || pace(work) <= most).last();
+    let (samples, work) = fitting.unwrap_or((1, RUN));
+    (samples, work, pace(work).clamp(1e-3, most))
 }

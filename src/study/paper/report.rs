@@ -2,32 +2,40 @@
 
 use std::fmt::Write;
 
+use super::super::rivals::Needs;
 use super::super::workbench::{STRATEGIES, Workbench};
 use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
 use super::charts::select;
 use super::claims;
 use super::division::Division;
-use super::measure::{RUNS, pace};
+use super::measure::RUNS;
 use super::rows::Row;
 use crate::balance::Strategy;
 
+/// What was studied, and how.
+pub(super) struct About<'a> {
+    pub bench: &'a Workbench,
+    /// The part of a core that a machine of the article's speed gets.
+    pub pace: f64,
+}
+
 /// The report, in Markdown.
 pub(super) fn report(
-    bench: &Workbench,
+    about: &About<'_>,
     rows: &[Row],
     handling: &[(f64, [f64; 4])],
-    competing: [f64; 2],
+    competing: &[Needs; 3],
     divisions: &[Division],
 ) -> String {
     let mut text = String::new();
-    head(&mut text, bench);
+    head(&mut text, about);
     verdicts(&mut text, rows, competing);
     figures(&mut text, rows);
     agreement(&mut text, rows);
     places(&mut text, rows);
     choking(&mut text, handling);
     swings(&mut text, rows);
-    space(&mut text, divisions, bench);
+    space(&mut text, divisions);
     text.push_str(
         "\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n\nAll runs are in `paper.csv`.\n",
     );
@@ -39,7 +47,7 @@ macro_rules! say {
     ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
 }
 
-fn head(text: &mut String, bench: &Workbench) {
+fn head(text: &mut String, About { bench, pace }: &About<'_>) {
     say!(text, "# The article's comparison, run anew\n");
     say!(
         text,
@@ -51,7 +59,7 @@ fn head(text: &mut String, bench: &Workbench) {
         bench.scene.name,
         bench.size,
         bench.samples,
-        100.0 * pace(),
+        100.0 * pace,
         SERIAL.as_secs(),
         SLOW_SERIAL.as_secs(),
     );
@@ -68,7 +76,7 @@ fn head(text: &mut String, bench: &Workbench) {
     );
 }
 
-fn verdicts(text: &mut String, rows: &[Row], competing: [f64; 2]) {
+fn verdicts(text: &mut String, rows: &[Row], competing: &[Needs; 3]) {
     say!(text, "## Verdicts\n");
     for claim in claims::all(rows, competing) {
         say!(text, "- **{}** ({}): **{}**. {}", claim.says, claim.place, claim.verdict, claim.why);
@@ -168,15 +176,14 @@ fn choking(text: &mut String, handling: &[(f64, [f64; 4])]) {
 }
 
 /// §5's division of space.
-fn space(text: &mut String, divisions: &[Division], bench: &Workbench) {
+fn space(text: &mut String, divisions: &[Division]) {
     say!(text, "\n## The third way: division of space (§5)\n");
     say!(
         text,
-        "The scene's octree is dealt to owners, and a ray that leaves an owner's cells is sent to the next. Counted on one render with {} \
-         samples a pixel (n × n), and kindly: empty cells cost nothing, and solids without bounds are everywhere. *Wire* is for how long \
+        "The scene's octree is dealt to owners, and a ray that leaves an owner's cells is sent to the next. Counted on one render with one \
+         sample a pixel, and kindly: empty cells cost nothing, and solids without bounds are everywhere. *Wire* is for how long \
          the modelled network's wire would be busy with it, *travel* the time of all messages one after the other; the picture itself takes \
-         one machine {} s at one sample.\n",
-        bench.samples,
+         one machine {} s.\n",
         SERIAL.as_secs()
     );
     say!(
@@ -214,9 +221,15 @@ fn swings(text: &mut String, rows: &[Row]) {
         "A ring of four on the modelled network, of which one machine swings between full speed and a tenth; over the ideal time, which \
          knows of the swings.\n"
     );
-    say!(text, "| period | time / ideal | atoms moved | transfers |\n|---|---:|---:|---:|");
-    let names = ["none: steady at the mean", "an offer's lap", "an atom", "a tenth of the run", "the run"];
-    for (name, row) in names.into_iter().zip(rows.iter().filter(|row| row.figure == "swing")) {
-        say!(text, "| {name} | {:.4} | {} | {} |", row.over_ideal, row.atoms_moved, row.transfers);
+    say!(text, "| | period, s | time / ideal | atoms moved | transfers |\n|---|---:|---:|---:|---:|");
+    let steady = "steady at the mean";
+    for (driver, name, of) in [
+        ("sim", "virtual time", &[steady, "an offer's lap", "an atom", "a tenth of the run", "the run"][..]),
+        ("threads", "threads", &[steady, "an atom", "a tenth of the run", "the run"]),
+    ] {
+        for (of, row) in of.iter().zip(select(rows, "swing", "modelled", driver)) {
+            let period = row.period_s.map_or("–".into(), |period| format!("{period:.4}"));
+            say!(text, "| {name}: {of} | {period} | {:.4} | {} | {} |", row.over_ideal, row.atoms_moved, row.transfers);
+        }
     }
 }

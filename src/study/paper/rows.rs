@@ -1,5 +1,7 @@
 //! What is measured: a row for each run.
 
+use std::time::Duration;
+
 use serde::Serialize;
 
 use super::article::{self, times_ideal};
@@ -34,6 +36,8 @@ pub(super) struct Row {
     pub bytes: u64,
     pub transfers: u64,
     pub atoms_moved: u64,
+    /// The period with which a machine's speed swings.
+    pub period_s: Option<f64>,
 }
 
 /// What a row is about.
@@ -41,6 +45,15 @@ pub(super) struct Row {
 pub(super) struct About {
     pub figure: &'static str,
     pub modelled: bool,
+    /// The period with which a machine's speed swings.
+    pub period: Option<Duration>,
+}
+
+impl About {
+    /// A run of machines whose speeds do not change.
+    pub fn new(figure: &'static str, modelled: bool) -> Self {
+        Self { figure, modelled, period: None }
+    }
 }
 
 impl Row {
@@ -72,6 +85,7 @@ impl Row {
             bytes: messages.bytes,
             transfers: messages.transfers,
             atoms_moved: messages.atoms_moved,
+            period_s: about.period.map(|period| period.as_secs_f64()),
         }
     }
 }

@@ -1,0 +1,161 @@
+//! What sharing costs at full speed, a node a core: the ring, the ring with two threads a node (§10), and rayon's work
+//! stealing.
+
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use super::progress::Progress;
+use super::workbench::{Workbench, cost_of};
+use super::{Study, Tell};
+use crate::balance::Strategy;
+use crate::driver::cores;
+use crate::picture::Size;
+use crate::runlog::{Driver, Header, Tally};
+use crate::scene::Opened;
+
+/// Runs of each kind.
+const TURNS: usize = 9;
+
+/// The rivals, the one first with which the others are compared.
+const RIVALS: [Driver; 3] = [Driver::Threads, Driver::Pairs, Driver::WorkStealing];
+
+/// What one rival needs for a scene's picture: medians of its runs.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Needs {
+    pub scene: String,
+    pub driver: &'static str,
+    pub nodes: usize,
+    /// From the start of its threads to their end.
+    pub wall_s: f64,
+    pub makespan_s: f64,
+    /// Its wall time over that of the ring just before.
+    pub wall_over_ring: f64,
+    pub makespan_over_ring: f64,
+    /// Of all its threads; `None` where the computer does not count them.
+    pub context_switches: Option<u64>,
+}
+
+/// The rivals on each of the scenes.
+///
+/// # Errors
+/// A sentence, if a run failed.
+pub fn rivals(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
+    let mut progress = Progress::new(scenes.len() * STEPS, tell);
+    let size = Size::new(640, 480)?;
+    let mut rows = Vec::new();
+    for scene in scenes {
+        // Enough that starting threads does not show.
+        let least = Duration::from_millis(500) * cores() as u32;
+        let samples = (1..8).find(|&samples| cost_of(scene, size, samples) >= least).unwrap_or(8);
+        rows.extend(compete(&Workbench::new(scene, size, samples)?, &mut progress)?);
+    }
+    let mut study = Study::new("rivals");
+    study.add_rows(&rows)?;
+    study.add_report(report(&rows));
+    Ok(study)
+}
+
+/// How many steps [`compete`] takes.
+pub(super) const STEPS: usize = TURNS * RIVALS.len();
+
+/// Lets the rivals trace the bench's picture in turn, so that what disturbs the computer disturbs all alike.
+///
+/// # Errors
+/// A sentence, if a run failed.
+pub(super) fn compete(bench: &Workbench, progress: &mut Progress<'_>) -> Result<[Needs; 3], String> {
+    let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
+    let mut turns = Vec::new();
+    for _ in 0..TURNS {
+        let mut turn = [Sample::default(); RIVALS.len()];
+        for (driver, sample) in RIVALS.into_iter().zip(&mut turn) {
+            progress.next(&format!("{} at full speed: {}", bench.scene.name, driver.name()));
+            *sample = Sample::take(bench, &Header { driver, ..header.clone() })?;
+        }
+        turns.push(turn);
+    }
+    let needs = |rival: usize| {
+        let median = |of: &dyn Fn(&[Sample; 3]) -> f64| {
+            let mut values: Vec<f64> = turns.iter().map(of).collect();
+            values.sort_by(f64::total_cmp);
+            values[values.len() / 2]
+        };
+        let switches = turns.iter().all(|turn| turn[rival].switches.is_some());
+        Needs {
+            scene: bench.scene.name.clone(),
+            driver: RIVALS[rival].name(),
+            nodes: header.speeds.len(),
+            wall_s: median(&|turn| turn[rival].wall),
+            makespan_s: median(&|turn| turn[rival].makespan),
+            wall_over_ring: median(&|turn| turn[rival].wall / turn[0].wall),
+            makespan_over_ring: median(&|turn| turn[rival].makespan / turn[0].makespan),
+            context_switches: switches.then(|| median(&|turn| turn[rival].switches.unwrap_or(0) as f64) as u64),
+        }
+    };
+    Ok([needs(0), needs(1), needs(2)])
+}
+
+/// One run.
+#[derive(Clone, Copy, Default)]
+struct Sample {
+    wall: f64,
+    makespan: f64,
+    switches: Option<u64>,
+}
+
+impl Sample {
+    #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+    fn take(bench: &Workbench, header: &Header) -> Result<Self, String> {
+        let (begun, before) = (Instant::now(), context_switches());
+        let log = bench.perform(header, &[])?;
+        let wall = begun.elapsed().as_secs_f64();
+        let switches = context_switches().zip(before).map(|(after, before)| after - before);
+        let makespan = Tally::of(&log).makespan().unwrap_or_default().as_secs_f64();
+        Ok(Self { wall, makespan, switches })
+    }
+}
+
+/// How often the program's threads have left a core so far.
+#[cfg(unix)]
+fn context_switches() -> Option<u64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    u64::try_from(usage.voluntary_context_switches() + usage.involuntary_context_switches()).ok()
+}
+
+#[cfg(not(unix))]
+fn context_switches() -> Option<u64> {
+    None
+}
+
+fn report(rows: &[Needs]) -> String {
+    let mut text = String::from("# What sharing costs at full speed\n\n");
+    _ = writeln!(
+        text,
+        "Each scene's picture of 640 × 480 in atoms of 50 pixels, on {} nodes at full speed, a node a core, without a network: the ring, \
+         the ring with two threads a node (one answers, one traces, as the article has it), and rayon's work stealing. Medians of {TURNS} \
+         turns, in one program that is warm; ratios are those within a turn. A makespan is from the first band to the last pixel, wall \
+         time from the start of the threads to their end.\n",
+        cores()
+    );
+    text.push_str("| scene | ring, s | ring / rayon | their makespans | two threads / one | context switches: ring | two threads | rayon |\n");
+    text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|\n");
+    for scene in rows.chunks_exact(RIVALS.len()) {
+        let [ring, pairs, rayon] = scene else { continue };
+        let switches = |needs: &Needs| needs.context_switches.map_or("–".into(), |count| count.to_string());
+        _ = writeln!(
+            text,
+            "| {} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {} | {} |",
+            ring.scene,
+            ring.wall_s,
+            1.0 / rayon.wall_over_ring,
+            1.0 / rayon.makespan_over_ring,
+            pairs.wall_over_ring,
+            switches(ring),
+            switches(pairs),
+            switches(rayon)
+        );
+    }
+    text
+}
