@@ -1,5 +1,6 @@
 //! The network: what a message's way costs.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use crate::time::Time;
@@ -7,34 +8,63 @@ use crate::time::Time;
 /// A message takes at least this long, so that in the run log every cause lies before its effects.
 const LEAST: Duration = Duration::from_nanos(1);
 
-/// What bytes queue for: they leave one after the other.
-#[derive(Clone, Copy, Debug, Default)]
+/// A wire that all parties share: what is on it is there alone.
+///
+/// On threads a party that has woken late makes up for it, and sends at a time at which another's later message may have been
+/// put on the wire already. So the wire knows when it was busy, and an earlier message takes the room that was left.
+#[derive(Clone, Debug, Default)]
 pub struct Wire {
-    /// When the last byte so far has left.
-    free: Time,
+    /// From when to when it is busy, in the order of time; none touches the next.
+    busy: VecDeque<(Time, Time)>,
+    /// Nothing more begins before this time.
+    closed: Time,
 }
 
+/// A wire remembers so many busy times, which last longer than threads are late.
+const REMEMBERED: usize = 1024;
+
 impl Wire {
-    /// When the last of `bytes` has left that are there at `at`, after those of earlier messages, at `bandwidth` bytes a
-    /// second (`None`: all at once).
-    pub fn send(&mut self, at: Time, bytes: u64, bandwidth: Option<f64>) -> Time {
-        let sending = bandwidth.map_or(0.0, |bandwidth| bytes as f64 / bandwidth);
-        self.free = self.free.max(at) + Duration::from_nanos(Time::from_secs(sending).0);
-        self.free
+    /// When it has sent something that is there at `at` and takes it `sending`.
+    fn send(&mut self, at: Time, sending: Duration) -> Time {
+        let mut start = at.max(self.closed);
+        let mut place = self.busy.partition_point(|&(_, end)| end <= start);
+        while let Some(&(_, ends)) = self.busy.get(place).filter(|(begins, _)| start + sending > *begins) {
+            start = ends;
+            place += 1;
+        }
+        let end = start + sending;
+        let follows = place > 0 && self.busy[place - 1].1 == start;
+        let precedes = self.busy.get(place).is_some_and(|&(begins, _)| begins == end);
+        match (follows, precedes) {
+            (true, true) => {
+                self.busy[place - 1].1 = self.busy[place].1;
+                self.busy.remove(place);
+            }
+            (true, false) => self.busy[place - 1].1 = end,
+            (false, true) => self.busy[place].0 = start,
+            (false, false) => self.busy.insert(place, (start, end)),
+        }
+        if self.busy.len() > REMEMBERED
+            && let Some((_, ends)) = self.busy.pop_front()
+        {
+            self.closed = ends;
+        }
+        end
     }
 }
 
 /// The way from one party to another. It is FIFO: no message overtakes an earlier one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Link {
-    wire: Wire,
+    /// When the last byte so far has left, on a wire of its own.
+    free: Time,
     /// When the last message sent so far arrives.
     last: Time,
 }
 
 impl Link {
     /// When a message of `bytes` arrives that is sent at `at`: its last byte leaves by the `shared` wire, or by the link's
-    /// own, and then travels for `latency`.
+    /// own, at `bandwidth` bytes a second (`None`: all at once), and then travels for `latency`.
     pub fn arrival(
         &mut self,
         at: Time,
@@ -43,7 +73,15 @@ impl Link {
         bandwidth: Option<f64>,
         shared: Option<&mut Wire>,
     ) -> Time {
-        let left = shared.unwrap_or(&mut self.wire).send(at, bytes, bandwidth);
+        let sending =
+            Duration::from_nanos(bandwidth.map_or(0, |bandwidth| Time::from_secs(bytes as f64 / bandwidth).0));
+        let left = match shared {
+            Some(wire) => wire.send(at, sending),
+            None => {
+                self.free = self.free.max(at) + sending;
+                self.free
+            }
+        };
         self.last = (left + latency.max(LEAST)).max(self.last);
         self.last
     }
@@ -70,7 +108,39 @@ mod tests {
         assert_eq!([arrival(&mut one), arrival(&mut other)], [2, 3].map(|ms| Time::ZERO + ms * MS));
     }
 
+    #[test]
+    fn what_is_sent_late_takes_the_room_that_was_left() {
+        let mut wire = Wire::default();
+        let mut left = |at: u32, ms: u32| wire.send(Time::ZERO + at * MS, ms * MS).0 / 1_000_000;
+        assert_eq!([left(10, 2), left(4, 3), left(5, 4), left(8, 2), left(0, 4)], [12, 7, 16, 10, 4]);
+        assert_eq!(left(11, 1), 17);
+    }
+
     proptest! {
+        /// Whoever comes when, nothing is on the wire together, and no room is wasted for who comes in order.
+        #[test]
+        fn a_wire_does_one_thing_after_the_other(
+            sent in prop::collection::vec((0u32..200, 0u32..10), 1..60), in_order in any::<bool>(),
+        ) {
+            let mut sent = sent;
+            if in_order {
+                sent.sort_unstable();
+            }
+            let (mut wire, mut free) = (Wire::default(), Time::ZERO);
+            let mut times = Vec::new();
+            for (at, ms) in sent {
+                let (at, sending) = (Time::ZERO + at * MS, ms * MS);
+                let left = wire.send(at, sending);
+                prop_assert!(left >= at + sending);
+                times.push((left - sending, left));
+                free = free.max(at) + sending;
+                prop_assert!(!in_order || left == free);
+            }
+            times.retain(|(start, end)| start < end);
+            times.sort_unstable();
+            prop_assert!(times.windows(2).all(|pair| pair[0].1 <= pair[1].0));
+        }
+
         #[test]
         fn no_message_overtakes(
             messages in prop::collection::vec((0u32..1000, 0u64..10_000, 0u64..100), 1..20),

@@ -129,6 +129,23 @@ fn context_switches() -> Option<u64> {
     None
 }
 
+#[cfg(test)]
+impl Needs {
+    /// What something needs.
+    pub fn example() -> Self {
+        Self {
+            scene: "an example".into(),
+            driver: Driver::Threads.name(),
+            nodes: 2,
+            wall_s: 1.0,
+            makespan_s: 0.9,
+            wall_over_ring: 1.0,
+            makespan_over_ring: 1.0,
+            context_switches: Some(100),
+        }
+    }
+}
+
 fn report(rows: &[Needs]) -> String {
     let mut text = String::from("# What sharing costs at full speed\n\n");
     _ = writeln!(

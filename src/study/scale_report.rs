@@ -161,6 +161,8 @@ fn report(rows: &[Row], scene: &str) -> String {
             say(format_args!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
         }
     }
+    say(format_args!("## Messages\n"));
+    say(format_args!("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n"));
     say(format_args!("## Why the ring decays\n"));
     say(format_args!("![](scale-ring.svg)\n"));
     say(format_args!("{}", why(rows)));

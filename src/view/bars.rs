@@ -1,5 +1,7 @@
 //! Grouped bars: the same few things measured in several cases.
 
+use std::iter;
+
 use super::chart::series_hue;
 use super::display::{Hue, Mark, Point};
 use super::scale::Axis;
@@ -14,10 +16,21 @@ pub struct Bars {
     pub note: String,
     /// What was measured.
     pub y: Axis,
-    /// The cases, and in each what was measured of whom; who has the same name has the same colour.
-    pub groups: Vec<(String, Vec<(String, f64)>)>,
+    /// The cases, and in each what was measured of whom.
+    pub groups: Vec<(String, Vec<Bar>)>,
     /// A dashed line across the plot, for instance where nothing is gained.
     pub reference: Option<f64>,
+}
+
+/// One bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Whose it is: who has the same name has the same colour.
+    pub name: String,
+    /// What was measured.
+    pub value: f64,
+    /// What others have measured, as a mark across the bar.
+    pub other: Option<f64>,
 }
 
 /// How much of a group's width is left empty, and how much of a bar's.
@@ -27,6 +40,8 @@ const SLIT: f32 = 0.1;
 const LEAST: f32 = 2.0;
 /// A bar that leaves the plot is cut at this distance from its edge.
 const CUT: f32 = 12.0;
+/// How thick a mark of what others have measured is.
+const MARKED: f32 = 3.0;
 
 impl Bars {
     /// The bars as a display list whose corner is at 0, 0; it needs 480 × 360 at least.
@@ -36,7 +51,8 @@ impl Bars {
         let rough = (size[0] - 2.0 * BESIDE) / self.groups.len().max(1) as f32 - GAP;
         let below = if self.groups.iter().any(|(group, _)| width_of(group) > rough) { 2 } else { 1 };
         let words = Words { title: &self.title, note: &self.note, legend: &legend, below };
-        let bars = || self.groups.iter().flat_map(|(_, bars)| bars.iter().map(|&(_, value)| value));
+        let bars =
+            || self.groups.iter().flat_map(|(_, bars)| bars).flat_map(|bar| iter::once(bar.value).chain(bar.other));
         let (mut sheet, ruler) = Sheet::new(size, &words, &self.y, bars().chain(self.reference), 0.0);
         let zero = ruler.place(0.0).unwrap_or(0.0).clamp(0.0, 1.0);
         let group_width = (sheet.right - sheet.left) / self.groups.len().max(1) as f32;
@@ -47,11 +63,16 @@ impl Bars {
             let (first, second) = if below > 1 && width_of(group) > room { halves(group) } else { (&**group, "") };
             sheet.below(0, first, middle, room);
             sheet.below(1, second, middle, room);
-            for (name, value) in bars {
+            for Bar { name, value, other } in bars {
                 let nth = names.iter().position(|known| known == name);
                 let (Some(place), Some(nth)) = (ruler.place(*value), nth) else { continue };
                 let x = middle + (nth as f32 + 0.5 - names.len() as f32 / 2.0) * slot;
                 put_bar(&mut sheet, [x, slot * (1.0 - SLIT) / 2.0], (zero, place), series_hue(nth));
+                let inside = |place: &f64| (0.0..=1.0).contains(place);
+                if let Some(place) = other.and_then(|other| ruler.place(other)).filter(inside) {
+                    let y = sheet.at([0.0, place])[1];
+                    sheet.line(vec![[x - slot / 2.0, y], [x + slot / 2.0, y]], MARKED, Hue::Text.full());
+                }
             }
         }
         if let Some(place) = self.reference.and_then(|value| ruler.place(value)).filter(|v| (0.0..=1.0).contains(v)) {
@@ -64,7 +85,7 @@ impl Bars {
     /// Everyone's name, in the order in which they appear.
     fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
-        for (name, _) in self.groups.iter().flat_map(|(_, bars)| bars) {
+        for Bar { name, .. } in self.groups.iter().flat_map(|(_, bars)| bars) {
             if !names.contains(&&**name) {
                 names.push(name);
             }
@@ -117,7 +138,8 @@ mod tests {
 
     fn bars(scale: Scale, groups: &[&[f64]]) -> Bars {
         let named = |(i, values): (usize, &&[f64])| {
-            let bars = values.iter().enumerate().map(|(j, &value)| (format!("machine {j}"), value)).collect();
+            let bar = |(j, &value)| Bar { name: format!("machine {j}"), value, other: None };
+            let bars = values.iter().enumerate().map(bar).collect();
             (format!("the case with number {i}"), bars)
         };
         let groups = groups.iter().enumerate().map(named).collect();
@@ -188,6 +210,21 @@ mod tests {
             _ => None,
         });
         assert_eq!(first, Some([left, (top + bottom) / 2.0]));
+    }
+
+    #[test]
+    fn what_others_have_measured_is_a_mark_as_high_as_their_bar_would_be() {
+        let mut bars = bars(Scale::Linear, &[&[4.0, 3.0]]);
+        bars.groups[0].1[0].other = Some(3.0);
+        let marks = bars.marks(CHART_SIZE);
+        let [left, _, right, _] = boxes(&marks)[0];
+        let mark = marks.iter().find_map(|mark| match mark {
+            Mark::Line { points, ink, .. } if ink.hue == Hue::Text => Some(points.clone()),
+            _ => None,
+        });
+        let [from, to] = mark.unwrap()[..] else { panic!("a straight line") };
+        assert!(from[0] <= left && right <= to[0] && to[0] <= boxes(&marks)[1][0]);
+        assert!((from[1] - boxes(&marks)[1][1]).abs() < 0.01 && from[1] == to[1]);
     }
 
     #[test]

@@ -36,7 +36,7 @@ mod traffic;
 mod without_ring;
 mod words;
 
-pub use bars::Bars;
+pub use bars::{Bar, Bars};
 pub use canvas::Canvas;
 pub use chart::{CHART_SIZE, Chart, Series, Style, series_hue};
 pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};

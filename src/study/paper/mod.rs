@@ -11,7 +11,7 @@ mod rows;
 use std::time::Duration;
 
 use super::progress::Progress;
-use super::rivals;
+use super::rivals::{self, Needs};
 use super::workbench::{Workbench, cost_of};
 use super::{Study, Tell};
 use crate::driver::cores;
@@ -19,7 +19,7 @@ use crate::picture::Size;
 use crate::scene::Opened;
 use crate::tracer::{Quality, Tracer};
 use measure::Measuring;
-use report::About;
+use rows::Row;
 
 /// How long a run of four machines is to last on threads: "a second or more", and the threads' rests make work dearer.
 const RUN: Duration = Duration::from_millis(1100);
@@ -46,14 +46,34 @@ pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
     progress.next("rays that change hands");
     // The article's picture has one sample a pixel.
     let divisions = division::count(&Tracer::new(&scene.scene, size, Quality::default()));
-    let rows = measuring.rows;
-    let mut study = Study::new("paper");
-    study.add_rows(&rows)?;
-    for (name, marks) in charts::all(&rows, &handling) {
-        study.add_chart(name, &marks);
+    let found = Found { bench: &bench, pace, rows: measuring.rows, handling, competing, divisions };
+    found.written()
+}
+
+/// Everything that was found, and how.
+struct Found<'a> {
+    bench: &'a Workbench,
+    /// The part of a core that a machine of the article's speed gets.
+    pace: f64,
+    rows: Vec<Row>,
+    /// See [`Measuring::handling`].
+    handling: Vec<(f64, [f64; 4])>,
+    /// The ring, the ring with two threads a node, and rayon.
+    competing: [Needs; 3],
+    divisions: Vec<division::Division>,
+}
+
+impl Found<'_> {
+    /// The study that says so.
+    fn written(&self) -> Result<Study, String> {
+        let mut study = Study::new("paper");
+        study.add_rows(&self.rows)?;
+        for (name, marks) in charts::all(&self.rows, &self.handling) {
+            study.add_chart(name, &marks);
+        }
+        study.add_report(report::report(self));
+        Ok(study)
     }
-    study.add_report(report::report(&About { bench: &bench, pace }, &rows, &handling, &competing, &divisions));
-    Ok(study)
 }
 
 /// Samples a pixel, the CPU time that the picture then takes, and the part of a core that a machine is given: together they
@@ -66,4 +86,42 @@ fn long_enough(scene: &Opened, size: Size) -> (u32, Duration, f64) {
     let fitting = costs.take_while(|&(samples, work)| samples == 1 || pace(work) <= most).last();
     let (samples, work) = fitting.unwrap_or((1, RUN));
     (samples, work, pace(work).clamp(1e-3, most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs on threads take minutes; here those in virtual time are taken for them.
+    #[test]
+    fn the_report_shows_its_charts_and_misses_no_number() {
+        let scene = Opened::new("ten-objects").unwrap();
+        let bench = Workbench::new(&scene, Size::new(100, 75).unwrap(), 1).unwrap();
+        let mut measuring = Measuring::new(&bench, RUN, 0.2);
+        measuring.simulated();
+        measuring.sizes();
+        measuring.swings();
+        let handling = measuring.handling();
+        let on_threads = |row: &Row| Row { driver: "threads", twin_s: Some(row.makespan_s), ..row.clone() };
+        let rows: Vec<Row> = measuring.rows.iter().flat_map(|row| [row.clone(), on_threads(row)]).collect();
+        let needs = Needs::example();
+        let divisions = division::count(&bench.tracer);
+        let found =
+            Found { bench: &bench, pace: 0.2, rows, handling, competing: [(); 3].map(|()| needs.clone()), divisions };
+        let Study { files, rows, .. } = found.written().unwrap();
+        let text = |name: &str| &files.iter().find(|(file, _)| file == name).unwrap_or_else(|| panic!("{name}")).1;
+        let report = text("paper.md");
+        assert!(!report.contains("NaN") && !report.contains("inf"), "{report}");
+        let shown: Vec<&str> = report.split("![](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+        for name in &shown {
+            roxmltree::Document::parse(text(name)).unwrap();
+        }
+        assert_eq!(shown.len() + 2, files.len(), "every chart is shown: {shown:?}");
+        assert_eq!(
+            csv::Reader::from_reader(text("paper.csv").as_bytes()).records().map(Result::unwrap).count(),
+            rows.len()
+        );
+        let verdicts = report.lines().filter(|line| line.starts_with("- **")).count();
+        assert_eq!(verdicts, 7, "{report}");
+    }
 }

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::super::rivals::Needs;
-use super::super::workbench::{STRATEGIES, Workbench};
+use super::super::workbench::STRATEGIES;
+use super::Found;
 use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
 use super::charts::select;
 use super::claims;
@@ -12,23 +13,11 @@ use super::measure::RUNS;
 use super::rows::Row;
 use crate::balance::Strategy;
 
-/// What was studied, and how.
-pub(super) struct About<'a> {
-    pub bench: &'a Workbench,
-    /// The part of a core that a machine of the article's speed gets.
-    pub pace: f64,
-}
-
 /// The report, in Markdown.
-pub(super) fn report(
-    about: &About<'_>,
-    rows: &[Row],
-    handling: &[(f64, [f64; 4])],
-    competing: &[Needs; 3],
-    divisions: &[Division],
-) -> String {
+pub(super) fn report(found: &Found<'_>) -> String {
+    let Found { rows, competing, divisions, handling, .. } = found;
     let mut text = String::new();
-    head(&mut text, about);
+    head(&mut text, found);
     verdicts(&mut text, rows, competing);
     figures(&mut text, rows);
     agreement(&mut text, rows);
@@ -47,7 +36,7 @@ macro_rules! say {
     ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
 }
 
-fn head(text: &mut String, About { bench, pace }: &About<'_>) {
+fn head(text: &mut String, Found { bench, pace, .. }: &Found<'_>) {
     say!(text, "# The article's comparison, run anew\n");
     say!(
         text,

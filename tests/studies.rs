@@ -1,0 +1,87 @@
+//! Studies on the command line: files that others can read, and refusals that leave nothing behind.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn study(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_anel"))
+        .current_dir(directory)
+        .arg("study")
+        .args(arguments)
+        .output()
+        .expect("the program can be started")
+}
+
+#[test]
+fn a_study_writes_rows_charts_and_a_report_that_shows_them() {
+    let directory = TempDir::new().unwrap();
+    let output = study(directory.path(), &["scale", "--out", "new/scale", "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["study"], "scale");
+    let (mut charts, mut report, mut table) = (Vec::new(), String::new(), String::new());
+    for file in told["files"].as_array().unwrap() {
+        let path = file.as_str().unwrap();
+        let text = fs::read_to_string(directory.path().join(path)).unwrap();
+        match path.rsplit_once('.').unwrap().1 {
+            "svg" => {
+                let chart = roxmltree::Document::parse(&text).unwrap();
+                assert_eq!(chart.root_element().tag_name().name(), "svg");
+                charts.push(path.rsplit_once('/').unwrap().1);
+            }
+            "md" => report = text,
+            "csv" => table = text,
+            other => panic!("an unexpected kind of file: {other}"),
+        }
+    }
+    for chart in &charts {
+        assert!(report.contains(&format!("]({chart})")), "{chart} is not shown");
+    }
+    assert!(!charts.is_empty() && !report.contains("NaN"), "{report}");
+
+    let rows = told["rows"].as_array().unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let columns: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(records.len(), rows.len());
+    for (record, row) in records.iter().zip(rows) {
+        assert_eq!(row.as_object().unwrap().len(), columns.len());
+        for (column, text) in columns.iter().zip(record) {
+            let same = match &row[column] {
+                Value::Number(number) => text.parse::<f64>().ok() == number.as_f64(),
+                Value::Null => text.is_empty(),
+                Value::String(string) => text == string,
+                other => text == other.to_string(),
+            };
+            assert!(same, "{column}: {text} is not {}", row[column]);
+        }
+        // Nobody is faster than perfect, and nobody who ends takes forever.
+        let efficiency = row["efficiency"].as_f64().unwrap();
+        assert!(efficiency > 0.0 && efficiency < 1.0 + 1e-9, "{row}");
+    }
+}
+
+#[test]
+fn an_impossible_study_is_refused_at_once() {
+    let directory = TempDir::new().unwrap();
+    fs::write(directory.path().join("file"), "kept").unwrap();
+    for (arguments, named) in [
+        (&["scale", "--out", "file"][..], "file"),
+        (&["paper", "--out", "file/below"], "file/below"),
+        (&["paper", "--scene", "no-such-scene"], "no-such-scene"),
+        (&["rivals", "--scene", "file"], "file"),
+        (&["everything"], "everything"),
+    ] {
+        let output = study(directory.path(), arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(error.contains(named) && !error.contains("panicked"), "{arguments:?}: {error}");
+        assert!(output.stdout.is_empty());
+    }
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1, "only the file");
+    assert_eq!(fs::read_to_string(directory.path().join("file")).unwrap(), "kept");
+}
