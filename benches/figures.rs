@@ -43,7 +43,7 @@ fn main() {
     println!("  two runs of 1 node at once {both:.3}: the computer itself gives {ceiling:.3} times");
 
     println!("\none thread, no antialiasing, {SIZE}: million rays of all kinds a second, and POV-Ray 3.7 in turn");
-    for scene in ["ten-objects", "csg-primer", "glass", "machine-part", "corner"] {
+    for scene in ["ten-objects", "csg-primer", "glass", "machine-part", "corner", "rings"] {
         against_povray(scene, directory.path(), &render);
     }
 }

@@ -61,12 +61,14 @@ fn a_bad_scene_is_refused_with_its_line_its_column_and_its_field() {
         (with("Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, to_radius: -1)"), &["line 1", "to_radius"]),
         (with("Box(min: (0, 0, 0), max: (1, 0, 1))"), &["line 1", "min must be below max"]),
         (with("HalfSpace(normal: (0, 0, 0))"), &["objects[0].HalfSpace.normal", "length 0"]),
+        (with("Torus(radius: 1, tube: 1)"), &["line 1", "tube must be less than radius"]),
+        (with("Torus(radius: 1, tube: -1)"), &["line 1", "objects[0].Torus.tube", "greater than 0"]),
         (with("Quadric(constant: 1)"), &["line 1", "squares, products and linear"]),
         (with("Union(of: [])"), &["line 1", "at least one solid"]),
         (with("Sphere(radius: 1, transform: [Scale((1, 0, 1))])"), &["objects[0].Sphere.transform[0]", "other than 0"]),
         (with("Sphere(radius: 1, material: \"gold\")"), &["line 1, column 86", "no material `gold`"]),
         (with("Use(solid: \"wheel\")"), &["line 1, column ", "no solid `wheel`"]),
-        (with("Torus(radius: 1)"), &["line 1, column ", "Torus", "Sphere"]),
+        (with("Helix(radius: 1)"), &["line 1, column ", "Torus", "Sphere"]),
         (
             GOOD.replace(
                 "objects",

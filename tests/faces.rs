@@ -22,6 +22,7 @@ fn primitives() -> impl Strategy<Value = Primitive> {
         Just(Primitive::Cylinder),
         Just(Primitive::Cone { bottom: 1.0, top: 0.0 }),
         Just(Primitive::Cone { bottom: 0.3, top: 1.0 }),
+        (0.05..0.95f64).prop_map(|tube| Primitive::Torus { tube }),
         Just(Primitive::Quadric(paraboloid)),
     ]
 }

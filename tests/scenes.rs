@@ -52,7 +52,7 @@ fn the_articles_scene_has_ten_objects_and_two_lights() {
 
 #[test]
 fn every_primitive_has_a_scene_that_uses_it() {
-    let mut used = [false; 6];
+    let mut used = [false; 7];
     for (name, text) in BUILT_IN {
         for solid in &parse(name, text).solids {
             leaves(solid, &mut |primitive| {
@@ -63,11 +63,12 @@ fn every_primitive_has_a_scene_that_uses_it() {
                     Primitive::Cylinder => 3,
                     Primitive::Cone { .. } => 4,
                     Primitive::Quadric(_) => 5,
+                    Primitive::Torus { .. } => 6,
                 }] = true;
             });
         }
     }
-    assert_eq!(used, [true; 6], "sphere, half-space, cube, cylinder, cone, quadric");
+    assert_eq!(used, [true; 7], "sphere, half-space, cube, cylinder, cone, quadric, torus");
 }
 
 /// Taking opaque unions apart must not show. Inside a box around everything a union stays whole.

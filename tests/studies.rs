@@ -55,7 +55,8 @@ fn a_study_writes_rows_charts_and_a_report_that_shows_them() {
                 Value::Number(number) => text.parse::<f64>().ok() == number.as_f64(),
                 Value::Null => text.is_empty(),
                 Value::String(string) => text == string,
-                other => text == other.to_string(),
+                Value::Bool(is) => text.parse() == Ok(*is),
+                other => panic!("{other} in a table"),
             };
             assert!(same, "{column}: {text} is not {}", row[column]);
         }

@@ -8,6 +8,7 @@ mod quadratic;
 mod shape;
 mod solid;
 mod span;
+mod torus;
 
 pub use compiled::{Hit, Stack, Start, Tree, rank};
 pub use merge::Event;

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::torus;
+
 /// A solid that is not made of others, in its own coordinates. Sizes are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Primitive {
@@ -24,6 +26,11 @@ pub enum Primitive {
         bottom: f64,
         /// Radius at y = 1.
         top: f64,
+    },
+    /// The torus about the y axis: all points no farther than `tube` from the circle of radius 1 in the plane y = 0.
+    Torus {
+        /// The radius of the tube, below 1.
+        tube: f64,
     },
     /// All points with `xx x² + yy y² + zz z² + xy xy + yz yz + zx zx + x x + y y + z z + c ≤ 0`.
     Quadric(QuadricCoefficients),
@@ -55,6 +62,7 @@ impl Primitive {
                 let radius = bottom + (top - bottom) * (p.y + 1.0) / 2.0;
                 across <= radius * radius && p.y.abs() <= 1.0
             }
+            Self::Torus { tube } => torus::side(*tube, p) <= 0.0,
             Self::Quadric(q) => {
                 let products = DVec3::new(p.x * p.y, p.y * p.z, p.z * p.x);
                 q.squares.dot(p * p) + q.products.dot(products) + q.linear.dot(p) + q.constant <= 0.0

@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::Primitive;
 use super::quadratic::Inside;
 use super::span::{BOTTOM, CURVED, Spans};
+use super::torus;
 use crate::geometry::{Aabb, Ray};
 
 /// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
@@ -36,7 +37,7 @@ enum Shape {
     },
     /// A box along the scene's axes. Its faces are numbered −x, +x, −y, +y, −z, +z.
     Block(Aabb),
-    /// The sphere, cube, cylinder and cone in their own coordinates: the ray is carried there, where distances
+    /// The sphere, cube, cylinder, cone and torus in their own coordinates: the ray is carried there, where distances
     /// along it stay the same since its direction is carried with it and not made 1 again.
     Ellipsoid(Own),
     Cube(Own),
@@ -46,6 +47,10 @@ enum Shape {
         own: Own,
         middle: f64,
         slope: f64,
+    },
+    Torus {
+        own: Own,
+        tube: f64,
     },
     /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
     Quadric {
@@ -104,6 +109,12 @@ impl Leaf {
                 };
                 let (middle, slope) = ((top + bottom) / 2.0, (top - bottom) / 2.0);
                 (Shape::Cone { own: own(), middle, slope }, disc(bottom, -1.0).union(disc(top, 1.0)))
+            }
+            Primitive::Torus { tube } => {
+                // What a ball of the tube's radius covers whose centre goes round the circle.
+                let [x, y, z] = columns;
+                let ball = (x * x + y * y + z * z).map(f64::sqrt) * tube;
+                (Shape::Torus { own: own(), tube }, about(round(x, z) + ball))
             }
             Primitive::Quadric(q) => {
                 let [xy, yz, zx] = (q.products / 2.0).to_array();
@@ -196,6 +207,10 @@ impl Leaf {
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
+            Shape::Torus { own, tube } => {
+                let (o, d) = own.carry(ray);
+                torus::spans(*tube, o, d, start.is_some())
+            }
             Shape::Quadric { centre, square, half_linear, constant } => {
                 let (o, d) = (ray.origin - *centre, ray.direction);
                 let along = *square * d;
@@ -215,7 +230,7 @@ impl Leaf {
 
     /// Whether a ray has one stay inside at most.
     pub(super) fn is_convex(&self) -> bool {
-        !matches!(self.shape, Shape::Quadric { .. })
+        !matches!(self.shape, Shape::Quadric { .. } | Shape::Torus { .. })
     }
 
     /// The normal of length 1 that points out of the leaf, at a point of one of its faces.
@@ -236,6 +251,12 @@ impl Leaf {
             Shape::Cone { own, middle, slope } => {
                 let q = own.point(point);
                 own.carry_back(DVec3::new(q.x, -slope * (middle + slope * q.y), q.z))
+            }
+            Shape::Torus { own, .. } => {
+                let q = own.point(point);
+                // From the nearest point of the circle.
+                let outward = 1.0 - 1.0 / q.x.hypot(q.z);
+                own.carry_back(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
             Shape::Quadric { centre, square, half_linear, .. } => {
                 (*square * (point - *centre) + *half_linear).normalize_or(DVec3::Y)

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::quadratic::Inside;
 
-/// The curved face of a ball, cylinder, cone or quadric.
+/// The curved face of a ball, cylinder, cone, torus or quadric.
 pub(super) const CURVED: u8 = 0;
 /// The lower cap of a cylinder or cone; the upper one follows.
 pub(super) const BOTTOM: u8 = 1;
@@ -18,7 +18,7 @@ pub(super) struct Span {
     pub to_face: u8,
 }
 
-/// A leaf's spans in order: at most two, since a leaf's equation is at most quadratic.
+/// A leaf's spans in order: at most two, as a quadric and a torus may have.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spans {
     pub first: Option<Span>,

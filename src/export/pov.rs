@@ -126,6 +126,8 @@ fn body(primitive: &Primitive) -> String {
         Primitive::Cube => "box { -1, 1".into(),
         Primitive::Cylinder => "cylinder { -y, y, 1".into(),
         Primitive::Cone { bottom, top } => format!("cone {{ -y, {bottom}, y, {top}"),
+        // Its usual method loses roots.
+        Primitive::Torus { tube } => format!("torus {{ 1, {tube} sturm"),
         Primitive::Quadric(q) => format!(
             "quadric {{ {}, {}, {}, {}",
             vector(q.squares),

@@ -200,6 +200,22 @@ pub(super) enum SolidFields {
         #[serde(default)]
         transform: Vec<Transform>,
     },
+    Torus {
+        #[serde(default, deserialize_with = "checked::vector")]
+        centre: DVec3,
+        /// What the ring goes round.
+        #[serde(default = "upwards", deserialize_with = "checked::direction")]
+        axis: DVec3,
+        /// From the centre to the middle of the tube.
+        #[serde(deserialize_with = "checked::positive")]
+        radius: f64,
+        /// The radius of the tube.
+        #[serde(deserialize_with = "checked::positive")]
+        tube: f64,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
     Quadric {
         #[serde(default, deserialize_with = "checked::vector")]
         squares: DVec3,
@@ -287,6 +303,7 @@ impl<'de> Deserialize<'de> for SolidFields {
                 "from and to must be different points"
             }
             Self::Cone { to_radius, .. } if *to_radius < 0.0 => "to_radius must not be negative",
+            Self::Torus { radius, tube, .. } if tube >= radius => "tube must be less than radius",
             Self::Quadric { squares, products, linear, .. }
                 if [squares, products, linear].iter().all(|&&v| v == DVec3::ZERO) =>
             {

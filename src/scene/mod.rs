@@ -107,6 +107,7 @@ pub const BUILT_IN: &[(&str, &str)] = &[
     ("glass", include_str!("../../scenes/glass.ron")),
     ("machine-part", include_str!("../../scenes/machine-part.ron")),
     ("corner", include_str!("../../scenes/corner.ron")),
+    ("rings", include_str!("../../scenes/rings.ron")),
 ];
 
 /// The text of a built-in scene.

@@ -70,6 +70,7 @@ impl<'a> Names<'a> {
         | S::Box { material, transform, .. }
         | S::Cylinder { material, transform, .. }
         | S::Cone { material, transform, .. }
+        | S::Torus { material, transform, .. }
         | S::Quadric { material, transform, .. }
         | S::Union { material, transform, .. }
         | S::Intersection { material, transform, .. }
@@ -162,6 +163,10 @@ fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
             // The wider end has radius 1 in the cone's own coordinates.
             let wider = radius.max(to_radius);
             (Primitive::Cone { bottom: radius / wider, top: to_radius / wider }, along(from, to, wider))
+        }
+        SolidFields::Torus { centre, axis, radius, tube, .. } => {
+            let own = DAffine3 { matrix3: turn_y_to(axis) * radius, translation: centre };
+            (Primitive::Torus { tube: tube / radius }, own)
         }
         SolidFields::Quadric { squares, products, linear, constant, .. } => {
             (Primitive::Quadric(QuadricCoefficients { squares, products, linear, constant }), DAffine3::IDENTITY)

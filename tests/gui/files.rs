@@ -37,7 +37,7 @@ fn a_scene_is_opened_from_the_gallery() {
     let mut window = open(SIZE);
     press(&mut window, "Scenes");
     // The tiles are there before their pictures.
-    for name in ["ten-objects", "csg-primer", "glass", "machine-part", "corner"] {
+    for name in ["ten-objects", "csg-primer", "glass", "machine-part", "corner", "rings"] {
         window.get_by_label(&format!("Open {name}"));
     }
     window.get_by_label("Open csg-primer").click();
