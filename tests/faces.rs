@@ -34,7 +34,8 @@ fn vectors(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
-    /// Outwards it never meets its own convex solid again, however flatly it leaves; inwards it meets the way out.
+    /// Outwards it never meets its own convex solid again, however flatly it leaves, and a torus only from outside; inwards
+    /// it meets the way out.
     #[test]
     fn a_ray_that_starts_on_a_face_leaves_without_acne(
         primitive in primitives(), scale in vectors(0.3..1.5), degrees in vectors(0.0..360.0), at in vectors(-1.0..1.0),
@@ -59,7 +60,8 @@ proptest! {
             let direction = along.normalize() * cosine + normal * (side * sine);
             tree.nearest(root, &ray.onward(hit.t, direction.normalize()), Some(start), f64::INFINITY, stack)
         };
-        prop_assert_eq!(next(1.0), None, "outwards at 1e-{}", power);
+        let (outwards, is_convex) = (next(1.0), !matches!(primitive, Primitive::Torus { .. }));
+        prop_assert!(outwards.is_none_or(|hit| !is_convex && hit.enters), "outwards at 1e-{power}: {outwards:?}");
         let inwards = next(-1.0);
         let endless = matches!(primitive, Primitive::HalfSpace { .. });
         prop_assert!(inwards.map_or(endless, |exit| !exit.enters && exit.t > 0.0), "inwards at 1e-{power}: {inwards:?}");
@@ -103,13 +105,14 @@ fn glass_that_stands_on_a_floor_looks_the_same_whichever_stands_first() {
 }
 
 #[test]
-fn two_clear_solids_with_one_front_are_each_entered_once() {
+fn two_clear_solids_with_one_front_have_one_surface_there() {
     let text = r#"(camera: (eye: (0.1, 0.2, 5), look_at: (0.1, 0.2, 0)), background: (1, 1, 1),
         materials: {"clear": (ka: 0, kd: 0, kt: 1)},
         objects: [Box(min: (-1, -1, -1), max: (1, 1, 1), material: "clear"),
                   Box(min: (-2, -2, -3), max: (2, 2, 1), material: "clear")])"#;
     let (pixels, rays) = traced(text, "1x1");
-    assert_eq!((pixels[0], rays.refracted), ([1.0; 3], 4));
+    // In through both, out of the nearer one, out of the other
+    assert_eq!((pixels[0], rays.refracted), ([1.0; 3], 3));
 }
 
 #[test]

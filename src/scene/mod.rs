@@ -88,7 +88,7 @@ pub struct Material {
     /// Phong's exponent: the larger, the smaller the highlight.
     #[serde(deserialize_with = "checked::exponent")]
     pub n: f64,
-    /// Index of refraction against what surrounds it.
+    /// Index of refraction; that of air is 1.
     #[serde(deserialize_with = "checked::index_of_refraction")]
     pub ior: f64,
 }

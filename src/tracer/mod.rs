@@ -3,6 +3,7 @@
 mod bvh;
 mod camera;
 mod hit;
+mod media;
 mod path;
 mod shade;
 mod world;

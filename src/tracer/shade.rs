@@ -5,6 +5,7 @@
 use glam::DVec3;
 
 use super::hit::{Memory, has_turned_at};
+use super::media::{Media, Medium, Passage};
 use super::path::{Path, RayKind, Watch};
 use super::world::Finish;
 use super::{RayCounts, Tracer};
@@ -54,13 +55,32 @@ impl Tracer {
     pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
         scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.primary += 1;
-        self.colour(ray, None, Branch { kind: RayKind::Primary, weight: 1.0, level: 1 }, scratch, watch)
+        let branch = Branch { kind: RayKind::Primary, weight: 1.0, level: 1 };
+        self.from_eye(ray, &self.world.eye_media, Media::default(), branch, scratch, watch)
+    }
+
+    /// The colour of a ray that starts in all of `eye` and in `media`.
+    fn from_eye(
+        &self,
+        ray: &Ray,
+        eye: &[Medium],
+        media: Media<'_>,
+        branch: Branch,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> DVec3 {
+        let Some((&medium, others)) = eye.split_first() else {
+            return self.colour(ray, None, media, branch, scratch, watch);
+        };
+        let passage = Passage { medium, enters: true, before: media };
+        self.from_eye(ray, others, Media::beyond(&passage), branch, scratch, watch)
     }
 
     fn colour(
         &self,
         ray: &Ray,
         start: Option<Start>,
+        media: Media<'_>,
         branch: Branch,
         scratch: &mut Scratch,
         watch: &mut impl Watch,
@@ -77,30 +97,38 @@ impl Tracer {
         };
         let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t));
         let finish = place.finish;
+        let around = if finish.kt > 0.0 { media.around(root) } else { None };
+        let passage = || Passage { medium: Medium { root, ior: finish.ior }, enters: hit.enters, before: media };
+        if around.is_some_and(|medium| medium.root < root) {
+            // The boundary is not there: another medium fills the place.
+            let (onward, passage) = (ray.onward(place.t, ray.direction), passage());
+            return self.colour(&onward, Some(place.start), Media::beyond(&passage), branch, scratch, watch);
+        }
         let mut colour = finish.ambient;
         if finish.lit {
             for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, &place, branch.level, scratch, watch);
+                colour += self.light(index, ray, &place, media, branch.level, scratch, watch);
             }
         }
         if finish.ks == 0.0 && finish.kt == 0.0 {
             return colour;
         }
-        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, &place)).flatten();
+        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, &place, around)).flatten();
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
         if let Some(next) = self.follow(branch, RayKind::Reflected, reflection) {
             scratch.rays.reflected += 1;
             let direction = reflect(ray.direction, place.normal);
             let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.turned()), next, scratch, watch) * reflection;
+            colour += self.colour(&onward, Some(place.turned()), media, next, scratch, watch) * reflection;
         }
         if let Some(direction) = refracted
             && let Some(next) = self.follow(branch, RayKind::Refracted, finish.kt)
         {
             scratch.rays.refracted += 1;
-            let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.start), next, scratch, watch) * finish.kt;
+            let (onward, passage) = (ray.onward(place.t, direction), passage());
+            colour +=
+                self.colour(&onward, Some(place.start), Media::beyond(&passage), next, scratch, watch) * finish.kt;
         }
         colour
     }
@@ -124,6 +152,7 @@ impl Tracer {
         index: usize,
         ray: &Ray,
         place: &Place<'_>,
+        media: Media<'_>,
         level: u32,
         scratch: &mut Scratch,
         watch: &mut impl Watch,
@@ -152,7 +181,8 @@ impl Tracer {
             ray: onward,
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
-        let arriving = self.world.light_arriving(&onward, place.turned(), distance, &mut suspects[index], memory);
+        let suspect = &mut suspects[index];
+        let arriving = self.world.light_arriving(&onward, place.turned(), media, distance, suspect, memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }
@@ -177,9 +207,10 @@ fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - normal * (2.0 * direction.dot(normal))
 }
 
-/// Snell's law; nothing under total internal reflection.
-fn refract(direction: DVec3, place: &Place<'_>) -> Option<DVec3> {
-    let ratio = if place.enters { 1.0 / place.finish.ior } else { place.finish.ior };
+/// Snell's law, between the place's solid and what is `around` it, else air; nothing under total internal reflection.
+fn refract(direction: DVec3, place: &Place<'_>, around: Option<Medium>) -> Option<DVec3> {
+    let (inside, outside) = (place.finish.ior, around.map_or(1.0, |medium| medium.ior));
+    let ratio = if place.enters { outside / inside } else { inside / outside };
     let cosine = -direction.dot(place.normal);
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     (squared >= 0.0).then(|| (direction * ratio + place.normal * (ratio * cosine - squared.sqrt())).normalize())

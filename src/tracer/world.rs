@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Compiled;
 use super::bvh::Bvh;
+use super::media::Medium;
 use crate::csg::{Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
@@ -18,6 +19,8 @@ pub(super) struct World {
     pub unbounded: Vec<u32>,
     pub background: DVec3,
     pub lights: Vec<Light>,
+    /// The solids that transmit and that the eye is in.
+    pub eye_media: Vec<Medium>,
     finishes: Vec<Finish>,
     dropped: usize,
 }
@@ -57,7 +60,7 @@ impl World {
     pub fn new(scene: &Scene) -> Self {
         let mut tree = Tree::default();
         let (mut bounded, mut unbounded, mut transmits, mut dropped) = (Vec::new(), Vec::new(), Vec::new(), 0);
-        let mut solids = Vec::new();
+        let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
             split(solid, scene, &mut solids);
         }
@@ -72,8 +75,12 @@ impl World {
                 unbounded.push(root);
             }
             transmits.resize(root as usize + 1, false);
-            transmits[root as usize] =
-                tree.leaves_of(root).iter().any(|leaf| scene.materials[leaf.tag as usize].kt > 0.0);
+            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
+            let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
+            transmits[root as usize] = transmitting.is_some();
+            if let Some(material) = transmitting.filter(|_| solid.holds(scene.camera.eye)) {
+                eye_media.push(Medium { root, ior: material.ior });
+            }
         }
         Self {
             tree,
@@ -82,6 +89,7 @@ impl World {
             unbounded,
             background: scene.background,
             lights: scene.lights.clone(),
+            eye_media,
             finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient)).collect(),
             dropped,
         }
