@@ -31,6 +31,8 @@ struct Place<'a> {
     /// Of length 1, on the side that the ray comes from.
     normal: DVec3,
     finish: &'a Finish,
+    /// What the ray is in before it.
+    media: Media<'a>,
 }
 
 impl Place<'_> {
@@ -56,11 +58,11 @@ impl Tracer {
         scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.primary += 1;
         let branch = Branch { kind: RayKind::Primary, weight: 1.0, level: 1 };
-        self.from_eye(ray, &self.world.eye_media, Media::default(), branch, scratch, watch)
+        self.seen(ray, &self.world.eye_media, Media::default(), branch, scratch, watch)
     }
 
     /// The colour of a ray that starts in all of `eye` and in `media`.
-    fn from_eye(
+    fn seen(
         &self,
         ray: &Ray,
         eye: &[Medium],
@@ -73,7 +75,7 @@ impl Tracer {
             return self.colour(ray, None, media, branch, scratch, watch);
         };
         let passage = Passage { medium, enters: true, before: media };
-        self.from_eye(ray, others, Media::beyond(&passage), branch, scratch, watch)
+        self.seen(ray, others, Media::beyond(&passage), branch, scratch, watch)
     }
 
     fn colour(
@@ -95,7 +97,7 @@ impl Tracer {
         let Some((root, hit)) = nearest else {
             return self.world.background;
         };
-        let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t));
+        let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t), media);
         let finish = place.finish;
         let around = if finish.kt > 0.0 { media.around(root) } else { None };
         let passage = || Passage { medium: Medium { root, ior: finish.ior }, enters: hit.enters, before: media };
@@ -107,7 +109,7 @@ impl Tracer {
         let mut colour = finish.ambient;
         if finish.lit {
             for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, &place, media, branch.level, scratch, watch);
+                colour += self.light(index, ray, &place, branch.level, scratch, watch);
             }
         }
         if finish.ks == 0.0 && finish.kt == 0.0 {
@@ -134,7 +136,7 @@ impl Tracer {
     }
 
     #[inline(always)]
-    fn place(&self, ray: &Ray, root: u32, hit: &Hit, turned: bool) -> Place<'_> {
+    fn place<'a>(&'a self, ray: &Ray, root: u32, hit: &Hit, turned: bool, media: Media<'a>) -> Place<'a> {
         let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         Place {
@@ -143,6 +145,7 @@ impl Tracer {
             t: hit.t,
             normal,
             finish: self.world.finish(hit.surface),
+            media,
         }
     }
 
@@ -152,7 +155,6 @@ impl Tracer {
         index: usize,
         ray: &Ray,
         place: &Place<'_>,
-        media: Media<'_>,
         level: u32,
         scratch: &mut Scratch,
         watch: &mut impl Watch,
@@ -182,7 +184,7 @@ impl Tracer {
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
         let suspect = &mut suspects[index];
-        let arriving = self.world.light_arriving(&onward, place.turned(), media, distance, suspect, memory);
+        let arriving = self.world.light_arriving(&onward, place.turned(), place.media, distance, suspect, memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }
