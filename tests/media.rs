@@ -107,3 +107,11 @@ fn a_ball_that_overlaps_the_water_looks_as_one_that_is_let_into_it() {
         assert!(differing.count() <= 3, "{what}");
     }
 }
+
+#[test]
+fn thousands_of_hidden_boundaries_are_passed_on_a_small_stack() {
+    let slabs: Vec<String> =
+        (0..3000).map(|i| slab(f64::from(i) * 1e-3, f64::from(i) * 1e-3 + 5e-4, "water")).collect();
+    let found = sines(&directions(&format!("{}, {}", slab(-1.0, 4.0, "glass"), slabs.join(", "))));
+    assert_eq!(found.len(), 3, "into the glass and out of it");
+}

@@ -53,7 +53,9 @@ fn a_path_starts_where_the_one_before_it_in_the_tree_of_rays_ends() {
             branch.truncate(path.level as usize - usize::from(!is_shadow));
             assert_eq!(path.kind == RayKind::Primary, branch.is_empty(), "{name}: {path:?}");
             if let Some(before) = branch.last() {
-                assert_eq!(before.ray.at(before.to), path.ray.origin, "{name}: {path:?} after {before:?}");
+                // A path through what is not there was computed in pieces.
+                let off = (before.ray.at(before.to) - path.ray.origin).length();
+                assert!(off < 1e-12, "{name}: {path:?} {off:e} after {before:?}");
             }
             if !is_shadow {
                 branch.push(path);

@@ -4,7 +4,7 @@
 //! have two, and the compiler would no longer take them in by itself, which costs 3 to 4 %: so it is told to.
 
 use super::bvh::Pending;
-use super::media::Media;
+use super::media::Medium;
 use super::world::World;
 use crate::csg::{Hit, Stack, Start, rank};
 use crate::geometry::Ray;
@@ -74,7 +74,7 @@ impl World {
         &self,
         ray: &Ray,
         start: Start,
-        media: Media<'_>,
+        media: &[Medium],
         t_max: f64,
         suspect: &mut Option<u32>,
         memory: &mut Memory,

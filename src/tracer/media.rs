@@ -4,7 +4,7 @@
 //! not there (C. M. Schmidt and B. Budge, *Simple Nested Dielectrics in Ray Traced Images*, 2002, whose priorities are the
 //! order of the scene here). So glass that overlaps the water in it leaves no gap of air between them.
 
-use std::iter::successors;
+use std::ops::Range;
 
 /// A solid that transmits, by its root, and its index of refraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,39 +13,65 @@ pub(super) struct Medium {
     pub ior: f64,
 }
 
-/// The solids that a ray is in, as a history of the boundaries that it has passed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Media<'a>(Option<&'a Passage<'a>>);
-
-/// A boundary that a ray passes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Passage<'a> {
-    pub medium: Medium,
-    pub enters: bool,
-    /// What the ray was in before.
-    pub before: Media<'a>,
+/// All that a ray is in: a part of the [`MediaStack`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Media {
+    start: usize,
+    end: usize,
 }
 
-impl<'a> Media<'a> {
-    /// Those beyond a passage.
-    pub fn beyond(passage: &'a Passage<'a>) -> Self {
-        Self(Some(passage))
+/// The media of a ray, and above them those of the rays that start at its end.
+#[derive(Debug, Default)]
+pub(super) struct MediaStack(Vec<Medium>);
+
+impl MediaStack {
+    /// Begins with what the eye is in.
+    pub fn restart(&mut self, eye: &[Medium]) -> Media {
+        self.0.clear();
+        self.0.extend_from_slice(eye);
+        Media { start: 0, end: self.0.len() }
+    }
+
+    /// How high it is.
+    pub fn height(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Forgets what lies above `height`.
+    pub fn cut(&mut self, height: usize) {
+        self.0.truncate(height);
+    }
+
+    /// All that a ray is in.
+    pub fn get(&self, media: Media) -> &[Medium] {
+        &self.0[Range::from(media)]
     }
 
     /// What fills the place around the boundary of `root`: of all others that the ray is in, the first in the scene.
-    pub fn around(self, root: u32) -> Option<Medium> {
-        self.iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root)
+    pub fn around(&self, media: Media, root: u32) -> Option<Medium> {
+        self.get(media).iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root).copied()
     }
 
-    /// All that the ray is in.
-    pub fn iter(self) -> impl Iterator<Item = Medium> {
-        let passages = move || successors(self.0, |passage| passage.before.0);
-        // What was passed last decides.
-        let is_old = move |index: usize, root: u32| passages().take(index).any(|newer| newer.medium.root == root);
-        let entered = passages().enumerate().filter(|(_, passage)| passage.enters);
-        entered
-            .map(|(index, passage)| (index, passage.medium))
-            .filter_map(move |(index, medium)| (!is_old(index, medium.root)).then_some(medium))
+    /// What a ray is in after it has entered or left `medium`. It begins at `height`: if `media` already do, they make way.
+    pub fn beyond(&mut self, height: usize, media: Media, medium: Medium, enters: bool) -> Media {
+        if media.start < height {
+            self.0.truncate(height);
+            self.0.extend_from_within(Range::from(media));
+        }
+        let others = self.0[height..].iter().position(|other| other.root == medium.root);
+        if let Some(place) = others {
+            self.0.remove(height + place);
+        }
+        if enters {
+            self.0.push(medium);
+        }
+        Media { start: height, end: self.0.len() }
+    }
+}
+
+impl From<Media> for Range<usize> {
+    fn from(Media { start, end }: Media) -> Self {
+        start..end
     }
 }
 
@@ -53,22 +79,35 @@ impl<'a> Media<'a> {
 mod tests {
     use super::*;
 
+    fn medium(root: u32) -> Medium {
+        Medium { root, ior: 1.0 + f64::from(root) }
+    }
+
     #[test]
     fn the_first_in_the_scene_fills_a_place() {
-        let medium = |root| Medium { root, ior: 1.0 + f64::from(root) };
-        let pass = |medium, enters, before| Passage { medium, enters, before };
-        let seven = pass(medium(7), true, Media::default());
-        let start = Media::beyond(&seven);
-        assert_eq!((start.around(3), start.around(7)), (Some(medium(7)), None));
-        let three = pass(medium(3), true, start);
-        let five = pass(medium(5), true, Media::beyond(&three));
-        let inside = Media::beyond(&five);
-        assert_eq!([3, 5, 9].map(|root| inside.around(root)), [5, 3, 3].map(|root| Some(medium(root))));
-        let left = pass(medium(3), false, inside);
-        let out = pass(medium(7), false, Media::beyond(&left));
-        let roots: Vec<u32> = Media::beyond(&out).iter().map(|medium| medium.root).collect();
-        assert_eq!(roots, [5]);
-        let again = pass(medium(3), true, Media::beyond(&out));
-        assert_eq!(Media::beyond(&again).around(5), Some(medium(3)));
+        let mut stack = MediaStack::default();
+        let start = stack.restart(&[medium(7)]);
+        assert_eq!((stack.around(start, 3), stack.around(start, 7)), (Some(medium(7)), None));
+        let three = stack.beyond(stack.height(), start, medium(3), true);
+        let inside = stack.beyond(stack.height(), three, medium(5), true);
+        assert_eq!([3, 5, 9].map(|root| stack.around(inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
+        assert_eq!(stack.get(start), [medium(7)]);
+        stack.cut(1);
+        assert_eq!(stack.get(start), [medium(7)]);
+    }
+
+    #[test]
+    fn a_ray_that_goes_on_and_on_keeps_one_set() {
+        let mut stack = MediaStack::default();
+        let start = stack.restart(&[medium(0)]);
+        let height = stack.height();
+        let mut media = start;
+        for root in 1..100 {
+            media = stack.beyond(height, media, medium(root), true);
+            media = stack.beyond(height, media, medium(root), false);
+        }
+        assert_eq!((stack.get(media), stack.height()), (&[medium(0)][..], 2));
+        media = stack.beyond(height, media, medium(0), false);
+        assert_eq!((stack.get(media), stack.get(start)), (&[][..], &[medium(0)][..]));
     }
 }

@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::hit::{Memory, has_turned_at};
-use super::media::{Media, Medium, Passage};
+use super::media::{Media, MediaStack, Medium};
 use super::path::{Path, RayKind, Watch};
 use super::world::Finish;
 use super::{RayCounts, Tracer};
@@ -19,6 +19,7 @@ pub struct Scratch {
     /// Rays traced with this scratch so far.
     pub rays: RayCounts,
     memory: Memory,
+    media: MediaStack,
     /// The solid that blocked each light last.
     suspects: Vec<Option<u32>>,
 }
@@ -32,10 +33,17 @@ struct Place<'a> {
     normal: DVec3,
     finish: &'a Finish,
     /// What the ray is in before it.
-    media: Media<'a>,
+    media: Media,
+    /// What is around the solid, if that transmits and it is not air.
+    around: Option<Medium>,
 }
 
 impl Place<'_> {
+    /// The solid as a medium.
+    fn medium(&self) -> Medium {
+        Medium { root: self.start.root, ior: self.finish.ior }
+    }
+
     /// For rays that stay on the side from which the place was met: to a light, or reflected.
     fn turned(&self) -> Start {
         Start { turned: !self.start.turned, ..self.start }
@@ -58,85 +66,120 @@ impl Tracer {
         scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.primary += 1;
         let branch = Branch { kind: RayKind::Primary, weight: 1.0, level: 1 };
-        self.seen(ray, &self.world.eye_media, Media::default(), branch, scratch, watch)
-    }
-
-    /// The colour of a ray that starts in all of `eye` and in `media`.
-    fn seen(
-        &self,
-        ray: &Ray,
-        eye: &[Medium],
-        media: Media<'_>,
-        branch: Branch,
-        scratch: &mut Scratch,
-        watch: &mut impl Watch,
-    ) -> DVec3 {
-        let Some((&medium, others)) = eye.split_first() else {
-            return self.colour(ray, None, media, branch, scratch, watch);
-        };
-        let passage = Passage { medium, enters: true, before: media };
-        self.seen(ray, others, Media::beyond(&passage), branch, scratch, watch)
+        let media = scratch.media.restart(&self.world.eye_media);
+        self.colour(ray, None, media, branch, scratch, watch)
     }
 
     fn colour(
         &self,
         ray: &Ray,
         start: Option<Start>,
-        media: Media<'_>,
+        media: Media,
         branch: Branch,
         scratch: &mut Scratch,
         watch: &mut impl Watch,
     ) -> DVec3 {
         let nearest = self.world.nearest(ray, start, &mut scratch.memory);
-        watch.see(|| Path {
-            kind: branch.kind,
-            level: branch.level,
-            ray: *ray,
-            to: nearest.map_or(f64::INFINITY, |(_, hit)| hit.t),
-        });
+        let around = self.around(nearest, media, scratch);
+        if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, around)) {
+            let turned = has_turned_at(start, ray, hit.t);
+            let place = self.place(ray, root, &hit, turned, media, around);
+            return self.colour_behind(ray, place, branch, scratch, watch);
+        }
+        watch.see(|| path(ray, branch, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
         let Some((root, hit)) = nearest else {
             return self.world.background;
         };
-        let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t), media);
+        let place = self.place(ray, root, &hit, has_turned_at(start, ray, hit.t), media, around);
+        self.shade(ray, &place, branch, scratch, watch)
+    }
+
+    /// The colour of a ray that meets a boundary that is not there, since another medium fills the place: of what it meets
+    /// further on.
+    #[cold]
+    fn colour_behind<'a>(
+        &'a self,
+        from: &Ray,
+        mut place: Place<'a>,
+        branch: Branch,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> DVec3 {
+        let height = scratch.media.height();
+        let (mut ray, mut passed) = (*from, 0.0);
+        let colour = loop {
+            let media = scratch.media.beyond(height, place.media, place.medium(), place.enters);
+            ray = ray.onward(place.t, ray.direction);
+            passed += place.t;
+            let start = Some(place.start);
+            let nearest = self.world.nearest(&ray, start, &mut scratch.memory);
+            let around = self.around(nearest, media, scratch);
+            if let Some((root, hit)) = nearest {
+                place = self.place(&ray, root, &hit, has_turned_at(start, &ray, hit.t), media, around);
+                if is_hidden(root, around) {
+                    continue;
+                }
+            }
+            watch.see(|| path(from, branch, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
+            break match nearest {
+                Some(_) => self.shade(&ray, &place, branch, scratch, watch),
+                None => self.world.background,
+            };
+        };
+        scratch.media.cut(height);
+        colour
+    }
+
+    /// What is around the solid that is met, if that transmits and it is not air.
+    #[inline(always)]
+    fn around(&self, nearest: Option<(u32, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
+        let (root, _) = nearest.filter(|(_, hit)| self.world.finish(hit.surface).kt > 0.0)?;
+        scratch.media.around(media, root)
+    }
+
+    #[inline(always)]
+    fn shade(
+        &self,
+        ray: &Ray,
+        place: &Place<'_>,
+        branch: Branch,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> DVec3 {
         let finish = place.finish;
-        let around = if finish.kt > 0.0 { media.around(root) } else { None };
-        let passage = || Passage { medium: Medium { root, ior: finish.ior }, enters: hit.enters, before: media };
-        if around.is_some_and(|medium| medium.root < root) {
-            // The boundary is not there: another medium fills the place.
-            let (onward, passage) = (ray.onward(place.t, ray.direction), passage());
-            return self.colour(&onward, Some(place.start), Media::beyond(&passage), branch, scratch, watch);
-        }
         let mut colour = finish.ambient;
         if finish.lit {
             for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, &place, branch.level, scratch, watch);
+                colour += self.light(index, ray, place, branch.level, scratch, watch);
             }
         }
         if finish.ks == 0.0 && finish.kt == 0.0 {
             return colour;
         }
-        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, &place, around)).flatten();
+        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, place)).flatten();
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
         if let Some(next) = self.follow(branch, RayKind::Reflected, reflection) {
             scratch.rays.reflected += 1;
             let direction = reflect(ray.direction, place.normal);
             let onward = ray.onward(place.t, direction);
-            colour += self.colour(&onward, Some(place.turned()), media, next, scratch, watch) * reflection;
+            colour += self.colour(&onward, Some(place.turned()), place.media, next, scratch, watch) * reflection;
         }
         if let Some(direction) = refracted
             && let Some(next) = self.follow(branch, RayKind::Refracted, finish.kt)
         {
             scratch.rays.refracted += 1;
-            let (onward, passage) = (ray.onward(place.t, direction), passage());
-            colour +=
-                self.colour(&onward, Some(place.start), Media::beyond(&passage), next, scratch, watch) * finish.kt;
+            let onward = ray.onward(place.t, direction);
+            let height = scratch.media.height();
+            let media = scratch.media.beyond(height, place.media, place.medium(), place.enters);
+            colour += self.colour(&onward, Some(place.start), media, next, scratch, watch) * finish.kt;
+            scratch.media.cut(height);
         }
         colour
     }
 
     #[inline(always)]
-    fn place<'a>(&'a self, ray: &Ray, root: u32, hit: &Hit, turned: bool, media: Media<'a>) -> Place<'a> {
+    fn place(&self, ray: &Ray, root: u32, hit: &Hit, turned: bool, media: Media, around: Option<Medium>) -> Place<'_> {
         let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         Place {
@@ -146,6 +189,7 @@ impl Tracer {
             normal,
             finish: self.world.finish(hit.surface),
             media,
+            around,
         }
     }
 
@@ -175,7 +219,7 @@ impl Tracer {
             return DVec3::ZERO;
         }
         scratch.rays.shadow += 1;
-        let Scratch { memory, suspects, .. } = scratch;
+        let Scratch { memory, suspects, media, .. } = scratch;
         let onward = ray.onward(place.t, direction);
         watch.see(|| Path {
             kind: RayKind::Shadow,
@@ -184,7 +228,8 @@ impl Tracer {
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
         let suspect = &mut suspects[index];
-        let arriving = self.world.light_arriving(&onward, place.turned(), place.media, distance, suspect, memory);
+        let arriving =
+            self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, suspect, memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }
@@ -205,13 +250,22 @@ impl Tracer {
     }
 }
 
+/// Whether what is around the solid `root` fills it too.
+fn is_hidden(root: u32, around: Option<Medium>) -> bool {
+    around.is_some_and(|medium| medium.root < root)
+}
+
+fn path(ray: &Ray, branch: Branch, to: f64) -> Path {
+    Path { kind: branch.kind, level: branch.level, ray: *ray, to }
+}
+
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     direction - normal * (2.0 * direction.dot(normal))
 }
 
-/// Snell's law, between the place's solid and what is `around` it, else air; nothing under total internal reflection.
-fn refract(direction: DVec3, place: &Place<'_>, around: Option<Medium>) -> Option<DVec3> {
-    let (inside, outside) = (place.finish.ior, around.map_or(1.0, |medium| medium.ior));
+/// Snell's law, between the place's solid and what is around it; nothing under total internal reflection.
+fn refract(direction: DVec3, place: &Place<'_>) -> Option<DVec3> {
+    let (inside, outside) = (place.finish.ior, place.around.map_or(1.0, |medium| medium.ior));
     let ratio = if place.enters { outside / inside } else { inside / outside };
     let cosine = -direction.dot(place.normal);
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
