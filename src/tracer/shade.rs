@@ -194,6 +194,7 @@ impl Tracer {
     }
 
     /// The diffuse and the specular term of one light.
+    #[inline(always)]
     fn light(
         &self,
         index: usize,
