@@ -4,7 +4,7 @@ use anel::csg::{Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Size};
 use anel::scene::{BUILT_IN, Scene};
-use anel::tracer::{Quality, Scratch, Tracer};
+use anel::tracer::{Quality, RayKind, Scratch, Tracer};
 use glam::{DAffine3, DVec3};
 
 fn parse(name: &str, text: &str) -> Scene {
@@ -20,10 +20,18 @@ fn pixels(scene: &Scene) -> Vec<Colour> {
 }
 
 fn leaves(solid: &Solid, visit: &mut impl FnMut(&Primitive)) {
+    placed(solid, &mut |primitive, _| visit(primitive));
+}
+
+fn tags(solid: &Solid, visit: &mut impl FnMut(u32)) {
+    placed(solid, &mut |_, tag| visit(tag));
+}
+
+fn placed(solid: &Solid, visit: &mut impl FnMut(&Primitive, u32)) {
     match solid {
-        Solid::Placed { primitive, .. } => visit(primitive),
+        Solid::Placed { primitive, tag, .. } => visit(primitive, *tag),
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
-            solids.iter().for_each(|solid| leaves(solid, visit));
+            solids.iter().for_each(|solid| placed(solid, visit));
         }
     }
 }
@@ -71,6 +79,29 @@ fn every_primitive_has_a_scene_that_uses_it() {
     assert_eq!(used, [true; 7], "sphere, half-space, cube, cylinder, cone, quadric, torus");
 }
 
+/// Programs fill the place where glasses overlap in different ways, and every program is to see the same scenes.
+#[test]
+fn solids_that_transmit_do_not_overlap() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let transmits = |solid: &&Solid| {
+            let mut found = false;
+            tags(solid, &mut |tag| found |= scene.materials[tag as usize].kt > 0.0);
+            found
+        };
+        let glasses: Vec<&Solid> = scene.solids.iter().filter(transmits).collect();
+        let size = Size::new(80, 60).expect("small");
+        let tracer = Tracer::new(&scene, size, Quality::default());
+        tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
+            if path.kind == RayKind::Refracted && path.to.is_finite() {
+                let middle = path.ray.at(path.to / 2.0);
+                let around = glasses.iter().filter(|solid| solid.holds(middle)).count();
+                assert!(around < 2, "{name}: {around} around {middle}");
+            }
+        });
+    }
+}
+
 /// Taking opaque unions apart must not show. Inside a box around everything a union stays whole.
 #[test]
 fn a_union_that_is_taken_apart_looks_the_same() {
@@ -102,7 +133,7 @@ fn an_exported_scene_names_every_primitive_and_every_light() {
         assert_eq!(count("light_source {"), scene.lights.len(), "{name}");
         let mut primitives = 0;
         scene.solids.iter().for_each(|solid| leaves(solid, &mut |_| primitives += 1));
-        assert_eq!(count("matrix <"), primitives, "{name}");
+        assert_eq!(count("matrix <") + count("plane {"), primitives, "{name}");
         assert_eq!(count("{"), count("}"), "{name}");
     }
 }

@@ -9,14 +9,15 @@ use serde_json::json;
 use super::args::StudyKind;
 use super::{Failure, open, print, tell};
 use crate::output::{check_writable, write_whole};
+use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
-use crate::study::{Study, paper, rivals, scale};
+use crate::study::{Study, paper, peer, rivals, scale};
 
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
 pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: bool) -> Result<(), Failure> {
     let scenes: Vec<&str> = match (scene, kind) {
         (Some(scene), _) => vec![scene],
-        (None, StudyKind::Rivals) => BUILT_IN.iter().map(|(name, _)| *name).collect(),
+        (None, StudyKind::Rivals | StudyKind::Peer) => BUILT_IN.iter().map(|(name, _)| *name).collect(),
         (None, _) => vec!["ten-objects"],
     };
     let scenes: Vec<Opened> = scenes.into_iter().map(open).collect::<Result<_, _>>()?;
@@ -35,13 +36,14 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         StudyKind::Paper => paper(&scenes[0], &mut told),
         StudyKind::Scale => scale(&scenes[0], &mut told),
         StudyKind::Rivals => rivals(&scenes, &mut told),
+        StudyKind::Peer => Size::new(320, 240).and_then(|size| peer(&scenes, size, &mut told)),
     };
     bar.finish_and_clear();
     let Study { name, rows, files } = study.map_err(Failure::Failed)?;
     let mut written = Vec::new();
-    for (file, text) in files {
+    for (file, bytes) in files {
         let path = out.join(file);
-        write_whole(&path, |to| to.write_all(text.as_bytes())).map_err(|error| Failure::Failed(error.to_string()))?;
+        write_whole(&path, |to| to.write_all(&bytes)).map_err(|error| Failure::Failed(error.to_string()))?;
         written.push(path.display().to_string());
     }
     if as_json {

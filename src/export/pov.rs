@@ -86,7 +86,7 @@ fn put_solid(text: &mut String, solid: &Solid) {
 fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
     let (operation, solids) = match solid {
         Solid::Placed { primitive, scene_from_own, .. } => {
-            return put(text, format_args!("{} {}\n", body(primitive), matrix(scene_from_own)));
+            return put(text, format_args!("{}\n", body(primitive, scene_from_own)));
         }
         Solid::Union(solids) => ("union", solids),
         Solid::Intersection(solids) => ("intersection", solids),
@@ -118,11 +118,11 @@ fn common_tag(solid: &Solid) -> Option<u32> {
     }
 }
 
-/// The primitive in its own coordinates, without the closing brace.
-fn body(primitive: &Primitive) -> String {
-    match primitive {
+/// The primitive at its place, without the closing brace.
+fn body(primitive: &Primitive, scene_from_own: &DAffine3) -> String {
+    let own = match primitive {
         Primitive::Sphere => "sphere { 0, 1".into(),
-        Primitive::HalfSpace { normal, offset } => format!("plane {{ {}, {offset}", vector(*normal)),
+        Primitive::HalfSpace { normal, offset } => return plane(*normal, *offset, scene_from_own),
         Primitive::Cube => "box { -1, 1".into(),
         Primitive::Cylinder => "cylinder { -y, y, 1".into(),
         Primitive::Cone { bottom, top } => format!("cone {{ -y, {bottom}, y, {top}"),
@@ -136,7 +136,16 @@ fn body(primitive: &Primitive) -> String {
             vector(q.linear),
             q.constant
         ),
-    }
+    };
+    format!("{own} {}", matrix(scene_from_own))
+}
+
+/// A half-space in the scene's coordinates: where a matrix scales a plane, POV-Ray takes the bounds of a composition from
+/// it wrongly, and the composition is not seen.
+fn plane(normal: DVec3, offset: f64, scene_from_own: &DAffine3) -> String {
+    let outward = (scene_from_own.matrix3.inverse().transpose() * normal).normalize();
+    let point = scene_from_own.transform_point3(normal * offset);
+    format!("plane {{ {}, {}", vector(outward), outward.dot(point))
 }
 
 fn matrix(map: &DAffine3) -> String {

@@ -6,7 +6,7 @@ mod png;
 
 pub use division::{Atom, Division};
 pub use frame::{Colour, Frame, srgb8};
-pub use png::write_png;
+pub use png::{encode_png, write_png};
 
 use std::fmt;
 use std::str::FromStr;

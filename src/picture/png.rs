@@ -1,6 +1,6 @@
 //! The picture as a PNG file.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
@@ -8,14 +8,18 @@ use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use super::Size;
 use crate::output::{OutputError, write_whole};
 
-/// Writes `rgb` (three bytes a pixel, sRGB, scan order) as a PNG.
+/// Writes `rgb` (three bytes a pixel, sRGB, scan order) as a PNG file.
 ///
 /// # Errors
 /// Those of [`write_whole`].
 pub fn write_png(path: &Path, size: Size, rgb: &[u8]) -> Result<(), OutputError> {
-    write_whole(path, |file| {
-        PngEncoder::new(file)
-            .write_image(rgb, size.width(), size.height(), ExtendedColorType::Rgb8)
-            .map_err(io::Error::other)
-    })
+    write_whole(path, |file| encode_png(file, size, rgb))
+}
+
+/// Writes `rgb` as a PNG to whatever takes bytes.
+///
+/// # Errors
+/// What `to` says.
+pub fn encode_png(to: impl Write, size: Size, rgb: &[u8]) -> io::Result<()> {
+    PngEncoder::new(to).write_image(rgb, size.width(), size.height(), ExtendedColorType::Rgb8).map_err(io::Error::other)
 }

@@ -1,6 +1,7 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
 mod paper;
+mod peer;
 mod progress;
 mod rivals;
 mod scale;
@@ -8,6 +9,7 @@ mod scale_report;
 mod workbench;
 
 pub use paper::paper;
+pub use peer::peer;
 pub use progress::Tell;
 pub use rivals::rivals;
 pub use scale_report::scale;
@@ -25,8 +27,8 @@ pub struct Study {
     pub name: &'static str,
     /// A JSON object for each run, with the columns of the CSV.
     pub rows: Vec<Value>,
-    /// Files by name: CSV, SVG charts, and a Markdown report.
-    pub files: Vec<(String, String)>,
+    /// Files by name: CSV, SVG charts, PNG pictures, and a Markdown report.
+    pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Study {
@@ -42,15 +44,16 @@ impl Study {
             self.rows.push(serde_json::to_value(row).map_err(|error| error.to_string())?);
         }
         let bytes = csv.into_inner().map_err(|error| error.to_string())?;
-        self.files.push((format!("{}.csv", self.name), String::from_utf8_lossy(&bytes).into_owned()));
+        self.files.push((format!("{}.csv", self.name), bytes));
         Ok(())
     }
 
     fn add_chart(&mut self, name: &str, marks: &[Mark]) {
-        self.files.push((format!("{}-{name}.svg", self.name), to_svg(marks, CHART_SIZE, crate::palette::DISTINCT)));
+        let svg = to_svg(marks, CHART_SIZE, crate::palette::DISTINCT);
+        self.files.push((format!("{}-{name}.svg", self.name), svg.into_bytes()));
     }
 
     fn add_report(&mut self, text: String) {
-        self.files.push((format!("{}.md", self.name), text));
+        self.files.push((format!("{}.md", self.name), text.into_bytes()));
     }
 }

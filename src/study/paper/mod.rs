@@ -109,7 +109,10 @@ mod tests {
         let found =
             Found { bench: &bench, pace: 0.2, rows, handling, competing: [(); 3].map(|()| needs.clone()), divisions };
         let Study { files, rows, .. } = found.written().unwrap();
-        let text = |name: &str| &files.iter().find(|(file, _)| file == name).unwrap_or_else(|| panic!("{name}")).1;
+        let text = |name: &str| {
+            let (_, bytes) = files.iter().find(|(file, _)| file == name).unwrap_or_else(|| panic!("{name}"));
+            str::from_utf8(bytes).unwrap()
+        };
         let report = text("paper.md");
         assert!(!report.contains("NaN") && !report.contains("inf"), "{report}");
         let shown: Vec<&str> = report.split("![](").skip(1).filter_map(|rest| rest.split(')').next()).collect();

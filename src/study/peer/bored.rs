@@ -1,0 +1,70 @@
+//! A cylinder that is bored by one of the same ends: the bore is open, and one looks through it.
+
+use glam::DVec3;
+
+use super::{SAME, apart};
+use crate::geometry::rotation;
+use crate::picture::{Size, srgb8};
+use crate::scene::{Opened, Scene};
+use crate::tracer::{Quality, RayKind, Scratch, Tracer};
+
+/// The rotation makes rounding differ between the two.
+const SCENE: &str = r#"Scene(
+    camera: (eye: (1.5, -0.1, 7.8), look_at: (0, 0, 0), field_of_view: 19),
+    background: (0.05, 0.35, 0.65),
+    ambient: (0.2, 0.2, 0.2),
+    lights: [Point(position: (6, 8, 9))],
+    materials: {"brass": (colour: (0.72, 0.38, 0.07))},
+    objects: [
+        Difference(material: "brass", transform: [Rotate((3, 11, 5))], of: [
+            Cylinder(from: (0, 0, -1), to: (0, 0, 1), radius: 1),
+            Cylinder(from: (0, 0, -1), to: (0, 0, 1), radius: 0.7),
+        ]),
+    ],
+)"#;
+const DEGREES: DVec3 = DVec3::new(3.0, 11.0, 5.0);
+const RADIUS: f64 = 0.7;
+
+/// The scene, which has no file.
+///
+/// # Errors
+/// What is wrong with its text.
+pub(super) fn scene() -> Result<Opened, String> {
+    Opened::from_text("bored-cylinder", SCENE).map_err(|error| error.to_string())
+}
+
+/// The pixels whose rays go through the bore and touch nothing.
+pub(super) struct Bore {
+    through: Vec<bool>,
+    background: [u8; 3],
+}
+
+impl Bore {
+    /// Of the scene that [`scene`] gives. A ray goes through if it crosses the planes of both ends within the bore.
+    pub fn of(scene: &Scene, size: Size) -> Self {
+        let tracer = Tracer::new(scene, size, Quality::default());
+        let own_from_scene = rotation(DEGREES).transpose();
+        let mut through = Vec::new();
+        tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
+            if path.kind == RayKind::Primary {
+                let (origin, direction) = (own_from_scene * path.ray.origin, own_from_scene * path.ray.direction);
+                through.push([-1.0, 1.0].into_iter().all(|end| {
+                    let crossing = origin + direction * ((end - origin.z) / direction.z);
+                    crossing.truncate().length() < RADIUS
+                }));
+            }
+        });
+        Self { through, background: srgb8(scene.background.as_vec3().to_array()) }
+    }
+
+    /// How many they are.
+    pub fn pixels(&self) -> u32 {
+        self.through.iter().filter(|&&through| through).count() as u32
+    }
+
+    /// How many of them do not show the background in `picture`.
+    pub fn wrong(&self, picture: &[[u8; 3]]) -> u32 {
+        let through = self.through.iter().zip(picture).filter(|&(&through, _)| through);
+        through.filter(|(_, pixel)| apart(**pixel, self.background) > SAME).count() as u32
+    }
+}

@@ -1,0 +1,149 @@
+//! Every pixel beside POV-Ray 3.7's, which knows nothing of this program: how many differ, why, and who is right.
+//!
+//! Causes are found by taking them away: a scene is changed for both programs alike, one step after the other, and what
+//! a step makes agree is what its cause had made differ. No pixel is left out, not even at edges, since both programs
+//! send their rays through the same points.
+
+mod bored;
+mod povray;
+mod report;
+mod step;
+
+use serde::Serialize;
+
+use super::progress::Progress;
+use super::{Study, Tell};
+use crate::output::as_file_name;
+use crate::picture::{Size, encode_png, srgb8};
+use crate::scene::{Opened, Scene};
+use crate::tracer::{Quality, Scratch, Tracer};
+use bored::Bore;
+use povray::PovRay;
+use step::Step;
+
+/// How far apart two 8-bit sRGB values are taken for the same.
+const SAME: u8 = 2;
+
+/// A scene after some of the steps, as both programs see it.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    scene: String,
+    /// The last step that was taken.
+    step: &'static str,
+    pixels: u32,
+    /// Pixels with a channel that is more than [`SAME`] apart.
+    differing: u32,
+    /// Of all pixels.
+    share: f64,
+    /// The greatest difference of a channel, of 255.
+    greatest: u8,
+    /// Pixels through which one looks through the bore, if there is one.
+    through_bore: Option<u32>,
+    /// Pixels of these in which anel does not see the background.
+    anel_wrong: Option<u32>,
+    /// Pixels of these in which POV-Ray does not.
+    povray_wrong: Option<u32>,
+}
+
+/// Both programs on each of the scenes, and on a bored cylinder whose ends coincide with those of its bore, in pictures of
+/// `size`.
+///
+/// # Errors
+/// A sentence, if POV-Ray is not installed or failed, or a picture could not be kept.
+pub fn peer(scenes: &[Opened], size: Size, tell: Tell<'_>) -> Result<Study, String> {
+    let povray = PovRay::find()?;
+    let bored = bored::scene()?;
+    let bore = Bore::of(&bored.scene, size);
+    let mut progress = Progress::new((scenes.len() + 1) * Step::ALL.len(), tell);
+    let mut study = Study::new("peer");
+    let mut rows = Vec::new();
+    for opened in scenes.iter().chain([&bored]) {
+        let (mut scene, mut quality) = (opened.scene.clone(), Quality::default());
+        let mut started = Vec::new();
+        for step in Step::ALL {
+            step.take(&mut scene, &mut quality);
+            // All at once, since POV-Ray takes longer to start than to draw.
+            started.push((step, scene.clone(), quality, povray.start(&scene, size, &quality)?));
+        }
+        for (step, scene, quality, theirs) in started {
+            progress.next(&format!("{}: {}", opened.name, step.name()));
+            let ours = trace(&scene, size, quality);
+            let pictures = Pictures { size, ours, theirs: theirs.finish()? };
+            if step == Step::AsItIs {
+                pictures.keep(&mut study, &opened.name)?;
+            }
+            // Later the ends no longer coincide, and the bore is rightly closed.
+            let looks_through = std::ptr::eq(opened, &bored) && step == Step::AsItIs;
+            rows.push(pictures.row(&opened.name, step, looks_through.then_some(&bore)));
+        }
+    }
+    study.add_rows(&rows)?;
+    study.add_report(report::report(&povray, size, &rows));
+    Ok(study)
+}
+
+/// The pixels of this program's picture, in 8-bit sRGB.
+fn trace(scene: &Scene, size: Size, quality: Quality) -> Vec<[u8; 3]> {
+    let mut pixels = Vec::new();
+    Tracer::new(scene, size, quality).trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+    pixels.into_iter().map(srgb8).collect()
+}
+
+/// The same scene by both programs, in 8-bit sRGB.
+struct Pictures {
+    size: Size,
+    ours: Vec<[u8; 3]>,
+    theirs: Vec<[u8; 3]>,
+}
+
+impl Pictures {
+    /// By pixel, the greatest difference of a channel.
+    fn differences(&self) -> impl Iterator<Item = u8> {
+        self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| apart(*ours, *theirs))
+    }
+
+    fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> Row {
+        let differing = self.differences().filter(|&difference| difference > SAME).count() as u32;
+        Row {
+            scene: scene.to_owned(),
+            step: step.name(),
+            pixels: self.size.pixels(),
+            differing,
+            share: f64::from(differing) / f64::from(self.size.pixels()),
+            greatest: self.differences().max().unwrap_or(0),
+            through_bore: bore.map(Bore::pixels),
+            anel_wrong: bore.map(|bore| bore.wrong(&self.ours)),
+            povray_wrong: bore.map(|bore| bore.wrong(&self.theirs)),
+        }
+    }
+
+    /// Adds both pictures to the study's files, and one that shows where they differ.
+    fn keep(&self, study: &mut Study, scene: &str) -> Result<(), String> {
+        let where_they_differ =
+            self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
+                if difference > SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
+            });
+        let pictures =
+            [(OURS, self.ours.clone()), (THEIRS, self.theirs.clone()), (DIFFERENCE, where_they_differ.collect())];
+        for (which, pixels) in pictures {
+            let mut png = Vec::new();
+            encode_png(&mut png, self.size, pixels.as_flattened()).map_err(|error| error.to_string())?;
+            study.files.push((picture_name(scene, which), png));
+        }
+        Ok(())
+    }
+}
+
+const OURS: &str = "anel";
+const THEIRS: &str = "povray";
+const DIFFERENCE: &str = "difference";
+
+/// The name of a picture's file.
+fn picture_name(scene: &str, which: &str) -> String {
+    format!("peer-{}-{which}.png", as_file_name(scene))
+}
+
+/// The greatest difference of a channel.
+fn apart(a: [u8; 3], b: [u8; 3]) -> u8 {
+    a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+}
