@@ -21,6 +21,7 @@ mod node_thread;
 mod pace;
 mod pair_threads;
 mod parent_thread;
+mod perform;
 mod port;
 mod probe;
 mod replay;
@@ -35,6 +36,7 @@ mod whole;
 mod worker;
 
 pub use pace::{auto_pace, cores};
+pub use perform::perform;
 pub use probe::{Probe, probe};
 pub use replay::Replay;
 pub use run::Run;

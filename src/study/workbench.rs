@@ -3,10 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crossbeam_channel::RecvTimeoutError;
-
 use crate::balance::{Rules, Strategy};
-use crate::driver::{Run, Update, Whole, probe};
+use crate::driver::{Whole, probe};
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::scenario::Command;
@@ -65,33 +63,6 @@ impl Workbench {
             rules: Rules { batch: None, ..plain.rules },
             ..plain
         }
-    }
-
-    /// Runs on threads what `header` describes, and does to it what the script says.
-    ///
-    /// # Errors
-    /// A sentence, if the run failed.
-    pub fn perform(&self, header: &Header, script: &[(Time, Command)]) -> Result<RunLog, String> {
-        let run = Run::start(self.tracer.clone(), header);
-        let mut records = Vec::new();
-        let mut script = script.iter().peekable();
-        loop {
-            while let Some((_, command)) = script.next_if(|(at, _)| *at <= run.now()) {
-                run.command(*command);
-            }
-            // Without a script there is nothing to wake for; an hour is as good as ever.
-            let next = script.peek().map_or(Duration::from_secs(3600), |(at, _)| at.since(run.now()));
-            match run.updates().recv_timeout(next) {
-                Ok(Update::Records(more)) => records.extend(more),
-                Ok(Update::Placed { .. } | Update::Rays(_)) | Err(RecvTimeoutError::Timeout) => {}
-                Ok(Update::Finished) => break,
-                Ok(Update::Failed(why)) => return Err(why),
-                Err(RecvTimeoutError::Disconnected) => return Err("the run ended without a result".into()),
-            }
-        }
-        let mut log = RunLog::new(header.clone());
-        log.add(records);
-        Ok(log)
     }
 }
 
