@@ -5,12 +5,14 @@ mod progress;
 mod rivals;
 mod scale;
 mod scale_report;
+mod stability;
 mod workbench;
 
 pub use paper::paper;
 pub use progress::Tell;
 pub use rivals::rivals;
 pub use scale_report::scale;
+pub use stability::stability;
 
 use serde::Serialize;
 use serde_json::Value;
