@@ -55,7 +55,8 @@ fn a_study_writes_rows_charts_and_a_report_that_shows_them() {
                 Value::Number(number) => text.parse::<f64>().ok() == number.as_f64(),
                 Value::Null => text.is_empty(),
                 Value::String(string) => text == string,
-                other => text == other.to_string(),
+                Value::Bool(flag) => text.parse() == Ok(*flag),
+                other => panic!("an unexpected value: {other}"),
             };
             assert!(same, "{column}: {text} is not {}", row[column]);
         }
@@ -74,6 +75,7 @@ fn an_impossible_study_is_refused_at_once() {
         (&["paper", "--out", "file/below"], "file/below"),
         (&["paper", "--scene", "no-such-scene"], "no-such-scene"),
         (&["rivals", "--scene", "file"], "file"),
+        (&["stability", "--scene", "glass"], "--scene"),
         (&["everything"], "everything"),
     ] {
         let output = study(directory.path(), arguments);

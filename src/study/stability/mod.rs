@@ -67,14 +67,16 @@ pub(super) struct Row {
     method: &'static str,
     tried: u64,
     wrong: u64,
-    /// The greatest error, or a time over the ideal one, as the case has it.
+    /// The greatest error, the greatest time over the ideal one, or how many answers were not even an entry and an exit, as
+    /// the case has it.
     measured: Option<f64>,
 }
 
-/// All cases, from the geometry to the protocol. One of a torus, and one of its quartic, belong after the grazing rays.
+/// All cases, from the geometry to the protocol.
 fn cases() -> Vec<Case> {
     let mut cases = vec![far::sphere()];
     cases.extend(graze::cases());
+    // A torus, and the quartic that it makes, have their place here.
     cases.extend(coincident::cases());
     cases.extend(starts::cases());
     cases.extend(scaled::cases());
@@ -194,4 +196,34 @@ fn check(case: &Case, tries: u32) {
         assert_eq!(wrong.is_empty(), *method == case.ours(), "{}, {method}: {wrong:?} of {tries}", case.name);
     }
     assert!(rows.iter().any(|row| row.required), "{}: {} is no value", case.name, case.required);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_case_has_a_name_a_chart_and_its_numbers_in_the_report() {
+        let cases = cases();
+        let names: BTreeSet<&str> = cases.iter().map(|case| case.name).collect();
+        assert_eq!(names.len(), cases.len());
+        let rows: Vec<Vec<Row>> = cases.iter().map(|case| case.rows(4)).collect();
+        let found: Vec<(&Case, &[Row])> = cases.iter().zip(&rows).map(|(case, rows)| (case, &rows[..])).collect();
+        let report = report::report(&found);
+        for (case, rows) in found {
+            assert!(report.contains(&format!("](stability-{}.svg)", case.name)) && report.contains(case.about));
+            let lines: Vec<usize> = report::chart(case, rows).series.iter().map(|series| series.points.len()).collect();
+            assert!(lines[..case.methods.len()].iter().all(|&points| points == case.values.len()), "{}", case.name);
+        }
+        assert!(!report.contains("NaN") && !report.contains("inf"));
+    }
+
+    #[test]
+    fn the_same_is_tried_each_time() {
+        let case = far::sphere();
+        let found = || case.rows(50).into_iter().map(|row| row.wrong).collect::<Vec<_>>();
+        assert_eq!(found(), found());
+    }
 }

@@ -47,8 +47,8 @@ pub(super) fn cases() -> [Case; 5] {
         case(
             "swing",
             "Machines whose speed swings",
-            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about the one given. \
-             The ideal time knows of every swing.",
+            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about the one given; \
+             every other one begins slow. The ideal time knows of every swing.",
             "period over the time at full speed",
             twos(-6, 4),
             Scale::Log2,
@@ -162,11 +162,15 @@ fn after(duration: Duration) -> Time {
 }
 
 fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    const FAST: f64 = 1.0;
+    const SLOW: f64 = 0.05;
     attempt(tries, rng, |_, rng| {
         let mut script = Script::new();
         for node in 0..NODES as NodeId {
             let period = IDEAL.mul_f64(period * between(rng, 0.5, 1.5));
-            script.extend(square_wave(node, 1.0, 0.05, period, after(20 * IDEAL)));
+            let [first, second] = if node % 2 == 0 { [FAST, SLOW] } else { [SLOW, FAST] };
+            script.push((Time::ZERO, Command::Speed { node, speed: first }));
+            script.extend(square_wave(node, first, second, period, after(30 * IDEAL)));
         }
         script.sort_by_key(|(at, _)| *at);
         (uneven(ATOMS, rng), NODES, script)

@@ -60,22 +60,23 @@ fn strategies<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>)
     let names = protocol::METHODS.join(" | ");
     say!(
         text,
-        "\nThe protocol, as what it stands on grows wilder: the worst time over the ideal one of each strategy. "
+        "\nThe protocol in virtual time, where machines, costs or the network are wild: each strategy's worst time over the ideal \
+         one, and where it had that.\n"
     );
-    say!(text, "| case | what grows harder | required up to | the ring traces every atom once | {names} |");
-    say!(text, "|---|---|---:|---:|{}", "---:|".repeat(protocol::METHODS.len()));
+    say!(text, "| case | what is varied | the ring traces every atom once | {names} |");
+    say!(text, "|---|---|---:|{}", "---:|".repeat(protocol::METHODS.len()));
     for (case, rows) in found {
         let worst = protocol::METHODS.iter().map(|method| {
-            let measured = of(rows, method).map(|row| row.measured.unwrap_or(f64::INFINITY));
-            number(measured.fold(0.0, f64::max))
+            let measured = of(rows, method).map(|row| (row.measured.unwrap_or(f64::INFINITY), row.value));
+            let worst = measured.max_by(|(this, _), (other, _)| this.total_cmp(other));
+            worst.map_or("–".into(), |(measured, value)| format!("{} at {}", number(measured), number(value)))
         });
         say!(
             text,
-            "| [{}](#{}) | {} | {} | {} | {} |",
+            "| [{}](#{}) | {} | {} | {} |",
             case.title,
             case.name,
             case.parameter,
-            number(case.required),
             held(rows, case.ours()),
             worst.collect::<Vec<_>>().join(" | ")
         );
@@ -115,6 +116,7 @@ fn cell(case: &Case, row: &Row) -> String {
     match (case.measures, row.measured) {
         (Some(_), Some(measured)) if row.wrong == 0 => number(measured),
         (Some(_), Some(measured)) => format!("{} ({} wrong)", number(measured), row.wrong),
+        (None, Some(broken)) if broken > 0.0 => format!("{} ({broken} odd)", row.wrong),
         _ => row.wrong.to_string(),
     }
 }
@@ -128,6 +130,9 @@ fn number(value: f64) -> String {
         _ => format!("{short:e}"),
     }
 }
+
+/// The colour of what is required; no case has so many methods.
+const REQUIRED: usize = 3;
 
 /// The share of wrong answers, or what was measured, against what grows harder.
 pub(super) fn chart(case: &Case, rows: &[Row]) -> Chart {
@@ -151,7 +156,7 @@ pub(super) fn chart(case: &Case, rows: &[Row]) -> Chart {
     if case.measures.is_none() {
         series.push(Series {
             name: "required".into(),
-            hue: series_hue(case.methods.len()),
+            hue: series_hue(REQUIRED),
             points: [floor, 1.0].map(|share| (x(case.required), share)).to_vec(),
             style: Style::Dashed,
         });

@@ -176,7 +176,7 @@ impl Truth {
     /// Whether what a method says about the line is wrong: not an entry and an exit where there is a stay inside, or
     /// something where there is none.
     pub fn is_missed_by(&self, places: &[f64]) -> bool {
-        is_broken(places) || !places.is_empty() != self.meets()
+        is_broken(places) || places.is_empty() == self.meets()
     }
 
     /// Whether a method's places are further than `tolerance` from where the line crosses the boundary.
