@@ -41,8 +41,8 @@ enum Shape {
     Ellipsoid(Own),
     Cube(Own),
     Cylinder(Own),
-    /// The radius at height y is `waist + slope (y − base)`. The base is where the cone is narrowest, if that is an
-    /// apex its tip: rays are measured from there, since what is small near a tip must be exact.
+    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
+    /// are measured from there, since near a tip all is small that decides whether it is hit.
     Cone {
         own: Own,
         base: f64,

@@ -33,8 +33,8 @@ pub(super) fn cases() -> [Case; 2] {
             title: "A thin plate",
             about: "What is grouped may not be lost: a plate seen from a distance of 10, turned somehow, in a union with a ball \
                     behind it or as the intersection of two half-spaces, is entered and left. Fusing what is nearer than an \
-                    absolute 0.0005 loses it. Wrong: not one entry and one exit of the plate, or as far apart as it is not \
-                    thick, within a thousandth. Truth: by construction.",
+                    absolute 0.0005 loses it. Wrong: its entry and its exit are not as far apart as the ray's way \
+                    through it is long, within a thousandth, or are not there. Truth: by construction.",
             parameter: "thickness",
             values: tens(0, -13),
             required: 1e-7,
@@ -61,10 +61,9 @@ fn events(solid: &Solid, ray: &Ray) -> Vec<f64> {
 }
 
 fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
-    const ARTICLE: DVec3 = DVec3::new(3.0, 11.0, 5.0);
     let mut count = Count::<3>::new();
     for index in 0..tries {
-        let turned = if index % 4 == 0 { rotation(ARTICLE) } else { turn(rng) };
+        let turned = if index % 4 == 0 { rotation(DVec3::new(3.0, 11.0, 5.0)) } else { turn(rng) };
         let place = DAffine3 { matrix3: turned, translation: unit(rng) * distance };
         let body = place * DAffine3::from_scale(DVec3::new(1.0, 1.5, 1.0));
         // The same height, reached by a longer way: moved, scaled, moved back.

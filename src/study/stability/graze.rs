@@ -25,7 +25,7 @@ pub(super) fn cases() -> [Case; 4] {
         title,
         about,
         parameter: "distance from it, over the solid's size",
-        values: down_to_0(1),
+        values: down_to_0(-1),
         required,
         scale: Scale::Log10,
         methods: &["textbook", "ours"],
@@ -35,15 +35,18 @@ pub(super) fn cases() -> [Case; 4] {
     };
     [
         Case {
-            name: "cone-generator",
-            title: "Rays along a cone's generator",
-            about: "Rays that go to a point inside a cone of 45°, parallel to one of its generators up to an angle. The square \
-                    term vanishes, and the textbook's −b ± √(b² − ac) over a loses its figures; ours takes the root that \
-                    nothing is lost of, and gets the other from the constant (Kahan). Wrong: not one entry and one exit, or \
-                    one that is further than 10⁻⁹ from where the exact solid changes from outside to inside.",
             parameter: "angle off the generator",
             values: down_to_0(0),
-            ..grazing("", "", "", 0.0, generator as fn(f64, u32, &mut Rng) -> Vec<Outcome>)
+            ..grazing(
+                "cone-generator",
+                "Rays along a cone's generator",
+                "Rays that go to a point inside a cone of 45°, parallel to one of its generators up to an angle. The square term \
+                 vanishes, and the textbook's −b ± √(b² − ac) over a loses its figures; ours takes the root that nothing is lost \
+                 of, and gets the other from the constant (Kahan). Wrong: not one entry and one exit, or one that is further than \
+                 10⁻⁹ from where the exact solid changes from outside to inside.",
+                0.0,
+                generator,
+            )
         },
         grazing(
             "tangent",
@@ -74,9 +77,9 @@ pub(super) fn cases() -> [Case; 4] {
     ]
 }
 
-/// From a power of ten down to the last that f64 knows beside 1, and to none at all.
+/// From a power of ten down to the last that f64 knows beside 1, and then 0.
 fn down_to_0(from: i32) -> Vec<f64> {
-    tens(-from, -16).into_iter().chain([0.0]).collect()
+    tens(from, -16).into_iter().chain([0.0]).collect()
 }
 
 fn generator(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {

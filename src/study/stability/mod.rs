@@ -78,8 +78,7 @@ fn cases() -> Vec<Case> {
     cases.extend(graze::cases());
     // A torus, and the quartic that it makes, have their place here.
     cases.extend(coincident::cases());
-    cases.extend(starts::cases());
-    cases.extend(scaled::cases());
+    cases.extend([starts::on_faces(), scaled::scenes()]);
     cases.extend(refraction::cases());
     cases.extend(normals::cases());
     cases.extend(protocol::cases());
