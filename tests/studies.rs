@@ -75,6 +75,7 @@ fn an_impossible_study_is_refused_at_once() {
         (&["paper", "--out", "file/below"], "file/below"),
         (&["paper", "--scene", "no-such-scene"], "no-such-scene"),
         (&["rivals", "--scene", "file"], "file"),
+        (&["stability", "--scene", "glass"], "--scene"),
         (&["everything"], "everything"),
     ] {
         let output = study(directory.path(), arguments);

@@ -11,11 +11,15 @@ use super::{Failure, open, print, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
-use crate::study::{Study, paper, peer, rivals, scale};
+use crate::study::{Study, paper, peer, rivals, scale, stability};
 
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
 pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: bool) -> Result<(), Failure> {
     let scenes: Vec<&str> = match (scene, kind) {
+        (Some(_), StudyKind::Stability) => {
+            return Err(Failure::Refused("stability makes its own cases and takes no scene: leave out --scene".into()));
+        }
+        (None, StudyKind::Stability) => Vec::new(),
         (Some(scene), _) => vec![scene],
         (None, StudyKind::Rivals | StudyKind::Peer) => BUILT_IN.iter().map(|(name, _)| *name).collect(),
         (None, _) => vec!["ten-objects"],
@@ -37,6 +41,7 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         StudyKind::Scale => scale(&scenes[0], &mut told),
         StudyKind::Rivals => rivals(&scenes, &mut told),
         StudyKind::Peer => Size::new(320, 240).and_then(|size| peer(&scenes, size, &mut told)),
+        StudyKind::Stability => stability(&mut told),
     };
     bar.finish_and_clear();
     let Study { name, rows, files } = study.map_err(Failure::Failed)?;

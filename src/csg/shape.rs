@@ -42,10 +42,12 @@ enum Shape {
     Ellipsoid(Own),
     Cube(Own),
     Cylinder(Own),
-    /// The radius at height y is `middle + slope y`.
+    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
+    /// are measured from there, since near a tip all is small that decides whether it is hit.
     Cone {
         own: Own,
-        middle: f64,
+        base: f64,
+        waist: f64,
         slope: f64,
     },
     Torus {
@@ -107,8 +109,11 @@ impl Leaf {
                     let (middle, half) = (centre + columns[1] * y, round(columns[0], columns[2]) * radius);
                     Aabb { min: middle - half, max: middle + half }
                 };
-                let (middle, slope) = ((top + bottom) / 2.0, (top - bottom) / 2.0);
-                (Shape::Cone { own: own(), middle, slope }, disc(bottom, -1.0).union(disc(top, 1.0)))
+                let (base, waist) = if top < bottom { (1.0, top) } else { (-1.0, bottom) };
+                (
+                    Shape::Cone { own: own(), base, waist, slope: (top - bottom) / 2.0 },
+                    disc(bottom, -1.0).union(disc(top, 1.0)),
+                )
             }
             Primitive::Torus { tube } => {
                 // What a ball of the tube's radius covers whose centre goes round the circle.
@@ -192,16 +197,17 @@ impl Leaf {
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
-            Shape::Cone { own, middle, slope } => {
+            Shape::Cone { own, base, waist, slope } => {
                 let (o, d) = own.carry(ray);
+                let from_base = o - DVec3::Y * *base;
                 let rise = slope * d.y;
                 let a = d.x * d.x + d.z * d.z - rise * rise;
-                let half = |o: DVec3| o.x * d.x + o.z * d.z - rise * (middle + slope * o.y);
+                let half = |o: DVec3| o.x * d.x + o.z * d.z - rise * (waist + slope * o.y);
                 let inside = if start == Some(CURVED) {
-                    Inside::from_surface(a, half(o))
+                    Inside::from_surface(a, half(from_base))
                 } else {
-                    from_closest_approach(o, d, |o| {
-                        let radius = middle + slope * o.y;
+                    from_closest_approach(from_base, d, |o| {
+                        let radius = waist + slope * o.y;
                         Inside::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
                     })
                 };
@@ -248,9 +254,9 @@ impl Leaf {
                 let q = own.point(point);
                 own.carry_back(DVec3::new(q.x, 0.0, q.z))
             }
-            Shape::Cone { own, middle, slope } => {
+            Shape::Cone { own, base, waist, slope } => {
                 let q = own.point(point);
-                own.carry_back(DVec3::new(q.x, -slope * (middle + slope * q.y), q.z))
+                own.carry_back(DVec3::new(q.x, -slope * (waist + slope * (q.y - base)), q.z))
             }
             Shape::Torus { own, .. } => {
                 let q = own.point(point);

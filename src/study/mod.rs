@@ -6,6 +6,7 @@ mod progress;
 mod rivals;
 mod scale;
 mod scale_report;
+mod stability;
 mod workbench;
 
 pub use paper::paper;
@@ -13,6 +14,7 @@ pub use peer::peer;
 pub use progress::Tell;
 pub use rivals::rivals;
 pub use scale_report::scale;
+pub use stability::stability;
 
 use serde::Serialize;
 use serde_json::Value;

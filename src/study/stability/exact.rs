@@ -1,0 +1,136 @@
+//! Numbers without rounding: what is true of the very numbers that a method is given.
+
+use std::borrow::Borrow;
+use std::cmp::Ordering;
+use std::ops::{Add, Mul, Sub};
+
+use glam::DVec3;
+use num_bigint::{BigInt, Sign};
+
+/// `mantissa` · 2^`exponent`. Every finite f64 is such a number, and so are sums and products of them.
+#[derive(Clone, Debug)]
+pub(super) struct Exact {
+    mantissa: BigInt,
+    exponent: i64,
+}
+
+/// Three of them: a point or a direction.
+pub(super) type Vector = [Exact; 3];
+
+impl Exact {
+    /// The sign, as the order to 0.
+    pub fn sign(&self) -> Ordering {
+        match self.mantissa.sign() {
+            Sign::Minus => Ordering::Less,
+            Sign::NoSign => Ordering::Equal,
+            Sign::Plus => Ordering::Greater,
+        }
+    }
+
+    pub fn is_positive(&self) -> bool {
+        self.sign().is_gt()
+    }
+
+    pub fn is_negative(&self) -> bool {
+        self.sign().is_lt()
+    }
+
+    /// The nearest f64 or one beside it; 0 or infinite where it is out of range.
+    pub fn rounded(&self) -> f64 {
+        let more = self.mantissa.bits().saturating_sub(100);
+        let leading = i128::try_from(&self.mantissa >> more).unwrap_or_else(|_| unreachable!("100 bits fit"));
+        // In two steps, since the power alone may be out of range.
+        let power = (self.exponent + more as i64).clamp(-2000, 2000) as i32;
+        leading as f64 * 2f64.powi(power / 2) * 2f64.powi(power - power / 2)
+    }
+
+    fn aligned(&self, exponent: i64) -> BigInt {
+        &self.mantissa << (self.exponent - exponent)
+    }
+
+    fn sum(&self, other: &Self, combine: impl Fn(BigInt, BigInt) -> BigInt) -> Self {
+        let exponent = self.exponent.min(other.exponent);
+        Self { mantissa: combine(self.aligned(exponent), other.aligned(exponent)), exponent }
+    }
+}
+
+impl From<f64> for Exact {
+    /// The number itself, which must be finite.
+    fn from(number: f64) -> Self {
+        let bits = number.to_bits();
+        let (biased, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
+        let leading = if biased == 0 { fraction } else { fraction | 1 << 52 };
+        let mantissa = BigInt::from(if number < 0.0 { -(leading as i64) } else { leading as i64 });
+        Self { mantissa, exponent: biased.max(1) - 1075 }
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $body:expr) => {
+        impl<B: Borrow<Exact>> $trait<B> for &Exact {
+            type Output = Exact;
+            fn $method(self, other: B) -> Exact {
+                $body(self, other.borrow())
+            }
+        }
+        impl<B: Borrow<Exact>> $trait<B> for Exact {
+            type Output = Exact;
+            fn $method(self, other: B) -> Exact {
+                $body(&self, other.borrow())
+            }
+        }
+    };
+}
+
+operator!(Add, add, |a: &Exact, b: &Exact| a.sum(b, |a, b| a + b));
+operator!(Sub, sub, |a: &Exact, b: &Exact| a.sum(b, |a, b| a - b));
+operator!(Mul, mul, |a: &Exact, b: &Exact| Exact {
+    mantissa: &a.mantissa * &b.mantissa,
+    exponent: a.exponent + b.exponent,
+});
+
+/// The vector itself, whose components must be finite.
+pub(super) fn vector(v: DVec3) -> Vector {
+    v.to_array().map(Exact::from)
+}
+
+pub(super) fn dot([a, b, c]: &Vector, [x, y, z]: &Vector) -> Exact {
+    a * x + b * y + c * z
+}
+
+pub(super) fn cross([a, b, c]: &Vector, [x, y, z]: &Vector) -> Vector {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_number_is_itself(number in any::<f64>()) {
+            prop_assume!(number.is_finite());
+            prop_assert_eq!(Exact::from(number).rounded(), number);
+        }
+
+        /// (a + b)(a − b) = a² − b², which no rounded arithmetic knows.
+        #[test]
+        fn nothing_is_lost(a in any::<f64>(), b in any::<f64>()) {
+            prop_assume!(a.is_finite() && b.is_finite());
+            let (a, b) = (Exact::from(a), Exact::from(b));
+            let difference = (&a + &b) * (&a - &b) - (&a * &a - &b * &b);
+            prop_assert_eq!(difference.sign(), Ordering::Equal);
+        }
+    }
+
+    #[test]
+    fn what_f64_cannot_tell_apart_has_a_sign() {
+        let one = Exact::from(1.0);
+        let more = &one + Exact::from(1e-30);
+        assert!((more - one).is_positive());
+        let across = cross(&vector(DVec3::new(1.0, 1e-30, 0.0)), &vector(DVec3::X));
+        assert!(across[2].is_negative());
+        assert_eq!(dot(&vector(DVec3::new(1e20, 1.0, -1e20)), &vector(DVec3::ONE)).rounded(), 1.0);
+    }
+}

@@ -1,0 +1,76 @@
+//! Normals of flat ellipsoids.
+
+use fastrand::Rng;
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::exact::{cross, dot, vector};
+use super::random::{turn, unit};
+use super::subject::Subject;
+use super::{Case, Count, Outcome, tens};
+use crate::csg::{Primitive, Surface};
+use crate::view::Scale;
+
+pub(super) fn cases() -> [Case; 2] {
+    let flat = |name, title, about, required, attempt| Case {
+        name,
+        title,
+        about,
+        parameter: "scale s",
+        values: tens(0, -10),
+        required,
+        scale: Scale::Log10,
+        methods: &["as a vector", "ours"],
+        measures: Some("greatest n · tangent"),
+        tries: 5000,
+        attempt,
+    };
+    [
+        flat(
+            "ellipsoid",
+            "Normals of a flat ellipsoid",
+            "A sphere scaled by (1, 1, s), and our normal at points of it: the greatest n · tangent of any tangent of length 1, \
+             which is the sine of the angle to the true normal. Naive: the sphere's normal, carried along as if it were a vector; \
+             it has to go by the inverse transpose. Wrong: more than 10⁻¹². Truth: the gradient at that very point, without \
+             rounding.",
+            1e-3,
+            |scale, tries, rng| attempt(scale, tries, rng, |_| DMat3::IDENTITY),
+        ),
+        flat(
+            "ellipsoid-turned",
+            "Normals of a flat ellipsoid that is turned",
+            "The same, turned somehow. At its rim the ellipsoid's curvature is s⁻², so that the last digit of a point, or of the map \
+             that turns it, moves the true normal by some 10⁻¹⁶ s⁻²: from s = 10⁻³ on a normal is as exact as its point, \
+             but no longer within 10⁻¹².",
+            1e-2,
+            |scale, tries, rng| attempt(scale, tries, rng, turn),
+        ),
+    ]
+}
+
+fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3) -> Vec<Outcome> {
+    const MOST: f64 = 1e-12;
+    let mut count = Count::<2>::new();
+    for _ in 0..tries {
+        let map = DAffine3::from_mat3(turned(rng) * DMat3::from_diagonal(DVec3::new(1.0, 1.0, scale)));
+        let ellipsoid = Subject::new(Primitive::Sphere, map);
+        let own = unit(rng);
+        let point = map.transform_point3(own);
+        let truth = ellipsoid.gradient(point);
+        let sine = |normal: DVec3| {
+            let normal = vector(normal);
+            let across = cross(&normal, &truth);
+            (dot(&across, &across).rounded() / (dot(&normal, &normal) * dot(&truth, &truth)).rounded()).sqrt()
+        };
+        let ours = ellipsoid.normal(Surface { leaf: 0, face: 0 }, point);
+        count.add_errors([map.transform_vector3(own).normalize(), ours].map(sine), MOST);
+    }
+    count.outcomes()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn normals_stand_on_a_flat_ellipsoid() {
+        super::cases().iter().for_each(|case| super::super::check(case, 300));
+    }
+}

@@ -1,0 +1,256 @@
+//! The protocol where machines and networks misbehave, in virtual time.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use fastrand::Rng;
+
+use super::random::between;
+use super::{Case, Outcome, twos};
+use crate::balance::{Message, NodeId, Party, Rules, Strategy};
+use crate::picture::Size;
+use crate::record::What;
+use crate::runlog::{Driver, Header, Link, Tally};
+use crate::scenario::{Command, Script, square_wave};
+use crate::sim::Sim;
+use crate::study::workbench::Costs;
+use crate::time::Time;
+use crate::view::Scale;
+
+const STRATEGIES: [Strategy; 3] = [Strategy::Static, Strategy::Farm, Strategy::Ring];
+pub(super) const METHODS: &[&str] = &["static", "farm", "ring"];
+
+const NODES: usize = 8;
+const ATOMS: u32 = 1024;
+/// Of an atom, on average.
+const COST: Duration = Duration::from_millis(2);
+/// What all nodes need together, at full speed.
+const IDEAL: Duration = Duration::from_millis(2 * ATOMS as u64 / NODES as u64);
+/// A message's, where nothing else is said.
+const LATENCY: Duration = Duration::from_micros(100);
+
+pub(super) fn cases() -> [Case; 5] {
+    let case = |name, title, about, parameter, values: Vec<f64>, scale, attempt| Case {
+        name,
+        title,
+        about,
+        parameter,
+        required: values.last().copied().unwrap_or_default(),
+        values,
+        scale,
+        methods: METHODS,
+        measures: Some("time / ideal time, the worst run"),
+        tries: 10,
+        attempt,
+    };
+    [
+        case(
+            "swing",
+            "Machines whose speed swings",
+            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about the one given; \
+             every other one begins slow. The ideal time knows of every swing.",
+            "period over the time at full speed",
+            twos(-6, 4),
+            Scale::Log2,
+            swing,
+        ),
+        case(
+            "stop",
+            "A machine that stops",
+            "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from somewhere in the \
+             first half of the run. The two atoms in its pipe cannot be taken back, so that every strategy waits for it to go on, \
+             and would for ever if it never did; in a ring all its other atoms leave it when others offer help.",
+            "time that it stands over the time of all at full speed",
+            twos(-6, 3),
+            Scale::Log2,
+            stop,
+        ),
+        case(
+            "crowd",
+            "More machines than atoms",
+            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom: where that is longer, it is \
+             the ideal time, here and below. Where a machine has two atoms, both are in its pipe, and a ring has nothing to give.",
+            "machines an atom",
+            twos(-3, 4),
+            Scale::Log2,
+            crowd,
+        ),
+        case(
+            "corner",
+            "All the work in one corner",
+            "Of 1,024 atoms, some that stand together somewhere in the picture cost 999 parts in 1,000 of all the work; at last it is \
+             one atom. Of two dear atoms in one pipe the second has to wait for the first.",
+            "share of the atoms that hold the work",
+            twos(0, -10),
+            Scale::Log2,
+            corner,
+        ),
+        case(
+            "latency",
+            "Wild latencies",
+            "The latency of all messages changes fifty times in the time of the run, to anything between a thousandth of the one given \
+             and that.",
+            "greatest latency over an atom's time",
+            twos(-6, 7),
+            Scale::Log2,
+            latency,
+        ),
+    ]
+}
+
+/// So many runs of each strategy. `plan` says, the same for all of them, what atoms cost, how many nodes there are, and what is
+/// done to them.
+fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (Costs, usize, Script)) -> Vec<Outcome> {
+    let mut outcomes = vec![Outcome { measured: Some(0.0), ..Outcome::default() }; STRATEGIES.len()];
+    for index in 0..tries {
+        let (costs, nodes, script) = plan(index, rng);
+        for (strategy, outcome) in STRATEGIES.into_iter().zip(&mut outcomes) {
+            let run = run(strategy, nodes, &script, &costs);
+            outcome.tried += run.tried;
+            outcome.wrong += run.wrong;
+            outcome.measured = outcome.measured.zip(run.measured).map(|(worst, this)| worst.max(this));
+        }
+    }
+    outcomes
+}
+
+/// One run: wrong are the atoms that were not traced and placed exactly once; measured is its time over the ideal one.
+fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &Costs) -> Outcome {
+    // One atom a row.
+    let Ok(size) = Size::new(50, costs.len() as u32) else { return Outcome::default() };
+    let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
+    let header = Header {
+        driver: Driver::Sim,
+        link: Link { latency: LATENCY, ..plain.link },
+        rules: Rules { batch: None, ..plain.rules },
+        ..plain
+    };
+    let cost = costs.clone();
+    let mut sim = Sim::new(&header, script, move |atom| cost[atom as usize]);
+    let (mut traced, mut placed) = (vec![0u32; costs.len()], vec![0u32; costs.len()]);
+    let mut tally = Tally::new(&header);
+    sim.run(&mut |record| {
+        match &record.what {
+            What::AtomDone { atom, .. } => traced[*atom as usize] += 1,
+            What::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
+                ranges.iter().cloned().flatten().for_each(|atom| placed[atom as usize] += 1);
+            }
+            _ => {}
+        }
+        tally.add(&record);
+    });
+    let wrong = traced.iter().zip(&placed).filter(|&times| times != (&1, &1)).count();
+    let dearest = costs.iter().max().copied().unwrap_or_default();
+    let over = |makespan: Duration| Some(makespan.div_duration_f64(tally.ideal()?.max(dearest)));
+    Outcome { tried: costs.len() as u64, wrong: wrong as u64, measured: tally.makespan().and_then(over) }
+}
+
+/// Costs of so many atoms, [`COST`] on average: the dearest costs ten times what the cheapest does.
+fn uneven(atoms: u32, rng: &mut Rng) -> Costs {
+    weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect())
+}
+
+/// Costs in proportion to these numbers, [`COST`] on average.
+fn weighted(weights: Vec<f64>) -> Costs {
+    let all: f64 = weights.iter().sum();
+    let each = COST.as_secs_f64() * weights.len() as f64 / all;
+    Arc::from_iter(weights.into_iter().map(|weight| Duration::from_secs_f64(each * weight)))
+}
+
+fn after(duration: Duration) -> Time {
+    Time::ZERO + duration
+}
+
+fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    const FAST: f64 = 1.0;
+    const SLOW: f64 = 0.05;
+    attempt(tries, rng, |_, rng| {
+        let mut script = Script::new();
+        for node in 0..NODES as NodeId {
+            let period = IDEAL.mul_f64(period * between(rng, 0.5, 1.5));
+            let [first, second] = if node % 2 == 0 { [FAST, SLOW] } else { [SLOW, FAST] };
+            script.push((Time::ZERO, Command::Speed { node, speed: first }));
+            script.extend(square_wave(node, first, second, period, after(30 * IDEAL)));
+        }
+        script.sort_by_key(|(at, _)| *at);
+        (uneven(ATOMS, rng), NODES, script)
+    })
+}
+
+fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    attempt(tries, rng, |index, rng| {
+        let node = rng.u16(0..NODES as NodeId);
+        let from = if index % 2 == 0 { Duration::ZERO } else { IDEAL.mul_f64(rng.f64() / 2.0) };
+        let speed = |at: Duration, speed| (after(at), Command::Speed { node, speed });
+        (uneven(ATOMS, rng), NODES, vec![speed(from, 0.0), speed(from + IDEAL.mul_f64(time), 1.0)])
+    })
+}
+
+fn crowd(an_atom: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    const FEW: u32 = 64;
+    attempt(tries, rng, |_, rng| (uneven(FEW, rng), (f64::from(FEW) * an_atom) as usize, Script::new()))
+}
+
+fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    attempt(tries, rng, |_, rng| {
+        let dear = (f64::from(ATOMS) * share) as u32;
+        let first = rng.u32(0..=ATOMS - dear);
+        let cheap = if dear < ATOMS { 0.001 / f64::from(ATOMS - dear) } else { 0.0 };
+        let weight = |atom| if (first..first + dear).contains(&atom) { 0.999 / f64::from(dear) } else { cheap };
+        (weighted((0..ATOMS).map(weight).collect()), NODES, Script::new())
+    })
+}
+
+fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    attempt(tries, rng, |_, rng| {
+        // Longer than any run lasts.
+        let changes = (0..50 * 100).map(|change| {
+            let latency = COST.mul_f64(greatest * 10f64.powf(between(rng, -3.0, 0.0)));
+            (after(IDEAL / 50 * change), Command::Latency(latency))
+        });
+        let script = changes.collect();
+        (uneven(ATOMS, rng), NODES, script)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Row;
+    use super::*;
+
+    /// The rows of one method, which all have ended with every atom once.
+    fn ended(case: &Case, method: &str) -> Vec<Row> {
+        let rows: Vec<Row> = case.rows(4).into_iter().filter(|row| row.method == method).collect();
+        assert_eq!(rows.len(), case.values.len());
+        for row in &rows {
+            assert!(row.wrong == 0 && row.measured.is_some_and(|over| over >= 1.0), "{row:?}");
+        }
+        rows
+    }
+
+    #[test]
+    fn the_ring_ends_with_every_atom_once_whatever_happens() {
+        for case in cases() {
+            ended(&case, "ring");
+        }
+    }
+
+    #[test]
+    fn who_never_goes_on_keeps_what_is_in_its_pipe_and_no_more() {
+        let costs = uneven(ATOMS, &mut Rng::with_seed(0));
+        let script = vec![(Time::ZERO, Command::Speed { node: 3, speed: 0.0 })];
+        let lost = run(Strategy::Ring, NODES, &script, &costs);
+        assert_eq!((lost.wrong, lost.measured), (2, None));
+    }
+
+    #[test]
+    fn the_ring_shares_what_equal_bands_cannot() {
+        for case in &cases()[..4] {
+            let (ring, bands) = (ended(case, "ring"), ended(case, "static"));
+            let gains =
+                ring.iter().zip(&bands).map(|(ring, bands)| bands.measured.zip(ring.measured).map(|(b, r)| b / r));
+            let most = gains.flatten().fold(0.0, f64::max);
+            assert!(most > 1.2, "{}: {most}", case.name);
+        }
+    }
+}

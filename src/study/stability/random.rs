@@ -1,0 +1,48 @@
+//! Directions and places at random, the same for the same seed.
+
+use fastrand::Rng;
+use glam::{DAffine3, DMat3, DVec3};
+
+use crate::geometry::rotation;
+
+/// A number from `from` to `to`.
+pub(super) fn between(rng: &mut Rng, from: f64, to: f64) -> f64 {
+    from + (to - from) * rng.f64()
+}
+
+/// A direction, of length 1; all are alike (Marsaglia 1972).
+pub(super) fn unit(rng: &mut Rng) -> DVec3 {
+    loop {
+        let [x, y] = [0, 1].map(|_| between(rng, -1.0, 1.0));
+        let squared = x * x + y * y;
+        if squared < 1.0 {
+            let across = 2.0 * (1.0 - squared).sqrt();
+            return DVec3::new(x * across, y * across, 1.0 - 2.0 * squared).normalize();
+        }
+    }
+}
+
+/// A direction, of length 1, at a right angle to `axis`, which has length 1 too.
+pub(super) fn aside(rng: &mut Rng, axis: DVec3) -> DVec3 {
+    loop {
+        let side = axis.cross(unit(rng));
+        if side.length() > 0.1 {
+            return side.normalize();
+        }
+    }
+}
+
+/// A rotation.
+pub(super) fn turn(rng: &mut Rng) -> DMat3 {
+    rotation(DVec3::from([0, 1, 2].map(|_| between(rng, 0.0, 360.0))))
+}
+
+/// A map that scales, turns somehow, and moves by less than 1.
+pub(super) fn placing(rng: &mut Rng, scale: DVec3) -> DAffine3 {
+    DAffine3 { matrix3: turn(rng) * DMat3::from_diagonal(scale), translation: unit(rng) * rng.f64() }
+}
+
+/// −1 or 1.
+pub(super) fn sign(rng: &mut Rng) -> f64 {
+    if rng.bool() { 1.0 } else { -1.0 }
+}

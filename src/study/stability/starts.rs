@@ -1,0 +1,75 @@
+//! Rays that start on a face.
+
+use fastrand::Rng;
+use glam::DVec3;
+
+use super::random::{aside, between, placing, sign, unit};
+use super::subject::Subject;
+use super::{Case, Count, Outcome, tens};
+use crate::csg::Primitive;
+use crate::geometry::Ray;
+use crate::view::Scale;
+
+/// Naive methods forget what is nearer than this.
+const OFFSETS: [f64; 2] = [1e-4, 1e-9];
+
+/// The root where a ray starts is 0, and rounding makes something else of it.
+pub(super) fn on_faces() -> Case {
+    Case {
+        name: "start",
+        title: "Rays that start on a face",
+        about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, where another ray has hit it: outwards they \
+                must meet nothing, inwards they must leave the solid once. A naive method forgets hits nearer than an offset: a \
+                large one forgets the way out of a flat stay, a small one meets the face itself again (acne). Ours knows which \
+                root of which primitive is 0. Truth: the sign of the exact quadratic's slope at the start, which stands for \
+                its point on the surface.",
+        parameter: "angle, radians",
+        values: tens(0, -16),
+        required: 1e-8,
+        scale: Scale::Log10,
+        methods: &["beyond 1e-4", "beyond 1e-9", "ours"],
+        measures: None,
+        tries: 8000,
+        attempt,
+    }
+}
+
+fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+    const SIZE: DVec3 = DVec3::new(1.0, 0.8, 0.6);
+    let solids = [
+        (Primitive::Sphere, DVec3::ONE),
+        (Primitive::Sphere, SIZE),
+        (Primitive::Cylinder, SIZE),
+        (Primitive::Cone { bottom: 1.0, top: 0.3 }, SIZE),
+    ];
+    let mut count = Count::<3>::new();
+    for index in 0..tries {
+        let (primitive, size) = solids[index as usize % solids.len()];
+        let solid = Subject::new(primitive, placing(rng, size));
+        let towards = unit(rng);
+        let target = solid.scene_from_own.translation + unit(rng) * between(rng, 0.0, 0.5);
+        let first = Ray::new(target - towards * 5.0, towards);
+        let Some(hit) = solid.crossings(&first, None).into_iter().next() else { continue };
+        let normal = solid.normal(hit.surface, first.at(hit.t));
+        let (sine, cosine) = (angle.sin() * sign(rng), angle.cos());
+        let ray = first.onward(hit.t, (aside(rng, normal) * cosine + normal * sine).normalize());
+        let face = hit.surface.face;
+        let slope = if face == 0 { solid.truth(&ray).b } else { solid.outwards_of_cap(&ray, face == 2) };
+        let leaves = !slope.is_negative();
+        let ours = solid.crossings(&ray, Some(solid.start(&hit)));
+        let is_right =
+            if leaves { ours.is_empty() } else { matches!(ours[..], [exit] if !exit.enters && exit.t > 0.0) };
+        let textbook = solid.textbook(&ray);
+        let is_wrong = |offset: f64| textbook.iter().filter(|&&t| t > offset).count() != usize::from(!leaves);
+        count.add([is_wrong(OFFSETS[0]), is_wrong(OFFSETS[1]), !is_right]);
+    }
+    count.outcomes()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_ray_that_starts_on_a_face_neither_meets_it_again_nor_forgets_the_way_out() {
+        super::super::check(&super::on_faces(), 2000);
+    }
+}

@@ -1,0 +1,230 @@
+//! A placed primitive that is met in three ways: by our tree, as a textbook has it, and without rounding.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::exact::{Exact, Vector, cross, dot, vector};
+use crate::csg::{Hit, Primitive, Solid, Stack, Start, Surface, Tree};
+use crate::geometry::Ray;
+
+/// A sphere, cylinder or cone at its place.
+pub(super) struct Subject {
+    pub primitive: Primitive,
+    pub scene_from_own: DAffine3,
+    pub own_from_scene: DAffine3,
+    tree: Tree,
+    root: u32,
+    /// The inverse of the map times its determinant, row by row, and that determinant, which is positive.
+    rows: [Vector; 3],
+    determinant: Exact,
+}
+
+/// What is true of a line and the primitive: it is inside where a t² + 2 b t + c < 0, and between the caps where there are
+/// such.
+pub(super) struct Truth {
+    a: Exact,
+    pub b: Exact,
+    c: Exact,
+    caps: Option<Caps>,
+}
+
+/// The caps are where y + speed t is ± `height`.
+struct Caps {
+    y: Exact,
+    speed: Exact,
+    height: Exact,
+}
+
+impl Subject {
+    /// The map must not mirror.
+    pub fn new(primitive: Primitive, scene_from_own: DAffine3) -> Self {
+        let mut tree = Tree::default();
+        let root = tree.add(&Solid::Placed { primitive, scene_from_own, tag: 0 }).map_or(0, |(root, _)| root);
+        let DMat3 { x_axis, y_axis, z_axis } = scene_from_own.matrix3;
+        let [x, y, z] = [x_axis, y_axis, z_axis].map(vector);
+        let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
+        let determinant = dot(&x, &rows[0]);
+        Self { primitive, scene_from_own, own_from_scene: scene_from_own.inverse(), tree, root, rows, determinant }
+    }
+
+    /// Where our tree says that the ray crosses the boundary.
+    pub fn crossings(&self, ray: &Ray, start: Option<Start>) -> Vec<Hit> {
+        let mut hits = Vec::new();
+        self.tree.crossings(self.root, ray, start, f64::INFINITY, &mut Stack::new(), |hit| {
+            hits.push(hit);
+            true
+        });
+        hits
+    }
+
+    /// Their distances, of a ray that comes from outside.
+    pub fn ours(&self, ray: &Ray) -> Vec<f64> {
+        self.crossings(ray, None).iter().map(|hit| hit.t).collect()
+    }
+
+    /// Where a ray starts that goes on from a hit of this solid.
+    pub fn start(&self, hit: &Hit) -> Start {
+        Start { root: self.root, surface: hit.surface, leaves: !hit.enters, turned: false }
+    }
+
+    /// Our normal at a point of a face.
+    pub fn normal(&self, surface: Surface, point: DVec3) -> DVec3 {
+        self.tree.leaf(surface).normal(surface.face, point)
+    }
+
+    /// Where a textbook says that the line crosses the boundary, in order: roots by −b ± √(b² − ac), of which those count
+    /// that lie between the caps, and places on the caps that lie within their circles.
+    pub fn textbook(&self, ray: &Ray) -> Vec<f64> {
+        let o = self.own_from_scene.transform_point3(ray.origin);
+        let d = self.own_from_scene.transform_vector3(ray.direction);
+        let (middle, slope) = radius(self.primitive);
+        let round = |p: DVec3, q: DVec3| p.x * q.x + p.z * q.z;
+        let (a, b, c) = match self.primitive {
+            Primitive::Sphere => (d.dot(d), o.dot(d), o.dot(o) - 1.0),
+            _ => {
+                let (r, rise) = (middle + slope * o.y, slope * d.y);
+                (round(d, d) - rise * rise, round(o, d) - r * rise, round(o, o) - r * r)
+            }
+        };
+        let root = (b * b - a * c).sqrt();
+        let mut places: Vec<f64> = [(-b - root) / a, (-b + root) / a].into_iter().filter(|t| t.is_finite()).collect();
+        if self.primitive != Primitive::Sphere {
+            places.retain(|t| (o.y + d.y * t).abs() <= 1.0);
+            for cap in [-1.0, 1.0] {
+                let t = (cap - o.y) / d.y;
+                let (p, r) = (o + d * t, middle + slope * cap);
+                places.extend((t.is_finite() && round(p, p) <= r * r).then_some(t));
+            }
+        }
+        places.sort_by(f64::total_cmp);
+        places
+    }
+
+    /// A point's own coordinates times [`Subject::determinant`].
+    fn own(&self, point: DVec3) -> Vector {
+        let (p, at) = (vector(point), vector(self.scene_from_own.translation));
+        let from_centre: Vector = [0, 1, 2].map(|axis| &p[axis] - &at[axis]);
+        self.own_vector(&from_centre)
+    }
+
+    fn own_vector(&self, v: &Vector) -> Vector {
+        [0, 1, 2].map(|row| dot(&self.rows[row], v))
+    }
+
+    /// What is true of the line on which the ray lies.
+    pub fn truth(&self, ray: &Ray) -> Truth {
+        let (o, d) = (self.own(ray.origin), self.own_vector(&vector(ray.direction)));
+        let one = &self.determinant;
+        if self.primitive == Primitive::Sphere {
+            return Truth { a: dot(&d, &d), b: dot(&o, &d), c: dot(&o, &o) - one * one, caps: None };
+        }
+        let (middle, slope) = radius(self.primitive);
+        let (middle, slope) = (Exact::from(middle), Exact::from(slope));
+        let (r, rise) = (middle * one + &slope * &o[1], &slope * &d[1]);
+        let round = |p: &Vector, q: &Vector| &p[0] * &q[0] + &p[2] * &q[2];
+        Truth {
+            a: round(&d, &d) - &rise * &rise,
+            b: round(&o, &d) - &r * &rise,
+            c: round(&o, &o) - &r * &r,
+            caps: Some(Caps { y: o[1].clone(), speed: d[1].clone(), height: one.clone() }),
+        }
+    }
+
+    /// A vector along the outward normal of a sphere's image through `point`.
+    pub fn gradient(&self, point: DVec3) -> Vector {
+        let own = self.own(point);
+        [0, 1, 2].map(|axis| dot(&own, &[0, 1, 2].map(|row| self.rows[row][axis].clone())))
+    }
+
+    /// Which way a ray goes from a flat face that it starts on: outwards if positive. Faces are numbered as the tree's.
+    pub fn outwards_of_cap(&self, ray: &Ray, is_upper: bool) -> Exact {
+        let speed = dot(&self.rows[1], &vector(ray.direction));
+        if is_upper { speed } else { Exact::from(0.0) - speed }
+    }
+}
+
+impl Truth {
+    /// Whether the line has a stay inside.
+    pub fn meets(&self) -> bool {
+        let Self { a, b, c, caps } = self;
+        let dips = a.is_positive() && (b * b - a * c).is_positive();
+        let Some(Caps { y, speed, height }) = caps else { return dips };
+        if speed.sign().is_eq() {
+            // No line along a cap is wholly inside a cylinder or cone.
+            return dips && (y - height).is_negative() && (y + height).is_positive();
+        }
+        // The caps are at t = n / speed.
+        let ends = [(Exact::from(0.0) - height) - y, height - y];
+        if ends.iter().any(|n| (a * n * n + b * n * speed * Exact::from(2.0) + c * speed * speed).is_negative()) {
+            return true;
+        }
+        // Outside at both caps: it dips inside if the least value lies between them.
+        let sides = ends.map(|n| (n * a + b * speed).sign());
+        dips && sides[0] != sides[1] && sides.iter().all(|side| side.is_ne())
+    }
+
+    /// Whether the point at distance `t` is inside.
+    pub fn holds(&self, t: f64) -> bool {
+        let t = Exact::from(t);
+        let is_round = ((&self.a * &t + &self.b * Exact::from(2.0)) * &t + &self.c).is_negative();
+        is_round
+            && self.caps.as_ref().is_none_or(|Caps { y, speed, height }| {
+                let y = y + speed * t;
+                (&y - height).is_negative() && (y + height).is_positive()
+            })
+    }
+
+    /// Whether what a method says about the line is wrong: not an entry and an exit where there is a stay inside, or
+    /// something where there is none.
+    pub fn is_missed_by(&self, places: &[f64]) -> bool {
+        is_broken(places) || places.is_empty() == self.meets()
+    }
+
+    /// Whether a method's places are further than `tolerance` from where the line crosses the boundary.
+    pub fn is_missed_within(&self, places: &[f64], tolerance: f64) -> bool {
+        let is_wrong = |(index, t): (usize, &f64)| {
+            let enters = index % 2 == 0;
+            self.holds(t - tolerance) == enters || self.holds(t + tolerance) != enters
+        };
+        self.is_missed_by(places) || places.iter().enumerate().any(is_wrong)
+    }
+}
+
+/// Whether the places are such as no line through a convex solid has: an odd number, more than two, or no numbers.
+pub(super) fn is_broken(places: &[f64]) -> bool {
+    !matches!(places.len(), 0 | 2) || places.iter().any(|t| !t.is_finite())
+}
+
+/// The radius at height y is the first plus the second times y.
+fn radius(primitive: Primitive) -> (f64, f64) {
+    match primitive {
+        Primitive::Cone { bottom, top } => ((top + bottom) / 2.0, (top - bottom) / 2.0),
+        _ => (1.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::random::{between, placing, unit};
+    use super::*;
+
+    /// On lines that are no hard cases, all three say the same.
+    #[test]
+    fn all_three_agree_where_it_is_easy() {
+        let rng = &mut fastrand::Rng::with_seed(1);
+        let (mut hits, mut all) = (0, 0);
+        for primitive in [Primitive::Sphere, Primitive::Cylinder, Primitive::Cone { bottom: 1.0, top: 0.25 }] {
+            for _ in 0..2000 {
+                let subject = Subject::new(primitive, placing(rng, DVec3::new(1.0, 0.7, 0.5)));
+                let target = subject.scene_from_own.translation + unit(rng) * between(rng, 0.0, 1.5);
+                let direction = unit(rng);
+                let ray = Ray::new(target - direction * 5.0, direction);
+                let truth = subject.truth(&ray);
+                let (ours, textbook) = (subject.ours(&ray), subject.textbook(&ray));
+                assert!(!truth.is_missed_within(&ours, 1e-12) && !truth.is_missed_within(&textbook, 1e-12));
+                all += 1;
+                hits += u32::from(truth.meets());
+            }
+        }
+        assert!(hits > all / 4 && hits < all * 3 / 4, "{hits} of {all}");
+    }
+}
