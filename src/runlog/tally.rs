@@ -142,7 +142,7 @@ impl Tally {
             }
         }
         let rest = Duration::try_from_secs_f64(left / self.rate(&machines)).ok()?;
-        Some(since.since(start) + rest)
+        since.since(start).checked_add(rest)
     }
 
     /// [`Tally::ideal`] / [`Tally::makespan`]: 1 is perfect; `None` while either is unknown.

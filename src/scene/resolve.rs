@@ -125,7 +125,9 @@ impl<'a> Names<'a> {
         }
         let (primitive, own) = primitive(leaf);
         let scene_from_own = outer * own;
-        if !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
+        // A determinant that overflows would make the inverse 0.
+        let is_normal = scene_from_own.matrix3.determinant().is_normal();
+        if !is_normal || !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
             return Err(NameError {
                 name: self.path.last().map(|&name| name.to_owned()),
                 message: "its transforms make a solid too large or too small to be computed with".into(),
