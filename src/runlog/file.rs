@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::{Header, RunLog, check};
 use crate::output::{OutputError, write_whole};
 use crate::record::Record;
+use crate::sentence::shown;
 
 /// The version of the format that this program writes, and the only one that it reads.
 const VERSION: u32 = 3;
@@ -138,9 +139,10 @@ fn parse_first(text: &str) -> Result<Header, String> {
 
 /// The error without its line, which is always 1, since each line is read by itself.
 fn what_is_wrong(error: &serde_json::Error) -> String {
+    const LONGEST: usize = 400;
     let text = error.to_string();
-    let what = text.split(" at line ").next().unwrap_or(&text);
-    format!("{what}, at column {}", error.column())
+    let what = text.rsplit_once(" at line ").map_or(&*text, |(what, _)| what);
+    format!("{}, at column {}", shown(what, LONGEST), error.column())
 }
 
 fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {

@@ -12,6 +12,7 @@ use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
 use super::resolve::resolve;
 use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
+use crate::sentence::shown;
 
 /// A scene with what a run has to know of its file.
 #[derive(Clone, Debug)]
@@ -25,6 +26,9 @@ pub struct Opened {
     /// What it says.
     pub scene: Scene,
 }
+
+/// Longer messages are cut off, in characters.
+const LONGEST_MESSAGE: usize = 400;
 
 /// Why a scene cannot be had: one sentence, with line, column and field where there are such.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,7 +76,9 @@ impl Scene {
     /// # Errors
     /// The first thing that is wrong, with its line, its column and its field.
     pub fn parse(text: &str) -> Result<Self, SceneError> {
-        let error = |place, message| SceneError { file: None, place, message };
+        // Names in a message are the file's, and may be of any kind.
+        let error =
+            |place, message: String| SceneError { file: None, place, message: shown(&message, LONGEST_MESSAGE) };
         // Some editors begin a file with this mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {

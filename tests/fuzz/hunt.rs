@@ -4,10 +4,11 @@
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
-use std::time::{Duration, Instant};
-use std::{env, fs, io};
+use std::time::Duration;
+use std::{env, fs, io, process};
+
+use crossbeam_channel::{RecvTimeoutError, after, never, unbounded};
 
 use super::mutator::Mutator;
 
@@ -19,7 +20,7 @@ const MOST_MEMORY: u64 = 2 << 30;
 
 /// What is tried, on what, and how often.
 pub struct Hunt {
-    /// Names the file of the input at hand.
+    /// What the file of the input at hand is named after.
     pub name: &'static str,
     /// All of these are tried first, and then mutants of them.
     pub corpus: Vec<Vec<u8>>,
@@ -34,21 +35,24 @@ impl Hunt {
     /// With the file of the input, if it makes the check panic or hang; or if memory runs away, or nearly all mutants are
     /// refused, so that nothing behind the reader is tried.
     pub fn run(self) {
-        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fuzz-{}", self.name));
-        let (name, keep) =
-            (self.name, format!("{} has the input: mend what fails, and keep it in the corpus", file.display()));
-        let (done, tried) = mpsc::channel();
+        let name = self.name;
+        // Several may hunt at the same time.
+        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fuzz-{name}-{}", process::id()));
+        let (done, tried) = unbounded();
         let at = file.clone();
-        let hunter = thread::spawn(move || self.hunt(&at, |read| done.send(read).is_ok()));
+        let hunter = thread::Builder::new().name("hunter".into());
+        let hunter = hunter.spawn(move || self.hunt(&at, |read| done.send(read).is_ok())).expect("a thread");
         let (mut inputs, mut read) = (0_u64, 0_u64);
-        loop {
+        let hangs = loop {
             match tried.recv_timeout(PATIENCE) {
                 Ok(was_read) => (inputs, read) = (inputs + 1, read + u64::from(was_read)),
-                Err(RecvTimeoutError::Timeout) => panic!("an input hangs. {keep}"),
-                Err(RecvTimeoutError::Disconnected) => break,
+                Err(ended) => break ended == RecvTimeoutError::Timeout,
             }
+        };
+        if hangs || hunter.join().is_err() {
+            let how = if hangs { "hangs" } else { "fails" };
+            panic!("input {inputs} {how}: mend that, and keep {} in the corpus", file.display());
         }
-        assert!(hunter.join().is_ok(), "an input fails. {keep}");
         fs::remove_file(&file).expect("the last input");
         println!("{name}: {inputs} inputs, of which {read} were read");
         assert!(read * 10 > inputs, "{name}: only {read} of {inputs} inputs got past the reader");
@@ -57,10 +61,13 @@ impl Hunt {
 
     /// Tries inputs until there were enough, or `tried` answers false.
     fn hunt(self, file: &Path, mut tried: impl FnMut(bool) -> bool) {
-        let lasts = env::var("ANEL_FUZZ_SECONDS").ok().map(|text| text.parse().expect("a number of seconds"));
-        let until = lasts.map(|seconds| Instant::now() + Duration::from_secs(seconds));
-        // What is tried always is always the same.
-        let seed = until.map_or(1, |_| fastrand::u64(..));
+        let seconds = env::var("ANEL_FUZZ_SECONDS").ok().map(|text| text.parse().expect("a number of seconds"));
+        let over = seconds.map_or_else(never, |seconds| after(Duration::from_secs(seconds)));
+        let (most, seed) = match seconds {
+            Some(_) => (usize::MAX, fastrand::u64(..)),
+            // What is tried always is always the same.
+            None => (self.mutants, 1),
+        };
         let mut attempt = |input: &[u8]| {
             overwrite(file, input).expect("a place for the input");
             let read = (self.check)(file);
@@ -68,17 +75,15 @@ impl Hunt {
         };
         self.corpus.iter().for_each(|input| _ = attempt(input));
         let mut mutator = Mutator::new(&self.corpus, seed);
-        let mut mutants = 0;
-        while until.map_or(mutants < self.mutants, |until| Instant::now() < until) {
+        for _ in 0..most {
             let input = mutator.mutant();
             let (read, go_on) = attempt(&input);
-            if !go_on {
+            if !go_on || over.try_recv().is_ok() {
                 return;
             }
             if read {
                 mutator.keep(input);
             }
-            mutants += 1;
         }
     }
 }
