@@ -127,3 +127,49 @@ fn node(header: &Header, node: NodeId) -> Result<(), String> {
 fn ensure(possible: bool, why: &str) -> Result<(), String> {
     if possible { Ok(()) } else { Err(why.to_owned()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples;
+    use super::super::examples::{at, done, sent};
+    use super::*;
+    use crate::balance::Strategy;
+
+    /// What is said of the first record that is refused.
+    fn complaint(records: &[Record]) -> Result<(), String> {
+        let header = examples::header(&[1.0]);
+        let mut checker = Checker::new(&header);
+        records.iter().try_for_each(|record| checker.record(record))
+    }
+
+    #[test]
+    fn what_no_run_amounts_to_is_refused() {
+        let (parent, node) = (Party::Parent, Party::Node(0));
+        assert_eq!(complaint(&[sent(1, parent, node, Message::Band(0..20)), done(2, 0, 0, 9)]), Ok(()));
+        let long = done(2, 0, 0, 2 * YEAR.as_secs());
+        assert_eq!(complaint(&[long]), Err("an atom takes longer than a year".into()));
+        let sample = at(2, What::Estimated { costs: vec![Duration::MAX] });
+        assert_eq!(complaint(&[sample]), Err("an atom takes longer than a year".into()));
+        let heavy =
+            What::Sent { id: 0, from: parent, to: node, message: Message::Shutdown, bytes: HEAVIEST, arrives: Time(9) };
+        assert_eq!(complaint(&[at(0, heavy)]), Err("a message is heavier than any can be".into()));
+    }
+
+    #[test]
+    fn a_run_that_sends_its_atoms_again_and_again_is_refused() {
+        let size = Size::new(10_000, 10_000).expect("a large picture");
+        let header = Header::plain(size, 100, Strategy::Ring, vec![1.0]);
+        let record = |times| sent(1, Party::Node(0), Party::Parent, Message::Results(vec![0..1_000_000; times]));
+        let mut checker = Checker::new(&header);
+        assert_eq!(checker.record(&record(20)), Ok(()));
+        assert_eq!(checker.record(&record(23)), Err("by now more atoms have been sent than a run can send".into()));
+    }
+
+    #[test]
+    fn a_picture_of_more_atoms_than_a_run_can_have_is_refused() {
+        let size = Size::new(4097, 4096).expect("a large picture");
+        let plain = Header::plain(size, 1, Strategy::Ring, vec![1.0]);
+        assert_eq!(header(&plain), Err("there are more atoms than a run can have".into()));
+        assert_eq!(header(&Header { division: Division::new(size.pixels(), 2), ..plain }), Ok(()));
+    }
+}

@@ -306,6 +306,15 @@ mod tests {
     }
 
     #[test]
+    fn an_ideal_beyond_all_time_is_none() {
+        let run = [sent(0, PARENT, node(0), Message::Band(0..20)), done(1, 0, 0, 1)];
+        // The end of the second that this takes is more than 2⁶⁴ s away, if only since the change.
+        let slow = 1.0 / (2f64.powi(64) + 1e10);
+        let change = at(18_000_000_000, What::SpeedSet { node: 0, speed: slow });
+        assert_eq!(ideal(&header(&[slow]), &[&run[..], &[change]].concat()), None);
+    }
+
+    #[test]
     fn a_change_after_the_ideal_end_does_not_matter() {
         let mut run = run();
         run.push(at(14, What::SpeedSet { node: 0, speed: 0.0 }));

@@ -22,7 +22,7 @@ const MOST_MEMORY: u64 = 2 << 30;
 pub struct Hunt {
     /// What the file of the input at hand is named after.
     pub name: &'static str,
-    /// All of these are tried first, and then mutants of them.
+    /// All of these are tried first, and then mutants of those that are read.
     pub corpus: Vec<Vec<u8>>,
     /// So many, unless ANEL_FUZZ_SECONDS says how long to go on.
     pub mutants: usize,
@@ -73,8 +73,8 @@ impl Hunt {
             let read = (self.check)(file);
             (read, tried(read))
         };
-        self.corpus.iter().for_each(|input| _ = attempt(input));
-        let mut mutator = Mutator::new(&self.corpus, seed);
+        let parents: Vec<_> = self.corpus.into_iter().filter(|input| attempt(input).0).collect();
+        let mut mutator = Mutator::new(&parents, seed);
         for _ in 0..most {
             let input = mutator.mutant();
             let (read, go_on) = attempt(&input);

@@ -39,7 +39,7 @@ fn open(file: &Path) -> Result<Opened, SceneError> {
 #[test]
 fn a_scene_file_is_read_or_refused() {
     let check = |file: &Path| open(file).is_ok();
-    Hunt { name: "scene-file", corpus: scenes(), mutants: 10_000, check }.run();
+    Hunt { name: "scene-file", corpus: scenes(), mutants: 5000, check }.run();
 }
 
 #[test]
