@@ -173,8 +173,9 @@ impl Tracer {
     }
 }
 
+/// Of length 1 again: in a mirror ball, what is missing or too much would grow 18 times with each reflection.
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - normal * (2.0 * direction.dot(normal))
+    (direction - normal * (2.0 * direction.dot(normal))).normalize()
 }
 
 /// Snell's law; nothing under total internal reflection.

@@ -82,6 +82,7 @@ fn reversed(solid: &Solid) -> Solid {
     }
 }
 
+/// No rounding changes, so no pixel may.
 #[test]
 fn a_scene_multiplied_by_a_power_of_two_gives_the_same_picture_bit_for_bit() {
     for (name, scene, pixels) in built_in() {
@@ -91,6 +92,42 @@ fn a_scene_multiplied_by_a_power_of_two_gives_the_same_picture_bit_for_bit() {
             assert!(bits(&picture(&scaled)) == bits(&pixels), "{name} times 2^{power}");
         }
     }
+}
+
+/// The same, where the lengths in the file are multiplied.
+#[test]
+fn a_scene_file_multiplied_by_a_power_of_two_gives_the_same_picture() {
+    let scaled = |factor: f64| {
+        let vector = |x: f64, y: f64, z: f64| format!("({:e}, {:e}, {:e})", x * factor, y * factor, z * factor);
+        let text = format!(
+            r#"(camera: (eye: {}, look_at: (0, 0, 0)), ambient: (0.1, 0.1, 0.1), background: (0.2, 0.3, 0.4),
+                lights: [Point(position: {})],
+                materials: {{"glass": (ka: 0, kd: 0.05, ks: 0.2, kt: 0.8, ior: 1.5), "matt": (ks: 0.3)}},
+                objects: [Box(min: {}, max: {}, material: "matt"),
+                    Sphere(centre: {}, radius: {:e}, material: "glass"),
+                    Difference(material: "matt", transform: [Rotate((20, 30, 0))], of: [
+                        Cylinder(from: {}, to: {}, radius: {:e}),
+                        Cone(from: {}, to: {}, radius: {:e}, to_radius: {:e})])])"#,
+            vector(3.0, 2.0, 6.0),
+            vector(4.0, 9.0, 5.0),
+            vector(-9.0, -2.0, -9.0),
+            vector(9.0, -1.0, 9.0),
+            vector(1.3, 0.0, 1.0),
+            0.9 * factor,
+            vector(-1.0, -1.0, 0.0),
+            vector(-1.0, 1.0, 0.0),
+            0.8 * factor,
+            vector(-1.0, -1.0, 0.0),
+            vector(-1.0, 1.0, 0.0),
+            0.3 * factor,
+            0.6 * factor,
+        );
+        picture(&Scene::parse(&text).unwrap_or_else(|error| panic!("{error}")))
+    };
+    let (same, larger, smaller) = (scaled(1.0), scaled(2f64.powi(20)), scaled(2f64.powi(-20)));
+    assert!(same.iter().any(|pixel| *pixel != same[0]), "the picture shows something");
+    assert_eq!(same, larger);
+    assert_eq!(same, smaller);
 }
 
 /// Rounding moves edges, by far less than a pixel; of glass and mirrors it may move what is seen in them too.
