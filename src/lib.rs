@@ -7,6 +7,7 @@
 pub mod geometry; // rays, boxes, rotations in degrees
 pub mod output; // files that are either whole or not there
 pub mod palette; // the nodes' colours, and what is not coloured
+pub mod sentence; // a file's words, where a sentence repeats them
 pub mod time; // nanoseconds since the run began
 
 // Floor 1: what is shared out.

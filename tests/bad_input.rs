@@ -127,10 +127,12 @@ fn a_scene_that_would_grow_without_bounds_is_refused() {
             &format!("solids: {{{solids}}}, objects: [Use(solid: \"s100000\")]"),
         ));
     assert!(error.contains("deep"), "{error}");
-    // Transforms that end in nothing.
-    let tiny = "Scale((1e-6, 1e-6, 1e-6)), ".repeat(60);
-    let error = refused_scene(GOOD.replace("radius: 1", &format!("radius: 1, transform: [{tiny}]")));
-    assert!(error.contains("too small"), "{error}");
+    // Transforms that end in nothing, or beyond all numbers: 1e120 is one, its volume is none.
+    for (factor, times) in [("1e-6", 60), ("1e6", 20)] {
+        let scales = format!("Scale(({factor}, {factor}, {factor})), ").repeat(times);
+        let error = refused_scene(GOOD.replace("radius: 1", &format!("radius: 1, transform: [{scales}]")));
+        assert!(error.contains("too large or too small"), "{error}");
+    }
 }
 
 #[test]

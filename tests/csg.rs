@@ -1,9 +1,8 @@
-//! Boolean operations on rays: pictures as text, coincident faces, and random trees against point membership.
+//! Boolean operations on rays: pictures as text, and coincident faces.
 
 use anel::csg::{Primitive, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use glam::{DAffine3, DMat3, DVec3};
-use proptest::prelude::*;
 
 fn placed(primitive: Primitive, scale: DVec3, degrees: DVec3, at: DVec3, tag: u32) -> Solid {
     let matrix3 = rotation(degrees) * DMat3::from_diagonal(scale);
@@ -113,79 +112,4 @@ fn a_plate_of_a_ten_millionth_survives_the_tolerance() {
     });
     assert_eq!(crossings.len(), 2);
     assert!((crossings[1] - crossings[0] - 1e-7).abs() < 1e-13);
-}
-
-fn any_vector(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {
-    (range.clone(), range.clone(), range).prop_map(DVec3::from)
-}
-
-fn any_solid() -> impl Strategy<Value = Solid> {
-    let primitive = prop_oneof![
-        Just(Primitive::Sphere),
-        Just(Primitive::Cube),
-        Just(Primitive::Cylinder),
-        (0.0..1.0f64).prop_map(|top| Primitive::Cone { bottom: 1.0, top }),
-        Just(Primitive::HalfSpace { normal: DVec3::new(0.6, 0.0, 0.8), offset: 0.2 }),
-    ];
-    let leaf = (primitive, any_vector(0.3..1.5), any_vector(0.0..360.0), any_vector(-1.0..1.0))
-        .prop_map(|(primitive, scale, degrees, at)| placed(primitive, scale, degrees, at, 0));
-    leaf.prop_recursive(4, 24, 4, |inner| {
-        let several = prop::collection::vec(inner, 1..4);
-        prop_oneof![
-            several.clone().prop_map(Solid::Union),
-            several.clone().prop_map(Solid::Intersection),
-            several.prop_map(Solid::Difference),
-        ]
-    })
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
-
-    /// Between two crossings a ray is inside or outside as the points there are (which need no ray to be told), and
-    /// it alternates.
-    #[test]
-    fn crossings_agree_with_point_membership(
-        solid in any_solid(), from in any_vector(-4.0..4.0), to in any_vector(-1.0..1.0)
-    ) {
-        prop_assume!((to - from).length() > 0.1);
-        let ray = Ray::new(from, (to - from).normalize());
-        let mut tree = Tree::default();
-        let mut crossings = Vec::new();
-        if let Some((root, _)) = tree.add(&solid) {
-            tree.crossings(root, &ray, None, 50.0, &mut Stack::new(), |hit| {
-                crossings.push(hit);
-                true
-            });
-        }
-        let mut before = 0.0;
-        for hit in &crossings {
-            let middle = (before + hit.t) / 2.0;
-            // A point this near to a face may be on either side of it.
-            if hit.t - before > 1e-6 {
-                prop_assert_eq!(solid.holds(ray.at(middle)), !hit.enters, "at {}", middle);
-            }
-            before = hit.t;
-        }
-        let alternate = crossings.windows(2).all(|pair| pair[0].enters != pair[1].enters && pair[0].t <= pair[1].t);
-        prop_assert!(alternate, "{:?}", crossings);
-        // From the last crossing on nothing changes.
-        let inside = crossings.last().map_or_else(|| solid.holds(ray.origin), |hit| hit.enters);
-        prop_assert_eq!(solid.holds(ray.at((before + 50.0) / 2.0)), inside);
-    }
-
-    /// A union that is told in another order is hit at the same places.
-    #[test]
-    fn the_order_of_children_does_not_matter(
-        a in any_solid(), b in any_solid(), c in any_solid(), from in any_vector(-4.0..4.0)
-    ) {
-        prop_assume!(from.length() > 0.1);
-        let ray = Ray::new(from, -from.normalize());
-        let hit = |solids: Vec<Solid>| {
-            let mut tree = Tree::default();
-            let (root, _) = tree.add(&Solid::Union(solids))?;
-            tree.nearest(root, &ray, None, f64::INFINITY, &mut Stack::new()).map(|hit| hit.t)
-        };
-        prop_assert_eq!(hit(vec![a.clone(), b.clone(), c.clone()]), hit(vec![c, a, b]));
-    }
 }

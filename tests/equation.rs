@@ -184,47 +184,6 @@ fn a_camera_inside_a_solid_sees_it_from_within() {
     assert_near(middle(&text), [0.0, 1.0, 0.0]);
 }
 
-/// All lengths of a scene times a power of two: no rounding changes, so no pixel may.
-#[test]
-fn scaling_the_scene_by_a_power_of_two_changes_no_bit() {
-    let scaled = |factor: f64| {
-        let vector = |x: f64, y: f64, z: f64| format!("({:e}, {:e}, {:e})", x * factor, y * factor, z * factor);
-        let text = format!(
-            r#"(camera: (eye: {}, look_at: (0, 0, 0)), ambient: (0.1, 0.1, 0.1), background: (0.2, 0.3, 0.4),
-                lights: [Point(position: {})],
-                materials: {{"glass": (ka: 0, kd: 0.05, ks: 0.2, kt: 0.8, ior: 1.5), "matt": (ks: 0.3)}},
-                objects: [Box(min: {}, max: {}, material: "matt"),
-                    Sphere(centre: {}, radius: {:e}, material: "glass"),
-                    Difference(material: "matt", transform: [Rotate((20, 30, 0))], of: [
-                        Cylinder(from: {}, to: {}, radius: {:e}),
-                        Cone(from: {}, to: {}, radius: {:e}, to_radius: {:e})])])"#,
-            vector(3.0, 2.0, 6.0),
-            vector(4.0, 9.0, 5.0),
-            vector(-9.0, -2.0, -9.0),
-            vector(9.0, -1.0, 9.0),
-            vector(1.3, 0.0, 1.0),
-            0.9 * factor,
-            vector(-1.0, -1.0, 0.0),
-            vector(-1.0, 1.0, 0.0),
-            0.8 * factor,
-            vector(-1.0, -1.0, 0.0),
-            vector(-1.0, 1.0, 0.0),
-            0.3 * factor,
-            0.6 * factor,
-        );
-        let scene = Scene::parse(&text).unwrap_or_else(|error| panic!("{error}"));
-        let size = Size::new(64, 48).expect("small");
-        let mut pixels = Vec::new();
-        let tracer = Tracer::new(&scene, size, Quality::default());
-        tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
-        pixels
-    };
-    let (same, larger, smaller) = (scaled(1.0), scaled(2f64.powi(20)), scaled(2f64.powi(-20)));
-    assert!(same.iter().any(|pixel| *pixel != same[0]), "the picture shows something");
-    assert_eq!(same, larger);
-    assert_eq!(same, smaller);
-}
-
 #[test]
 fn samples_are_averaged() {
     // The left half of the middle pixel is covered: with 2 × 2 samples half of the light is seen.

@@ -115,6 +115,27 @@ fn two_clear_solids_with_one_front_have_one_surface_there() {
     assert_eq!((pixels[0], rays.refracted), ([1.0; 3], 3));
 }
 
+/// Nor may the error of one reflection grow in the next.
+#[test]
+fn a_ray_in_a_mirror_ball_stays_in_it_for_fifty_reflections() {
+    for radius in [1.0, 1e9] {
+        let text = format!(
+            r#"(camera: (eye: (0.3, 0.2, 0.1), look_at: (1, 2, 3)), materials: {{"mirror": (ks: 1)}},
+            objects: [Sphere(radius: {radius:.0}, material: "mirror")])"#
+        );
+        let scene = Scene::parse(&text).unwrap_or_else(|error| panic!("{error}"));
+        let quality = Quality { max_depth: 50, ..Quality::default() };
+        let mut rays = 0;
+        Tracer::new(&scene, Size::new(8, 6).expect("small"), quality).paths(0..48, &mut Scratch::default(), |path| {
+            rays += 1;
+            let (length, distance) = (path.ray.direction.length(), path.ray.at(path.to).length());
+            assert!((length - 1.0).abs() < 1e-14, "level {}: the direction's length is {length}", path.level);
+            assert!((distance / radius - 1.0).abs() < 1e-12, "level {}: {distance} from the middle", path.level);
+        });
+        assert_eq!(rays, 48 * 50);
+    }
+}
+
 #[test]
 fn a_lamp_in_a_ceiling_lights_as_one_just_below_it() {
     let room = |lamp: f64| {

@@ -29,9 +29,6 @@ impl FromStr for Sharing {
     }
 }
 
-/// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
-const MAX_ATOMS: u32 = 1 << 24;
-
 /// What a run with these arguments is asked to do.
 ///
 /// # Errors
@@ -39,11 +36,12 @@ const MAX_ATOMS: u32 = 1 << 24;
 pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, String> {
     let speeds = node_speeds(args)?;
     let division = Division::new(args.size.pixels(), args.atom);
-    if division.atoms() > MAX_ATOMS {
+    if division.atoms() > Division::MAX_ATOMS {
         return Err(format!(
-            "{} atoms of {} pixels are too many; at most {MAX_ATOMS} are possible (--atom makes them larger)",
+            "{} atoms of {} pixels are too many; at most {} are possible (--atom makes them larger)",
             division.atoms(),
-            args.atom
+            args.atom,
+            Division::MAX_ATOMS
         ));
     }
     let (driver, strategy) = match (args.strategy, args.driver) {

@@ -18,6 +18,9 @@ pub struct Division {
 }
 
 impl Division {
+    /// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
+    pub const MAX_ATOMS: u32 = 1 << 24;
+
     /// `pixels` is the picture's count of pixels; an atom of 0 pixels counts as one of 1.
     pub fn new(pixels: u32, atom_pixels: u32) -> Self {
         Self { pixels, atom_pixels: atom_pixels.max(1) }

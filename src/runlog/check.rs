@@ -7,9 +7,16 @@ use super::Header;
 use crate::balance::{Message, NodeId, Party, estimate};
 use crate::picture::{Atom, Division, Size};
 use crate::record::{Record, What};
+use crate::time::Time;
 
 /// Nobody waits longer for a message.
 const HOUR: Duration = Duration::from_secs(3600);
+/// No atom takes longer, so that sums of what they take have an end.
+const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
+/// Not even the whole picture as one message weighs as much, in bytes.
+const HEAVIEST: u64 = 1 << 32;
+/// A run sends every pixel a few times at most. So many are more than the largest picture thirty times.
+const MOST_SENT: u64 = u32::MAX as u64;
 
 /// What is impossible about a header.
 pub(super) fn header(header: &Header) -> Result<(), String> {
@@ -18,6 +25,7 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
         header.division == Division::new(size.pixels(), header.division.atom_pixels()),
         "the division is not that of a picture of this size",
     )?;
+    ensure(header.division.atoms() <= Division::MAX_ATOMS, "there are more atoms than a run can have")?;
     ensure((1..=64).contains(&header.samples), "the samples are not 1 to 64")?;
     ensure((1..=1024).contains(&header.speeds.len()), "there must be 1 to 1024 speeds")?;
     ensure(header.link.latency <= HOUR && header.handling <= HOUR, "a message takes longer than an hour")?;
@@ -26,49 +34,90 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
     ensure(header.link.bandwidth.is_none_or(|bandwidth| bandwidth > 0.0), "the bandwidth is not above 0")
 }
 
-/// What is impossible about a record of a run with this header.
-pub(super) fn record(header: &Header, record: &Record) -> Result<(), String> {
-    let atoms = header.division.atoms();
-    let party = |party| match party {
-        Party::Parent => Ok(()),
-        Party::Node(id) => node(header, id),
-    };
-    match &record.what {
-        What::Sent { from, to, message: said, arrives, .. } => {
-            party(*from)?;
-            party(*to)?;
-            ensure(*arrives >= record.at, "a message arrives before it is sent")?;
-            message(header, said)
+/// Checks the records of a run, one after the other.
+pub(super) struct Checker<'a> {
+    header: &'a Header,
+    last: Time,
+    /// Pixels in all messages so far, traced or not.
+    sent: u64,
+}
+
+impl<'a> Checker<'a> {
+    /// Nothing has happened yet in a run with this header.
+    pub fn new(header: &'a Header) -> Self {
+        Self { header, last: Time::ZERO, sent: 0 }
+    }
+
+    /// What is impossible about the next record.
+    pub fn record(&mut self, record: &Record) -> Result<(), String> {
+        let header = self.header;
+        ensure(record.at >= self.last, "this record is earlier than the one before")?;
+        self.last = record.at;
+        match &record.what {
+            What::Sent { from, to, message, bytes, arrives, .. } => {
+                party(header, *from)?;
+                party(header, *to)?;
+                ensure(*arrives >= record.at, "a message arrives before it is sent")?;
+                ensure(*bytes < HEAVIEST, "a message is heavier than any can be")?;
+                self.message(message)
+            }
+            What::Received { by, .. } => party(header, *by),
+            What::AtomStarted { node: id, atom } => {
+                self.atom(*atom)?;
+                node(header, *id)
+            }
+            What::AtomDone { node: id, atom, cost } => {
+                self.atom(*atom)?;
+                possible_cost(cost)?;
+                node(header, *id)
+            }
+            What::SpeedSet { node: id, speed } => {
+                ensure((0.0..=1.0).contains(speed), "a speed is not between 0 and 1")?;
+                node(header, *id)
+            }
+            What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
+            What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
+            What::Estimated { costs } => {
+                let stretches = estimate::samples(header.division).len();
+                ensure(costs.len() == stretches, "the sample is not of this picture")?;
+                costs.iter().try_for_each(possible_cost)
+            }
+            What::Estimating | What::Finished => Ok(()),
         }
-        What::Received { by, .. } => party(*by),
-        What::AtomStarted { node: id, atom } | What::AtomDone { node: id, atom, .. } => {
-            ensure(*atom < atoms, "there is no such atom")?;
-            node(header, *id)
+    }
+
+    fn message(&mut self, message: &Message) -> Result<(), String> {
+        match message {
+            Message::Band(range) | Message::Part(range) => self.atoms(range),
+            Message::Transfer(ranges) | Message::Results(ranges) => {
+                ranges.iter().try_for_each(|range| self.atoms(range))
+            }
+            Message::Offer { who, .. } => node(self.header, *who),
+            Message::Request | Message::Shutdown => Ok(()),
         }
-        What::SpeedSet { node: id, speed } => {
-            ensure((0.0..=1.0).contains(speed), "a speed is not between 0 and 1")?;
-            node(header, *id)
-        }
-        What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
-        What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
-        What::Estimated { costs } => {
-            let stretches = estimate::samples(header.division).len();
-            ensure(costs.len() == stretches, "the sample is not of this picture")
-        }
-        What::Estimating | What::Finished => Ok(()),
+    }
+
+    fn atoms(&mut self, range: &Range<Atom>) -> Result<(), String> {
+        let division = self.header.division;
+        ensure(range.start <= range.end && range.end <= division.atoms(), "there are no such atoms")?;
+        self.sent += u64::from(division.pixels_in(range));
+        ensure(self.sent <= MOST_SENT, "by now more atoms have been sent than a run can send")
+    }
+
+    fn atom(&self, atom: Atom) -> Result<(), String> {
+        ensure(atom < self.header.division.atoms(), "there is no such atom")
     }
 }
 
-fn message(header: &Header, message: &Message) -> Result<(), String> {
-    let possible = |range: &Range<Atom>| {
-        ensure(range.start <= range.end && range.end <= header.division.atoms(), "there are no such atoms")
-    };
-    match message {
-        Message::Band(range) | Message::Part(range) => possible(range),
-        Message::Transfer(ranges) | Message::Results(ranges) => ranges.iter().try_for_each(possible),
-        Message::Offer { who, .. } => node(header, *who),
-        Message::Request | Message::Shutdown => Ok(()),
+fn party(header: &Header, party: Party) -> Result<(), String> {
+    match party {
+        Party::Parent => Ok(()),
+        Party::Node(id) => node(header, id),
     }
+}
+
+fn possible_cost(cost: &Duration) -> Result<(), String> {
+    ensure(*cost <= YEAR, "an atom takes longer than a year")
 }
 
 fn node(header: &Header, node: NodeId) -> Result<(), String> {
@@ -77,4 +126,50 @@ fn node(header: &Header, node: NodeId) -> Result<(), String> {
 
 fn ensure(possible: bool, why: &str) -> Result<(), String> {
     if possible { Ok(()) } else { Err(why.to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples;
+    use super::super::examples::{at, done, sent};
+    use super::*;
+    use crate::balance::Strategy;
+
+    /// What is said of the first record that is refused.
+    fn complaint(records: &[Record]) -> Result<(), String> {
+        let header = examples::header(&[1.0]);
+        let mut checker = Checker::new(&header);
+        records.iter().try_for_each(|record| checker.record(record))
+    }
+
+    #[test]
+    fn what_no_run_amounts_to_is_refused() {
+        let (parent, node) = (Party::Parent, Party::Node(0));
+        assert_eq!(complaint(&[sent(1, parent, node, Message::Band(0..20)), done(2, 0, 0, 9)]), Ok(()));
+        let long = done(2, 0, 0, 2 * YEAR.as_secs());
+        assert_eq!(complaint(&[long]), Err("an atom takes longer than a year".into()));
+        let sample = at(2, What::Estimated { costs: vec![Duration::MAX] });
+        assert_eq!(complaint(&[sample]), Err("an atom takes longer than a year".into()));
+        let heavy =
+            What::Sent { id: 0, from: parent, to: node, message: Message::Shutdown, bytes: HEAVIEST, arrives: Time(9) };
+        assert_eq!(complaint(&[at(0, heavy)]), Err("a message is heavier than any can be".into()));
+    }
+
+    #[test]
+    fn a_run_that_sends_its_atoms_again_and_again_is_refused() {
+        let size = Size::new(10_000, 10_000).expect("a large picture");
+        let header = Header::plain(size, 100, Strategy::Ring, vec![1.0]);
+        let record = |times| sent(1, Party::Node(0), Party::Parent, Message::Results(vec![0..1_000_000; times]));
+        let mut checker = Checker::new(&header);
+        assert_eq!(checker.record(&record(20)), Ok(()));
+        assert_eq!(checker.record(&record(23)), Err("by now more atoms have been sent than a run can send".into()));
+    }
+
+    #[test]
+    fn a_picture_of_more_atoms_than_a_run_can_have_is_refused() {
+        let size = Size::new(4097, 4096).expect("a large picture");
+        let plain = Header::plain(size, 1, Strategy::Ring, vec![1.0]);
+        assert_eq!(header(&plain), Err("there are more atoms than a run can have".into()));
+        assert_eq!(header(&Header { division: Division::new(size.pixels(), 2), ..plain }), Ok(()));
+    }
 }

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::{Header, RunLog, check};
 use crate::output::{OutputError, write_whole};
 use crate::record::Record;
+use crate::sentence::shown;
 
 /// The version of the format that this program writes, and the only one that it reads.
 const VERSION: u32 = 3;
@@ -91,16 +92,14 @@ impl RunLog {
         };
         let header = parse_first(&first).map_err(|why| wrong(1, why))?;
         let mut records: Vec<Record> = Vec::new();
+        let mut checker = check::Checker::new(&header);
         for (line, text) in (2..).zip(lines) {
             let record: Record = match text {
                 Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, what_is_wrong(&error)))?,
                 Err(error) if error.kind() == io::ErrorKind::InvalidData => return Err(wrong(line, error.to_string())),
                 Err(error) => return Err(read(error)),
             };
-            if records.last().is_some_and(|last| last.at > record.at) {
-                return Err(wrong(line, "this record is earlier than the one before".into()));
-            }
-            check::record(&header, &record).map_err(|why| wrong(line, why))?;
+            checker.record(&record).map_err(|why| wrong(line, why))?;
             records.push(record);
         }
         let mut log = Self::new(header);
@@ -140,9 +139,10 @@ fn parse_first(text: &str) -> Result<Header, String> {
 
 /// The error without its line, which is always 1, since each line is read by itself.
 fn what_is_wrong(error: &serde_json::Error) -> String {
+    const LONGEST: usize = 400;
     let text = error.to_string();
-    let what = text.split(" at line ").next().unwrap_or(&text);
-    format!("{what}, at column {}", error.column())
+    let what = text.rsplit_once(" at line ").map_or(&*text, |(what, _)| what);
+    format!("{}, at column {}", shown(what, LONGEST), error.column())
 }
 
 fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
@@ -184,21 +184,22 @@ mod tests {
     }
 
     fn happenings() -> impl Strategy<Value = What> {
-        let sent = (any::<(u64, u64)>(), parties(), parties(), messages());
+        let sent = ((any::<u64>(), 0..1u64 << 32), parties(), parties(), messages());
+        let cost = || (0..=365 * 24 * 3600u64).prop_map(Duration::from_secs);
         prop_oneof![
             sent.prop_map(|((id, bytes), from, to, message)| {
                 What::Sent { id, from, to, message, bytes, arrives: Time(u64::MAX) }
             }),
             (any::<u64>(), parties()).prop_map(|(id, by)| What::Received { id, by }),
             (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomStarted { node, atom }),
-            (0..NODES, 0..ATOMS, any::<Duration>()).prop_map(|(node, atom, cost)| What::AtomDone { node, atom, cost }),
+            (0..NODES, 0..ATOMS, cost()).prop_map(|(node, atom, cost)| What::AtomDone { node, atom, cost }),
             (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| What::SpeedSet { node, speed }),
             (0..NODES).prop_map(|node| What::Paused { node }),
             (0..NODES).prop_map(|node| What::Resumed { node }),
             (0..=3_600_000u64).prop_map(|ms| What::LatencySet { latency: Duration::from_millis(ms) }),
             (0..NODES).prop_map(|node| What::Retired { node }),
             Just(What::Estimating),
-            any::<Duration>().prop_map(|cost| What::Estimated { costs: vec![cost] }),
+            cost().prop_map(|cost| What::Estimated { costs: vec![cost] }),
             Just(What::Finished),
         ]
     }

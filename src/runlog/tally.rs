@@ -142,7 +142,7 @@ impl Tally {
             }
         }
         let rest = Duration::try_from_secs_f64(left / self.rate(&machines)).ok()?;
-        Some(since.since(start) + rest)
+        since.since(start).checked_add(rest)
     }
 
     /// [`Tally::ideal`] / [`Tally::makespan`]: 1 is perfect; `None` while either is unknown.
@@ -303,6 +303,15 @@ mod tests {
         // A speed that is set meanwhile counts from then on.
         run.insert(3, at(5, What::SpeedSet { node: 1, speed: 0.5 }));
         assert_eq!(ideal(&header, &run), secs(8 + 6));
+    }
+
+    #[test]
+    fn an_ideal_beyond_all_time_is_none() {
+        let run = [sent(0, PARENT, node(0), Message::Band(0..20)), done(1, 0, 0, 1)];
+        // The end of the second that this takes is more than 2⁶⁴ s away, if only since the change.
+        let slow = 1.0 / (2f64.powi(64) + 1e10);
+        let change = at(18_000_000_000, What::SpeedSet { node: 0, speed: slow });
+        assert_eq!(ideal(&header(&[slow]), &[&run[..], &[change]].concat()), None);
     }
 
     #[test]

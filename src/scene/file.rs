@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::{self, File};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
@@ -11,7 +9,9 @@ use ron::extensions::Extensions;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
 use super::resolve::resolve;
-use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
+use super::text::{find_name, read};
+use super::{Camera, Light, Material, Scene, built_in, checked};
+use crate::sentence::shown;
 
 /// A scene with what a run has to know of its file.
 #[derive(Clone, Debug)]
@@ -26,6 +26,9 @@ pub struct Opened {
     pub scene: Scene,
 }
 
+/// Longer messages are cut off, in characters.
+const LONGEST_MESSAGE: usize = 400;
+
 /// Why a scene cannot be had: one sentence, with line, column and field where there are such.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
@@ -38,9 +41,6 @@ pub struct SceneError {
 }
 
 impl Opened {
-    /// Files larger than this are no scenes.
-    const MAX_BYTES: u64 = 16 << 20;
-
     /// Reads the scene file `argument`, or the built-in scene of that name if there is no such file.
     ///
     /// # Errors
@@ -72,7 +72,9 @@ impl Scene {
     /// # Errors
     /// The first thing that is wrong, with its line, its column and its field.
     pub fn parse(text: &str) -> Result<Self, SceneError> {
-        let error = |place, message| SceneError { file: None, place, message };
+        // Names in a message are the file's, and may be of any kind.
+        let error =
+            |place, message: String| SceneError { file: None, place, message: shown(&message, LONGEST_MESSAGE) };
         // Some editors begin a file with this mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
@@ -341,60 +343,6 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
         }
         from.deserialize_map(Entries(std::marker::PhantomData))
     }
-}
-
-/// The text of a scene file; errors are sentences.
-fn read(path: &Path) -> Result<String, String> {
-    // Looked at before it is opened, since opening a pipe waits for somebody to write.
-    let data = fs::metadata(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => {
-            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
-            format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
-        }
-        _ => format!("the file cannot be found: {error}"),
-    })?;
-    if data.is_dir() {
-        return Err("this is a directory, not a scene file".into());
-    }
-    if !data.is_file() {
-        return Err("this is not a regular file".into());
-    }
-    let file = File::open(path).map_err(|error| format!("the file cannot be opened: {error}"))?;
-    let mut bytes = Vec::new();
-    // A file may grow while it is read.
-    file.take(Opened::MAX_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| format!("the file cannot be read: {error}"))?;
-    if bytes.len() as u64 > Opened::MAX_BYTES {
-        return Err(format!("the file is larger than {} MiB; that is no scene", Opened::MAX_BYTES >> 20));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
-        format!("line {line}: the file is not text (UTF-8)")
-    })
-}
-
-/// Line and column, from 1, of the first string `name` outside comments.
-fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
-    let quoted = format!("\"{name}\"");
-    let mut rest = text;
-    while !rest.is_empty() {
-        let skipped = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            rest.find("*/").map_or(rest.len(), |end| end + 2)
-        } else if rest.starts_with(&quoted) {
-            let before = &text[..text.len() - rest.len()];
-            let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-            return Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1));
-        } else if let Some(string) = rest.strip_prefix('"') {
-            string.find('"').map_or(rest.len(), |end| end + 2)
-        } else {
-            rest.chars().next().map_or(1, char::len_utf8)
-        };
-        rest = &rest[skipped..];
-    }
-    None
 }
 
 fn upwards() -> DVec3 {

@@ -3,6 +3,7 @@
 mod checked;
 mod file;
 mod resolve;
+mod text;
 
 pub use file::{Opened, SceneError};
 

@@ -8,6 +8,7 @@ use super::file::{SceneFile, SolidFields, Transform};
 use super::{Material, Scene};
 use crate::csg::{Primitive, QuadricCoefficients, Solid};
 use crate::geometry::{rotation, turn_y_to};
+use crate::sentence;
 
 /// A name that leads nowhere, or too far.
 pub(super) struct NameError {
@@ -126,7 +127,9 @@ impl<'a> Names<'a> {
         }
         let (primitive, own) = primitive(leaf);
         let scene_from_own = outer * own;
-        if !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
+        // A determinant that overflows would make the inverse 0.
+        let is_normal = scene_from_own.matrix3.determinant().is_normal();
+        if !is_normal || !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
             return Err(NameError {
                 name: self.path.last().map(|&name| name.to_owned()),
                 message: "its transforms make a solid too large or too small to be computed with".into(),
@@ -196,12 +199,7 @@ fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k String>) 
     NameError { name: Some(name.into()), message: format!("there is no {what} `{}`; {known}", shown(name)) }
 }
 
-/// A name as it can stand in a sentence: on one line, and not too long.
 fn shown(name: &str) -> String {
     const LONGEST: usize = 40;
-    let mut text: String = name.chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    if name.chars().nth(LONGEST).is_some() {
-        text.push('…');
-    }
-    text
+    sentence::shown(name, LONGEST)
 }

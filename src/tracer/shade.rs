@@ -260,8 +260,9 @@ fn path(ray: &Ray, branch: Branch, to: f64) -> Path {
     Path { kind: branch.kind, level: branch.level, ray: *ray, to }
 }
 
+/// Of length 1 again: in a mirror ball, what is missing or too much would grow 18 times with each reflection.
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - normal * (2.0 * direction.dot(normal))
+    (direction - normal * (2.0 * direction.dot(normal))).normalize()
 }
 
 /// Snell's law, between the place's solid and what is around it; nothing under total internal reflection.

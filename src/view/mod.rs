@@ -10,6 +10,7 @@ mod chart;
 mod display;
 mod events;
 mod flight;
+mod flights;
 mod hover;
 mod labels;
 mod machine;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::flight::{Cargo, Flight, atoms_in};
+use super::flights::Flights;
 use super::node::{NodeState, Parcels};
 use super::place::Place;
 use super::sharing::Sharing;
@@ -22,7 +23,7 @@ pub struct RunState {
     pub(super) nodes: Vec<NodeState>,
     /// By atom.
     places: Vec<Place>,
-    pub(super) flights: Vec<Flight>,
+    pub(super) flights: Flights,
     pub(super) pending: BTreeMap<u64, Flight>,
     early: BTreeSet<u64>,
     touched: Vec<Range<Atom>>,
@@ -59,7 +60,7 @@ impl RunState {
         Self {
             nodes: header.speeds.iter().map(|&speed| NodeState::new(speed)).collect(),
             places: vec![Place::Nowhere; header.division.atoms() as usize],
-            flights: Vec::new(),
+            flights: Flights::default(),
             pending: BTreeMap::new(),
             early: BTreeSet::new(),
             touched: Vec::new(),
@@ -129,8 +130,8 @@ impl RunState {
         &self.places
     }
 
-    /// The messages that can still be seen, in the order in which they left; of results, which are many, only
-    /// some.
+    /// The messages that can still be seen, and a few that are gone, in the order in which they left; of results, which
+    /// are many, only some.
     pub fn flights(&self) -> &[Flight] {
         &self.flights
     }
@@ -218,7 +219,6 @@ impl RunState {
             self.handed_out.add(part.len() as u32);
         }
         if self.is_drawn(&flight) {
-            self.flights.retain(|earlier| earlier.gone() > flight.sent);
             self.flights.push(flight.clone());
         }
         if self.early.remove(&id) {

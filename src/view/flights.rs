@@ -1,0 +1,54 @@
+//! The messages that can still be seen.
+
+use std::ops::Deref;
+
+use super::flight::Flight;
+
+/// Messages in the order in which they left. Those that can be seen no more are swept out now and then.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Flights {
+    flights: Vec<Flight>,
+    /// How many the last sweep left.
+    swept: usize,
+}
+
+impl Flights {
+    /// One more has left.
+    pub fn push(&mut self, flight: Flight) {
+        // A sweep looks at all of them, and so waits until they are twice as many.
+        if self.flights.len() > 2 * self.swept + 16 {
+            self.flights.retain(|earlier| earlier.gone() > flight.sent);
+            self.swept = self.flights.len();
+        }
+        self.flights.push(flight);
+    }
+}
+
+impl Deref for Flights {
+    type Target = [Flight];
+
+    fn deref(&self) -> &[Flight] {
+        &self.flights
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::balance::{Message, Party};
+    use crate::time::Time;
+
+    #[test]
+    fn those_that_are_gone_are_swept_out_and_others_stay() {
+        let mut flights = Flights::default();
+        let offer = Message::Offer { who: 0, done: 0 };
+        for second in 0..1000 {
+            let at = Time::from_secs(f64::from(second));
+            let arrives = if second % 100 == 0 { Time(u64::MAX) } else { at };
+            flights.push(Flight::new(Party::Node(0), Party::Node(1), &offer, at, arrives));
+        }
+        assert!(flights.len() < 50, "{}", flights.len());
+        assert_eq!(flights.iter().filter(|flight| flight.arrives == Time(u64::MAX)).count(), 10);
+        assert!(flights.is_sorted_by_key(|flight| flight.sent));
+    }
+}

@@ -1,0 +1,68 @@
+//! Whatever a scene file or a run file says, it is read or refused in a sentence, and what was read does no harm:
+//! nothing panics, hangs or takes all memory, and no colour is less than nothing.
+//!
+//! Here a few thousand inputs are tried, always the same. `ANEL_FUZZ_SECONDS=3600 cargo test --test fuzz -- --nocapture`
+//! tries others for an hour, with all checks for overflow that the usual profile has. An input that failed once is
+//! kept in `tests/fuzz/corpus`.
+
+mod hunt;
+mod mutator;
+mod run;
+
+use std::path::Path;
+
+use anel::export::to_pov;
+use anel::picture::Size;
+use anel::scene::{Opened, SceneError};
+use anel::tracer::{Quality, Scratch, Tracer};
+use hunt::{Hunt, corpus};
+
+/// The scenes that come with the program are good parents too.
+fn scenes() -> Vec<Vec<u8>> {
+    [corpus("tests/fuzz/corpus/scenes"), corpus("scenes")].concat()
+}
+
+/// One sentence, on one line, and not too long to be read.
+fn assert_sentence(error: &str) {
+    let is_line = !error.trim().is_empty() && !error.contains(char::is_control);
+    assert!(is_line && error.chars().count() < 600, "not a sentence: {error:?}");
+}
+
+fn open(file: &Path) -> Result<Opened, SceneError> {
+    let opened = Opened::new(file.to_str().expect("a path that is text"));
+    if let Err(error) = &opened {
+        assert_sentence(&error.to_string());
+    }
+    opened
+}
+
+#[test]
+fn a_scene_file_is_read_or_refused() {
+    let check = |file: &Path| open(file).is_ok();
+    Hunt { name: "scene-file", corpus: scenes(), mutants: 5000, check }.run();
+}
+
+#[test]
+fn a_scene_that_is_read_can_be_traced() {
+    Hunt { name: "scene", corpus: scenes(), mutants: 2000, check: trace }.run();
+}
+
+fn trace(file: &Path) -> bool {
+    let Ok(Opened { scene, .. }) = open(file) else { return false };
+    let size = Size::new(8, 6).expect("a small picture");
+    let tracer = Tracer::new(&scene, size, Quality::default());
+    let mut pixels = Vec::new();
+    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+    let is_light = |channel: &f32| channel.is_finite() && *channel >= 0.0;
+    assert!(pixels.iter().flatten().all(is_light), "{pixels:?}");
+    assert!(tracer.boxes().iter().all(|bounds| bounds.is_finite()));
+    assert!(tracer.compiled().lights == scene.lights.len());
+    let pov = to_pov(&scene, size, &Quality::default());
+    assert!(!pov.contains("NaN") && !pov.contains("inf"), "{pov}");
+    true
+}
+
+#[test]
+fn a_run_file_that_is_read_can_be_shown() {
+    Hunt { name: "run-file", corpus: corpus("tests/fuzz/corpus/runs"), mutants: 2000, check: run::show }.run();
+}

@@ -1,0 +1,120 @@
+//! Everything that is done to a run that was loaded.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use anel::balance::{NodeId, Strategy};
+use anel::driver::{Replay, Update};
+use anel::gui::Settings;
+use anel::picture::{Colour, Frame};
+use anel::runlog::{Header, RunLog, Tally};
+use anel::sim::Sim;
+use anel::time::Time;
+use anel::tracer::Scratch;
+use anel::view::{
+    Narrator, Outcome, Overlay, RunState, atom_words, flight_words, node_words, parent_words, parts_words,
+    picture_pixels, result_words, ring, rows, shares, small_print,
+};
+
+use super::assert_sentence;
+
+/// Larger pictures are no mistake, but take long.
+const LARGE: u32 = 10_000;
+
+/// Loads a run and does everything to it. Returns whether it could be loaded.
+pub fn show(file: &Path) -> bool {
+    let log = match RunLog::load(file) {
+        Ok(log) => log,
+        Err(error) => {
+            assert_sentence(&error.to_string());
+            return false;
+        }
+    };
+    let outcome = tally(&log);
+    view(&log, outcome);
+    if log.header.division.atoms() <= LARGE {
+        simulate(&log);
+        replay(log);
+    }
+    true
+}
+
+/// The figures, if the run came to its end.
+fn tally(log: &RunLog) -> Option<Outcome> {
+    let tally = Tally::of(log);
+    assert!(tally.tail_idle().is_none_or(f64::is_finite));
+    let traced: u64 = tally.atoms_by_node().into_iter().map(u64::from).sum();
+    assert!(traced <= log.records().len() as u64);
+    let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
+    assert!(efficiency.is_finite() && efficiency >= 0.0);
+    Some(Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() })
+}
+
+/// All words and drawings, in the middle and at the end.
+fn view(log: &RunLog, outcome: Option<Outcome>) {
+    let (mut state, mut narrator) = (RunState::new(&log.header), Narrator::default());
+    let middle = log.records().len() / 2;
+    for (index, record) in log.records().iter().enumerate() {
+        state.apply(record);
+        narrator.apply(record, &state);
+        if index == middle {
+            draw(&state, &narrator, None, record.at);
+        }
+    }
+    draw(&state, &narrator, outcome, state.head());
+    draw(&state, &narrator, outcome, Time(u64::MAX));
+    if log.header.size.pixels() <= LARGE {
+        let frame = Frame::new(log.header.size);
+        let colours = vec![[200; 3]; log.header.speeds.len()];
+        let pixels = picture_pixels(&frame, &state, &colours, 0.5);
+        assert_eq!(pixels.len(), 3 * log.header.size.pixels() as usize);
+    }
+}
+
+fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Outcome>, now: Time) {
+    let marks = ring(state, &Overlay { outcome, selected: Some(0) }, now, [400.0, 300.0]);
+    let mut said = format!("{marks:?}");
+    for node in 0..state.nodes().len().min(40) as NodeId {
+        said += &format!("{:?}", node_words(state, node, now));
+    }
+    for atom in 0..state.atoms().min(40) {
+        said += &atom_words(state, atom, now);
+    }
+    state.flights().iter().take(40).for_each(|flight| said += &flight_words(flight));
+    said += &format!("{:?}{:?}{:?}", parent_words(state, now), small_print(state), parts_words(state));
+    said += &narrator.sentence(state, now);
+    narrator.earlier(now).for_each(|(_, sentence)| said += sentence);
+    said += &outcome.map(|outcome| result_words(state, &outcome)).unwrap_or_default();
+    assert!(!said.contains("NaN") && !said.contains("inf,"), "{said}");
+    assert_eq!(rows(state, now).len(), state.nodes().len());
+    assert_eq!(shares(state).len(), state.nodes().len());
+}
+
+/// As `anel render --costs` does: a run in virtual time with what the atoms cost in this one. And as the window does that
+/// makes it live.
+fn simulate(log: &RunLog) {
+    let speeds = vec![1.0, 0.5];
+    let plain = Header::plain(log.header.size, log.header.division.atom_pixels(), Strategy::StaticEstimate, speeds);
+    if let Ok(mut sim) = Sim::measured(&plain, log) {
+        let mut records = 0;
+        sim.run(&mut |_| records += 1);
+        assert!(records > log.header.division.atoms());
+    }
+    let settings = Settings::of(&log.header, Settings::default().tempo);
+    if let Err(why) = settings.check() {
+        assert_sentence(&why);
+    }
+}
+
+/// Plays it again, and has soon seen enough.
+fn replay(log: RunLog) {
+    let black = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| out.extend(pixels.map(|_| [0.0; 3]));
+    let replay = Replay::start_with(black, Arc::new(log));
+    replay.stop();
+    match replay.updates().iter().last() {
+        Some(Update::Finished) => {}
+        Some(Update::Failed(why)) => assert_eq!(why, "the replay was stopped"),
+        other => panic!("the replay ends with {other:?}"),
+    }
+}
