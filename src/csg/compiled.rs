@@ -1,5 +1,6 @@
 //! A scene's solids, compiled: what can never be seen is gone, and every composition knows its bounds.
 
+use super::coincidence::coincide;
 use super::merge::{Operation, merge};
 use super::span::Span;
 use super::{Event, Leaf, Solid, Surface};
@@ -190,11 +191,17 @@ impl Tree {
         let mut meet = |event: Event, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
         };
+        // Where rounding decides whether a ray that passes an edge is inside for a moment, it is not. The face that
+        // the ray starts on is met at 0 exactly.
+        let are_one = |earlier: Event, later: Event| {
+            coincide(&self.leaves, earlier, later, ray) && ![earlier.surface, later.surface].map(Some).contains(&start)
+        };
+        let lasts = |[enter, leave]: &[Event; 2]| !are_one(*enter, *leave);
         match &self.nodes[root as usize].kind {
             Kind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 let mut go_on = true;
-                if let Some([enter, leave]) = first {
+                if let Some([enter, leave]) = first.filter(lasts) {
                     go_on = meet(enter, true) && meet(leave, false);
                 }
                 if let Some([enter, leave]) = second.filter(|_| go_on)
@@ -204,7 +211,7 @@ impl Tree {
                 }
             }
             Kind::Convex(leaves) => {
-                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start).filter(lasts)
                     && meet(enter, true)
                 {
                     meet(leave, false);
@@ -215,8 +222,14 @@ impl Tree {
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
                 self.composition_events(*operation, children, ray, start, window, stack);
-                for (index, event) in stack.iter().enumerate() {
-                    if !meet(*event, index % 2 == 0) {
+                // Merging leaves slivers where faces coincide along the ray: both their ends go.
+                let mut at = 0;
+                while at < stack.len() {
+                    if at + 1 < stack.len() && are_one(stack[at], stack[at + 1]) {
+                        at += 2;
+                    } else if meet(stack[at], at.is_multiple_of(2)) {
+                        at += 1;
+                    } else {
                         return;
                     }
                 }
