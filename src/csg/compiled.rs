@@ -191,17 +191,11 @@ impl Tree {
         let mut meet = |event: Event, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
         };
-        // Where rounding decides whether a ray that passes an edge is inside for a moment, it is not. The face that
-        // the ray starts on is met at 0 exactly.
-        let are_one = |earlier: Event, later: Event| {
-            coincide(&self.leaves, earlier, later, ray) && ![earlier.surface, later.surface].map(Some).contains(&start)
-        };
-        let lasts = |[enter, leave]: &[Event; 2]| !are_one(*enter, *leave);
         match &self.nodes[root as usize].kind {
             Kind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 let mut go_on = true;
-                if let Some([enter, leave]) = first.filter(lasts) {
+                if let Some([enter, leave]) = first {
                     go_on = meet(enter, true) && meet(leave, false);
                 }
                 if let Some([enter, leave]) = second.filter(|_| go_on)
@@ -211,7 +205,9 @@ impl Tree {
                 }
             }
             Kind::Convex(leaves) => {
-                if let Some([enter, leave]) = self.convex_span(leaves, ray, start).filter(lasts)
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                    // Where rounding decides whether a ray that passes an edge is inside for a moment, it is not.
+                    && !coincide(&self.leaves, enter, leave, ray, start)
                     && meet(enter, true)
                 {
                     meet(leave, false);
@@ -225,7 +221,7 @@ impl Tree {
                 // Merging leaves slivers where faces coincide along the ray: both their ends go.
                 let mut at = 0;
                 while at < stack.len() {
-                    if at + 1 < stack.len() && are_one(stack[at], stack[at + 1]) {
+                    if at + 1 < stack.len() && coincide(&self.leaves, stack[at], stack[at + 1], ray, start) {
                         at += 2;
                     } else if meet(stack[at], at.is_multiple_of(2)) {
                         at += 1;

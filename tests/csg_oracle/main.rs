@@ -135,6 +135,19 @@ fn agrees(passage: &Passage, inside: u128, seen: &Seen, tree: &Tree, hits: &[Hit
     Some(hits.next().is_none())
 }
 
+/// Drops stays in one leaf that are no longer than rounding: a ray that passes its very edge may touch it or not.
+fn drop_touches(hits: &mut Vec<Hit>, ray: &Ray) {
+    let mut at = 0;
+    while let Some([enter, leave]) = hits.get(at..at + 2) {
+        let is_touch = enter.enters && enter.surface.leaf == leave.surface.leaf;
+        if is_touch && leave.t - enter.t <= 1e-12 * (ray.scale + enter.t) {
+            hits.drain(at..at + 2);
+        } else {
+            at += 1;
+        }
+    }
+}
+
 impl Tally {
     /// Traces lines through one tree.
     fn add(&mut self, seed: u64, depth: usize, grid: Grid, slope: u32) {
@@ -165,6 +178,7 @@ impl Tally {
                     true
                 });
             }
+            drop_touches(&mut hits, &seen.ray);
             let inside = passage.of(&scene.solid);
             let Some(agrees) = agrees(&passage, inside, &seen, &tree, &hits) else { continue };
             let count = if passage.coincides { &mut self.coincident } else { &mut self.general };
