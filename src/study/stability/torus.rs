@@ -57,7 +57,8 @@ pub(super) fn cases() -> [Case; 2] {
 fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     count(tries, rng, |rng| {
         let (way, target) = (unit(rng), unit(rng) * between(rng, 0.0, 1.5));
-        (0.25, target + way * (1.5 + distance), target)
+        // All of the torus lies before the origin.
+        (0.25, target + way * (3.0 + distance), target)
     })
 }
 
