@@ -191,15 +191,14 @@ impl Tree {
         let mut meet = |event: Event, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
         };
-        // Where rounding decides whether a ray that passes an edge is inside for a moment, it is not. The face that
-        // the ray starts on is met at 0 exactly.
-        let are_one = |earlier: Event, later: Event| {
-            coincide(&self.leaves, earlier, later, ray) && ![earlier.surface, later.surface].map(Some).contains(&start)
-        };
-        let lasts = |[enter, leave]: &[Event; 2]| !are_one(*enter, *leave);
+        // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
+        // starts on this solid starts there exactly, and may be inside as briefly as it likes.
+        let are_one = |earlier: Event, later: Event| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root as usize].kind {
             Kind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
+                // Here the tolerance must do; and a stay that has always been there is one: NaN is not less.
+                let lasts = |[enter, leave]: &[Event; 2]| !(leave.t <= enter.t + ray.tolerance(enter.t));
                 let mut go_on = true;
                 if let Some([enter, leave]) = first.filter(lasts) {
                     go_on = meet(enter, true) && meet(leave, false);
@@ -211,7 +210,8 @@ impl Tree {
                 }
             }
             Kind::Convex(leaves) => {
-                if let Some([enter, leave]) = self.convex_span(leaves, ray, start).filter(lasts)
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                    && !are_one(enter, leave)
                     && meet(enter, true)
                 {
                     meet(leave, false);
@@ -222,16 +222,17 @@ impl Tree {
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
                 self.composition_events(*operation, children, ray, start, window, stack);
-                // Merging leaves slivers where faces coincide along the ray: both their ends go.
-                let mut at = 0;
-                while at < stack.len() {
-                    if at + 1 < stack.len() && are_one(stack[at], stack[at + 1]) {
-                        at += 2;
-                    } else if meet(stack[at], at.is_multiple_of(2)) {
-                        at += 1;
-                    } else {
-                        return;
-                    }
+                let (mut events, mut enters) = (stack.as_slice(), true);
+                while let [event, rest @ ..] = events {
+                    events = match rest {
+                        // Of a sliver both ends go.
+                        [next, rest @ ..] if are_one(*event, *next) => rest,
+                        _ if meet(*event, enters) => {
+                            enters = !enters;
+                            rest
+                        }
+                        _ => return,
+                    };
                 }
             }
         }
