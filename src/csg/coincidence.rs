@@ -5,7 +5,7 @@
 //! by which merging groups events; so the cosines are looked at only where two events lie between one and a million
 //! tolerances apart, which is rare.
 
-use super::{Event, Leaf, Surface};
+use super::{Event, Leaf};
 use crate::geometry::Ray;
 
 /// Two events may be one place up to this many tolerances apart.
@@ -14,22 +14,22 @@ const REACH: f64 = 1e6;
 /// How far rounding moves a face, as a part of the numbers that the ray's tolerance follows too; with a margin.
 const ROUNDING: f64 = 4e-15;
 
-/// Whether `later` lies no more than the tolerance after `earlier`, or than rounding explains. The face `start`, on
-/// which the ray starts, is met exactly, and so is no other place.
+/// Whether `later` lies no more than the tolerance after `earlier`, or than rounding explains.
 #[inline(always)]
-pub(super) fn coincide(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray, start: Option<Surface>) -> bool {
-    // A sum and not a difference, so that an infinite event coincides with none.
-    later.t <= earlier.t + REACH * ray.tolerance(earlier.t) && are_blurred(leaves, earlier, later, ray, start)
+pub(super) fn coincide(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray) -> bool {
+    let tolerance = ray.tolerance(earlier.t);
+    // Sums and not differences, so that an infinite event coincides with none.
+    later.t <= earlier.t + REACH * tolerance
+        && (later.t <= earlier.t + tolerance || are_blurred(leaves, earlier, later, ray))
 }
 
+/// Whether rounding explains the distance between two events.
 #[cold]
 #[inline(never)]
-fn are_blurred(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray, start: Option<Surface>) -> bool {
+fn are_blurred(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray) -> bool {
     let blur = |event: Event| {
         let normal = leaves[event.surface.leaf as usize].normal(event.surface.face, ray.at(event.t));
         ROUNDING * (ray.scale + event.t.abs()) / normal.dot(ray.direction).abs()
     };
-    let is_start = |event: Event| start == Some(event.surface);
-    let gap = later.t - earlier.t;
-    !is_start(earlier) && !is_start(later) && (gap <= ray.tolerance(earlier.t) || gap <= blur(earlier) + blur(later))
+    later.t - earlier.t <= blur(earlier) + blur(later)
 }

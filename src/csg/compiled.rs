@@ -191,6 +191,9 @@ impl Tree {
         let mut meet = |event: Event, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
         };
+        // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
+        // starts on this solid starts there exactly, and may be inside as briefly as it likes.
+        let are_one = |earlier: Event, later: Event| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root as usize].kind {
             Kind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
@@ -206,8 +209,7 @@ impl Tree {
             }
             Kind::Convex(leaves) => {
                 if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
-                    // Where rounding decides whether a ray that passes an edge is inside for a moment, it is not.
-                    && !coincide(&self.leaves, enter, leave, ray, start)
+                    && !are_one(enter, leave)
                     && meet(enter, true)
                 {
                     meet(leave, false);
@@ -218,16 +220,17 @@ impl Tree {
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
                 self.composition_events(*operation, children, ray, start, window, stack);
-                // Merging leaves slivers where faces coincide along the ray: both their ends go.
-                let mut at = 0;
-                while at < stack.len() {
-                    if at + 1 < stack.len() && coincide(&self.leaves, stack[at], stack[at + 1], ray, start) {
-                        at += 2;
-                    } else if meet(stack[at], at.is_multiple_of(2)) {
-                        at += 1;
-                    } else {
-                        return;
-                    }
+                let (mut events, mut enters) = (stack.as_slice(), true);
+                while let [event, rest @ ..] = events {
+                    events = match rest {
+                        // Of a sliver both ends go.
+                        [next, rest @ ..] if are_one(*event, *next) => rest,
+                        _ if meet(*event, enters) => {
+                            enters = !enters;
+                            rest
+                        }
+                        _ => return,
+                    };
                 }
             }
         }
