@@ -3,6 +3,7 @@
 use anel::csg::{Primitive, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use glam::{DAffine3, DMat3, DVec3};
+use proptest::prelude::*;
 
 fn placed(primitive: Primitive, scale: DVec3, degrees: DVec3, at: DVec3, tag: u32) -> Solid {
     let matrix3 = rotation(degrees) * DMat3::from_diagonal(scale);
@@ -101,15 +102,80 @@ fn one_sees_through_a_bore_with_coincident_caps() {
 #[test]
 fn a_plate_of_a_ten_millionth_survives_the_tolerance() {
     let plate = placed(Primitive::Cube, DVec3::new(1.0, 0.5e-7, 1.0), DVec3::ZERO, DVec3::ZERO, 0);
-    let whole = Solid::Union(vec![plate, ball(DVec3::X * 7.0, 1)]);
-    let mut tree = Tree::default();
-    let (root, _) = tree.add(&whole).expect("a plate and a ball");
+    let whole = Solid::Union(vec![plate, ball(DVec3::NEG_Y * 7.0, 1)]);
     let ray = Ray::new(DVec3::new(0.2, 10.0, 0.1), DVec3::NEG_Y);
-    let mut crossings = Vec::new();
-    tree.crossings(root, &ray, None, f64::INFINITY, &mut Stack::new(), |hit| {
-        crossings.push(hit.t);
+    let found = crossings(&whole, &ray);
+    assert_eq!(found.len(), 4);
+    assert!((found[1].0 - found[0].0 - 1e-7).abs() < 1e-13);
+}
+
+/// Distances and the tags of the faces.
+fn crossings(solid: &Solid, ray: &Ray) -> Vec<(f64, u32)> {
+    let mut tree = Tree::default();
+    let Some((root, _)) = tree.add(solid) else { return Vec::new() };
+    let mut found = Vec::new();
+    tree.crossings(root, ray, None, f64::INFINITY, &mut Stack::new(), |hit| {
+        found.push((hit.t, tree.leaf(hit.surface).tag));
         true
     });
-    assert_eq!(crossings.len(), 2);
-    assert!((crossings[1] - crossings[0] - 1e-7).abs() < 1e-13);
+    found
+}
+
+/// Balls in a row that overlap only now and then, one ray along it, and what it is in: nothing grows with the square of
+/// their number, so a hundred thousand take no time at all.
+#[test]
+fn what_many_take_away_or_add_is_merged_in_little_time() {
+    const BALLS: u32 = 100_000;
+    let balls: Vec<_> = (0..BALLS).map(|index| ball(DVec3::X * 3.0 * f64::from(index), index)).collect();
+    let bar = placed(Primitive::Cube, DVec3::new(4.0 * f64::from(BALLS), 0.5, 0.5), DVec3::ZERO, DVec3::ZERO, BALLS);
+    let ray = Ray::new(DVec3::X * -9.0, DVec3::X);
+    let kept = Solid::Intersection(vec![bar.clone(), Solid::Union(balls.clone())]);
+    assert_eq!(crossings(&kept, &ray).len(), 2 * BALLS as usize);
+    let taken = Solid::Difference([vec![bar], balls].concat());
+    assert_eq!(crossings(&taken, &ray).len(), 2 * BALLS as usize + 1);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn a_union_of_many_is_where_any_of_them_is(
+        places in prop::collection::vec(prop::array::uniform3(-4.0..4.0f64), 1..60),
+        origin in prop::array::uniform3(-4.0..4.0f64),
+        towards in prop::array::uniform3(-4.0..4.0f64),
+    ) {
+        let balls: Vec<_> = places.iter().zip(0..).map(|(&at, tag)| ball(DVec3::from(at), tag)).collect();
+        let direction = (DVec3::from(towards) - DVec3::from(origin)).normalize();
+        let ray = Ray::new(DVec3::from(origin) - direction * 20.0, direction);
+        // Of each alone: entered, left.
+        let mut changes: Vec<_> = balls.iter().flat_map(|one| crossings(one, &ray)).zip([1, -1].into_iter().cycle()).collect();
+        changes.sort_by(|((a, _), _), ((b, _), _)| a.total_cmp(b));
+        let mut depth = 0;
+        let expected: Vec<_> = changes
+            .into_iter()
+            .filter_map(|(crossing, change)| {
+                depth += change;
+                (depth == i32::from(change > 0)).then_some(crossing)
+            })
+            .collect();
+        prop_assert_eq!(crossings(&Solid::Union(balls.clone()), &ray), expected);
+        // A difference takes all of them from what holds them all.
+        let hall = placed(Primitive::Cube, DVec3::splat(10.0), DVec3::ZERO, DVec3::ZERO, 100);
+        let left = crossings(&Solid::Difference([vec![hall], balls.clone()].concat()), &ray);
+        prop_assert_eq!(&left[1..left.len() - 1], crossings(&Solid::Union(balls), &ray));
+    }
+
+    #[test]
+    fn of_faces_that_coincide_the_first_in_the_scene_is_seen(
+        boxes in prop::collection::vec((-5.0..5.0f64, 0.1..2.0f64), 1..40),
+        x in -5.0..5.0f64,
+    ) {
+        // All have their front in one plane.
+        let solids = boxes.iter().zip(0..).map(|(&(at, half), tag)| {
+            placed(Primitive::Cube, DVec3::new(half, 1.0, half), DVec3::ZERO, DVec3::new(at, 0.0, -half), tag)
+        });
+        let first = boxes.iter().position(|(at, half)| (x - at).abs() < *half).map(|tag| tag as u32);
+        let seen = crossings(&Solid::Union(solids.collect()), &Ray::new(DVec3::new(x, 0.3, 8.0), DVec3::NEG_Z));
+        prop_assert_eq!(seen.first().map(|(_, tag)| *tag), first);
+    }
 }

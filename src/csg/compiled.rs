@@ -3,14 +3,14 @@
 use super::coincidence::coincide;
 use super::merge::{Operation, merge};
 use super::span::Span;
-use super::{Event, Leaf, Solid, Surface};
+use super::{Event, Leaf, Surface};
 use crate::geometry::{Aabb, Ray, greater, lesser};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
 #[derive(Debug, Default)]
 pub struct Tree {
-    leaves: Vec<Leaf>,
-    nodes: Vec<Node>,
+    pub(super) leaves: Vec<Leaf>,
+    pub(super) nodes: Vec<Node>,
 }
 
 /// Where a ray first crosses the boundary of a solid.
@@ -58,13 +58,13 @@ impl Start {
 pub type Stack = Vec<Event>;
 
 #[derive(Debug)]
-struct Node {
-    bounds: Aabb,
-    kind: Kind,
+pub(super) struct Node {
+    pub bounds: Aabb,
+    pub kind: Kind,
 }
 
 #[derive(Debug)]
-enum Kind {
+pub(super) enum Kind {
     Leaf(u32),
     /// The intersection of convex leaves: one span at most, found without merging.
     Convex(Vec<u32>),
@@ -75,63 +75,6 @@ enum Kind {
 }
 
 impl Tree {
-    /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
-    pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
-        let (operation, solids) = match solid {
-            Solid::Placed { primitive, scene_from_own, tag } => {
-                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag);
-                self.leaves.push(leaf);
-                return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
-            }
-            Solid::Union(solids) => (Operation::Union, solids),
-            Solid::Intersection(solids) => (Operation::Intersection, solids),
-            Solid::Difference(solids) => (Operation::Difference, solids),
-        };
-        let mut children: Vec<u32> = Vec::new();
-        let mut bounds = if operation == Operation::Intersection { Aabb::ALL } else { Aabb::EMPTY };
-        for (index, solid) in solids.iter().enumerate() {
-            let child = self.add(solid);
-            match operation {
-                Operation::Union => {
-                    let Some((child, child_bounds)) = child else { continue };
-                    bounds = bounds.union(child_bounds);
-                    children.extend(self.parts(Operation::Union, child));
-                }
-                Operation::Intersection => {
-                    let (child, child_bounds) = child?;
-                    bounds = bounds.intersection(child_bounds);
-                    if bounds.is_empty() {
-                        return None;
-                    }
-                    children.extend(self.parts(Operation::Intersection, child));
-                }
-                Operation::Difference if index == 0 => {
-                    let (child, child_bounds) = child?;
-                    bounds = child_bounds;
-                    // (a − b) − c = a − b − c
-                    children.extend(self.parts(Operation::Difference, child));
-                }
-                Operation::Difference => {
-                    let Some((child, _)) = child else { continue };
-                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
-                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
-                    children.extend(self.parts(Operation::Union, child).into_iter().filter(reach));
-                }
-            }
-        }
-        if operation == Operation::Intersection {
-            self.join_convex(&mut children);
-        }
-        match children[..] {
-            [] => None,
-            [only] => {
-                self.nodes[only as usize].bounds = bounds;
-                Some((only, bounds))
-            }
-            _ => Some((self.node(Kind::Composition { operation, children }, bounds), bounds)),
-        }
-    }
-
     /// The leaf that a surface belongs to.
     pub fn leaf(&self, surface: Surface) -> &Leaf {
         &self.leaves[surface.leaf as usize]
@@ -340,40 +283,6 @@ impl Tree {
             }
         }
         stay
-    }
-
-    /// Makes the convex leaves with which the operands of an intersection begin one operand.
-    fn join_convex(&mut self, children: &mut Vec<u32>) {
-        let mut leaves = Vec::new();
-        let mut bounds = Aabb::ALL;
-        let mut joined = 0;
-        for &child in &*children {
-            let Node { kind, bounds: own } = &self.nodes[child as usize];
-            match kind {
-                Kind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
-                Kind::Convex(inner) => leaves.extend(inner),
-                _ => break,
-            }
-            bounds = bounds.intersection(*own);
-            joined += 1;
-        }
-        if joined > 1 {
-            let convex = self.node(Kind::Convex(leaves), bounds);
-            children.splice(..joined, [convex]);
-        }
-    }
-
-    fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
-        self.nodes.push(Node { bounds, kind });
-        self.nodes.len() as u32 - 1
-    }
-
-    /// The operands of `node` if it is a composition by `operation`, else itself.
-    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
-        match &self.nodes[node as usize].kind {
-            Kind::Composition { operation: same, children } if *same == operation => children.clone(),
-            _ => vec![node],
-        }
     }
 }
 

@@ -61,9 +61,13 @@ pub(super) fn merge(operation: Operation, stack: &mut Vec<Event>, first: usize, 
         let now = operation.of(in_a, in_b);
         if now != state {
             state = now;
-            // Of faces that coincide, the first operand's is seen, if it changed anything at all.
-            let changed_a = (a - group_a) % 2 == 1;
-            let event = stack[if changed_a { group_a } else { group_b }];
+            // Of faces that coincide, the first operand's is seen, if it changed anything at all. A union's operands
+            // need not be in the scene's order, but leaves are numbered in it.
+            let (changed_a, changed_b) = ((a - group_a) % 2 == 1, (b - group_b) % 2 == 1);
+            let is_first = !changed_b
+                || operation != Operation::Union
+                || stack[group_a].surface.leaf < stack[group_b].surface.leaf;
+            let event = stack[if changed_a && is_first { group_a } else { group_b }];
             stack.push(event);
         }
         if a == second && !in_a && operation != Operation::Union {

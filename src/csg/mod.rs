@@ -1,6 +1,7 @@
 //! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and the spans of
 //! a ray inside it. A hit carries the number of a surface; this module knows no material and no light.
 
+mod build;
 mod coincidence;
 mod compiled;
 mod merge;

@@ -1,6 +1,6 @@
 //! A hierarchy of bounding boxes over solids.
 
-use crate::geometry::{Aabb, Ray, greater, lesser};
+use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, greater, lesser, split};
 
 /// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
 #[derive(Debug, Default)]
@@ -26,16 +26,14 @@ struct Child {
     count: u32,
 }
 
-/// Below this depth the tree is halved by count, so that [`Pending`] always suffices.
-const MAX_UNBALANCED: u32 = 32;
-/// Boxes still to be visited, and where the ray enters them: 32 unbalanced levels, and 32 that halve at most 2³²
-/// solids. Kept from ray to ray, since clearing it would cost more than a box.
+/// Boxes still to be visited, and where the ray enters them: one at most on each unbalanced level, and on the 32 that
+/// halve at most 2³² solids. Kept from ray to ray, since clearing it would cost more than a box.
 #[derive(Debug)]
-pub(super) struct Pending([(f64, Child); 64]);
+pub(super) struct Pending([(f64, Child); MAX_UNBALANCED as usize + 32]);
 
 impl Default for Pending {
     fn default() -> Self {
-        Self([(0.0, Child::default()); 64])
+        Self([(0.0, Child::default()); _])
     }
 }
 
@@ -98,18 +96,16 @@ impl Bvh {
         }
     }
 
-    /// Splits where the surface area heuristic expects least work (MacDonald and Booth 1990).
     fn build(&mut self, solids: &mut [(u32, Aabb)], depth: u32) -> (Aabb, Child) {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let Some((axis, split)) = best_split(solids, &bounds, depth) else {
+        let Some(place) = split(solids, depth) else {
             let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
             self.roots.extend(solids.iter().map(|(root, _)| root));
             return (bounds, leaf);
         };
-        sort_along(solids, axis);
         let number = self.nodes.len();
         self.nodes.push(Node::default());
-        let (first, second) = solids.split_at_mut(split);
+        let (first, second) = solids.split_at_mut(place);
         let parts = [self.build(first, depth + 1), self.build(second, depth + 1)];
         let node = &mut self.nodes[number];
         for (side, (bounds, child)) in parts.into_iter().enumerate() {
@@ -139,42 +135,4 @@ impl Node {
         }
         [0, 1].map(|side| if near[side] <= far[side] { near[side] } else { f64::INFINITY })
     }
-}
-
-/// The axis to sort along and the number of solids in the first part; nothing, if no split pays.
-fn best_split(solids: &mut [(u32, Aabb)], bounds: &Aabb, depth: u32) -> Option<(usize, usize)> {
-    /// Work of meeting a box, as a part of that of meeting a solid.
-    const BOX: f64 = 0.5;
-    if solids.len() < 2 {
-        return None;
-    }
-    if depth >= MAX_UNBALANCED {
-        return Some((0, solids.len() / 2));
-    }
-    let area = bounds.half_area();
-    let mut best = (solids.len() as f64 * area - 2.0 * BOX * area, None);
-    for axis in 0..3 {
-        sort_along(solids, axis);
-        let mut after = vec![Aabb::EMPTY; solids.len()];
-        let mut all = Aabb::EMPTY;
-        for (index, (_, bounds)) in solids.iter().enumerate().rev() {
-            all = all.union(*bounds);
-            after[index] = all;
-        }
-        let mut before = Aabb::EMPTY;
-        for split in 1..solids.len() {
-            before = before.union(solids[split - 1].1);
-            let work = split as f64 * before.half_area() + (solids.len() - split) as f64 * after[split].half_area();
-            if work < best.0 {
-                best = (work, Some((axis, split)));
-            }
-        }
-    }
-    best.1
-}
-
-fn sort_along(solids: &mut [(u32, Aabb)], axis: usize) {
-    // By number where centres are equal, so that the same scene always gives the same tree.
-    solids
-        .sort_by(|(a, a_box), (b, b_box)| a_box.centre()[axis].total_cmp(&b_box.centre()[axis]).then_with(|| a.cmp(b)));
 }

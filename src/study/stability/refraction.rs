@@ -52,7 +52,7 @@ pub(super) fn cases() -> [Case; 3] {
         Case {
             name: "media",
             title: "Glass that overlaps water",
-            about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only touches it: in the                     glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air has to leave a gap, and in it                     light goes as in air. Wrong: a direction behind the water that differs by more than 10⁻¹², or a ray that does                     not get through.",
+            about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only touches it: in the glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air has to leave a gap, and in it light goes as in air. Wrong: a direction behind the water that differs by more than 10⁻¹², or a ray that does not get through.",
             parameter: "overlap, or width of the gap",
             values: tens(-1, -14).into_iter().chain([0.0]).collect(),
             required: 0.0,

@@ -1,5 +1,9 @@
 //! Rays, boxes and affine maps, in f64.
 
+mod split;
+
+pub use split::{MAX_UNBALANCED, split};
+
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// A half-line, with what every test against it needs.

@@ -1,0 +1,135 @@
+//! Solids are compiled: what can never be seen is left out, and every composition is brought into the form in which a
+//! ray needs least work.
+
+use super::compiled::{Kind, Node, Tree};
+use super::merge::Operation;
+use super::{Leaf, Solid};
+use crate::geometry::{Aabb, split};
+
+/// Of more operands a union is a tree.
+const FEW: usize = 4;
+
+impl Tree {
+    /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
+    pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
+        let (operation, solids) = match solid {
+            Solid::Placed { primitive, scene_from_own, tag } => {
+                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag);
+                self.leaves.push(leaf);
+                return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
+            }
+            Solid::Union(solids) => (Operation::Union, solids),
+            Solid::Intersection(solids) => (Operation::Intersection, solids),
+            Solid::Difference(solids) => (Operation::Difference, solids),
+        };
+        let mut children: Vec<u32> = Vec::new();
+        let mut bounds = if operation == Operation::Intersection { Aabb::ALL } else { Aabb::EMPTY };
+        for (index, solid) in solids.iter().enumerate() {
+            let child = self.add(solid);
+            match operation {
+                Operation::Union => {
+                    let Some((child, child_bounds)) = child else { continue };
+                    bounds = bounds.union(child_bounds);
+                    children.extend(self.parts(Operation::Union, child));
+                }
+                Operation::Intersection => {
+                    let (child, child_bounds) = child?;
+                    bounds = bounds.intersection(child_bounds);
+                    if bounds.is_empty() {
+                        return None;
+                    }
+                    children.extend(self.parts(Operation::Intersection, child));
+                }
+                Operation::Difference if index == 0 => {
+                    let (child, child_bounds) = child?;
+                    bounds = child_bounds;
+                    // (a − b) − c = a − b − c
+                    children.extend(self.parts(Operation::Difference, child));
+                }
+                Operation::Difference => {
+                    let Some((child, _)) = child else { continue };
+                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
+                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
+                    children.extend(self.parts(Operation::Union, child).into_iter().filter(reach));
+                }
+            }
+        }
+        if children.is_empty() {
+            return None;
+        }
+        match operation {
+            Operation::Union => return Some((self.union_of(&children), bounds)),
+            Operation::Intersection => self.join_convex(&mut children),
+            Operation::Difference if children.len() - 1 > FEW => {
+                let taken = self.union_of(&children[1..]);
+                children.splice(1.., [taken]);
+            }
+            Operation::Difference => {}
+        }
+        match children[..] {
+            [only] => {
+                self.nodes[only as usize].bounds = bounds;
+                Some((only, bounds))
+            }
+            _ => Some((self.node(Kind::Composition { operation, children }, bounds), bounds)),
+        }
+    }
+
+    /// The union of at least one node. That of many is a tree of unions of neighbours: a ray looks only at those near
+    /// it, and their spans are merged in pairs and not one by one into all that were found before.
+    fn union_of(&mut self, parts: &[u32]) -> u32 {
+        let mut boxes: Vec<_> = parts.iter().map(|&part| (part, self.nodes[part as usize].bounds)).collect();
+        self.union_tree(&mut boxes, 0)
+    }
+
+    fn union_tree(&mut self, parts: &mut [(u32, Aabb)], depth: u32) -> u32 {
+        if let [(only, _)] = parts {
+            return *only;
+        }
+        let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
+        let place = if parts.len() > FEW { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
+        let children = match parts.split_at_mut(place) {
+            ([], all) => all.iter().map(|(part, _)| *part).collect(),
+            (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
+        };
+        self.node(Kind::Composition { operation: Operation::Union, children }, bounds)
+    }
+
+    /// Makes the convex leaves with which the operands of an intersection begin one operand.
+    fn join_convex(&mut self, children: &mut Vec<u32>) {
+        let mut leaves = Vec::new();
+        let mut bounds = Aabb::ALL;
+        let mut joined = 0;
+        for &child in &*children {
+            let Node { kind, bounds: own } = &self.nodes[child as usize];
+            match kind {
+                Kind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
+                Kind::Convex(inner) => leaves.extend(inner),
+                _ => break,
+            }
+            bounds = bounds.intersection(*own);
+            joined += 1;
+        }
+        if joined > 1 {
+            let convex = self.node(Kind::Convex(leaves), bounds);
+            children.splice(..joined, [convex]);
+        }
+    }
+
+    fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
+        self.nodes.push(Node { bounds, kind });
+        self.nodes.len() as u32 - 1
+    }
+
+    /// The operands of `node` if it is a composition by `operation`, else itself.
+    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
+        match &self.nodes[node as usize].kind {
+            Kind::Composition { operation: same, children } if *same == operation => match operation {
+                // Those of a tree of unions.
+                Operation::Union => children.iter().flat_map(|&child| self.parts(operation, child)).collect(),
+                _ => children.clone(),
+            },
+            _ => vec![node],
+        }
+    }
+}
