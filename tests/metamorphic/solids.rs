@@ -47,6 +47,7 @@ fn bodies() -> impl Strategy<Value = Primitive> {
         Just(Primitive::Cube),
         Just(Primitive::Cylinder),
         (0.0..1.0f64).prop_map(|top| Primitive::Cone { bottom: 1.0, top }),
+        (0.1..0.9f64).prop_map(|tube| Primitive::Torus { tube }),
     ]
 }
 
