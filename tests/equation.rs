@@ -1,8 +1,8 @@
 //! The article's equation (§3), term by term, on scenes whose colours are known beforehand.
 
-use anel::picture::{Colour, Size};
+use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
-use anel::tracer::{Quality, RayCounts, Scratch, Tracer};
+use anel::tracer::{RayCounts, Scratch, Tracer};
 
 /// The pixel in the middle of a picture of the scene, and the rays that it took.
 fn middle_with(text: &str, quality: Quality) -> (Colour, RayCounts) {

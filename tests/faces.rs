@@ -2,9 +2,9 @@
 
 use anel::csg::{Primitive, QuadricCoefficients, Solid, Stack, Start, Tree};
 use anel::geometry::{Ray, rotation};
-use anel::picture::{Colour, Size};
+use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
-use anel::tracer::{Quality, RayCounts, Scratch, Tracer};
+use anel::tracer::{RayCounts, Scratch, Tracer};
 use glam::{DAffine3, DMat3, DVec3};
 use proptest::prelude::*;
 

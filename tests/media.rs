@@ -1,8 +1,8 @@
 //! Solids that transmit, in and beside each other.
 
-use anel::picture::{Colour, Size};
+use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
-use anel::tracer::{Path, Quality, RayKind, Scratch, Tracer};
+use anel::tracer::{Path, RayKind, Scratch, Tracer};
 use glam::DVec3;
 
 fn tracer(text: &str, size: &str) -> (Tracer, Size) {

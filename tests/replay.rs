@@ -8,12 +8,12 @@ use std::time::Duration;
 
 use anel::balance::{Message, Party, Strategy};
 use anel::driver::{Replay, Run, Update};
-use anel::picture::{Atom, Colour, Division, Frame, Size};
+use anel::picture::{Atom, Colour, Division, Frame, Quality, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Driver, Header, Link, RunLog};
 use anel::scene::{Scene, built_in};
 use anel::time::Time;
-use anel::tracer::{Quality, Scratch, Tracer};
+use anel::tracer::{Scratch, Tracer};
 
 const MS: Duration = Duration::from_millis(1);
 

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use anel::balance::Strategy;
 use anel::driver::{Run, Update};
-use anel::picture::{Colour, Frame, Size};
+use anel::picture::{Colour, Frame, Quality, Size};
 use anel::runlog::{Driver, Header};
 use anel::scene::{Scene, built_in};
-use anel::tracer::{Quality, Scratch, Tracer};
+use anel::tracer::{Scratch, Tracer};
 
 const ATOMS: [u32; 4] = [1, 50, 333, 5000];
 

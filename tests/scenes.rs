@@ -2,9 +2,9 @@
 
 use anel::csg::{Primitive, Solid};
 use anel::export::to_pov;
-use anel::picture::{Colour, Size};
+use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
-use anel::tracer::{Quality, RayKind, Scratch, Tracer};
+use anel::tracer::{RayKind, Scratch, Tracer};
 use glam::{DAffine3, DVec3};
 
 fn parse(name: &str, text: &str) -> Scene {

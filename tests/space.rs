@@ -1,9 +1,9 @@
 //! The paths of rays, and what they say of sharing the scene's space (the article, §5).
 
-use anel::picture::Size;
+use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
 use anel::space::{Deal, traffic};
-use anel::tracer::{Path, Quality, RayCounts, RayKind, Scratch, Tracer};
+use anel::tracer::{Path, RayCounts, RayKind, Scratch, Tracer};
 
 fn tracer(text: &str, width: u32, height: u32) -> Tracer {
     let scene = Scene::parse(text).unwrap_or_else(|error| panic!("{error}"));
@@ -43,23 +43,25 @@ fn there_is_a_path_for_every_ray_and_looking_on_changes_nothing() {
 }
 
 #[test]
-fn a_path_starts_where_the_one_before_it_in_the_tree_of_rays_ends() {
+fn a_path_starts_where_the_one_it_comes_from_ends() {
     for (name, tracer) in built_in() {
-        // The present rays from the camera on, by level.
-        let mut branch: Vec<Path> = Vec::new();
+        // Those of the present sample.
+        let mut sample: Vec<Path> = Vec::new();
         for path in paths(&tracer, &mut Scratch::default()) {
             assert!(path.to >= 0.0, "{name}: {path:?}");
             let is_shadow = path.kind == RayKind::Shadow;
-            branch.truncate(path.level as usize - usize::from(!is_shadow));
-            assert_eq!(path.kind == RayKind::Primary, branch.is_empty(), "{name}: {path:?}");
-            if let Some(before) = branch.last() {
+            match path.from {
+                None => sample.clear(),
+                Some(from) => assert_eq!(sample[from as usize].level + u32::from(!is_shadow), path.level, "{name}"),
+            }
+            assert_eq!(path.kind == RayKind::Primary, sample.is_empty(), "{name}: {path:?}");
+            if let Some(before) = path.from.map(|from| sample[from as usize]) {
                 // A path through what is not there was computed in pieces.
                 let off = (before.ray.at(before.to) - path.ray.origin).length();
                 assert!(off < 1e-12, "{name}: {path:?} {off:e} after {before:?}");
             }
             if !is_shadow {
-                branch.push(path);
-                assert_eq!(branch.len(), path.level as usize, "{name}: {path:?}");
+                sample.push(path);
             }
         }
     }

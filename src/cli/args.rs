@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand};
 
 use super::sharing::Sharing;
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
 
 #[derive(Debug, Parser)]
@@ -83,8 +83,19 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", allow_hyphen_values = true)]
     pub size: Size,
     /// Samples a pixel, n × n
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_SAMPLES)))]
     pub samples: u32,
+    /// Take no more samples of a pixel once the error of its colour is estimated as no more than this: for example 0.01
+    /// [default: take them all]
+    #[arg(long, value_name = "ERROR", default_value = "0", value_parser = part_of_1, hide_default_value = true)]
+    pub threshold: f64,
+    /// Levels of the tree of rays: 1 shows neither reflections nor what is behind glass
+    #[arg(long, value_name = "LEVELS", default_value_t = Quality::default().max_depth,
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_DEPTH)))]
+    pub depth: u32,
+    /// Leave out the weakest rays of the tree, as many as count no more than this together [default: 1/255]
+    #[arg(long, value_name = "WEIGHT", default_value_t = Quality::default().cutoff, value_parser = part_of_1, hide_default_value = true)]
+    pub cutoff: f64,
     /// Nodes [default: as many as speeds, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
@@ -133,6 +144,14 @@ pub(super) struct RenderArgs {
     pub json: bool,
 }
 
+impl RenderArgs {
+    /// How good the picture is to be.
+    pub fn quality(&self) -> Quality {
+        let Self { samples, threshold, depth, cutoff, .. } = *self;
+        Quality { samples, threshold, max_depth: depth, cutoff, ..Quality::default() }
+    }
+}
+
 /// What part of a core the reference machine gets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pace {
@@ -163,6 +182,10 @@ fn pace(text: &str) -> Result<Pace, String> {
 /// A slower machine would seem to stand still for ever.
 fn is_rate(rate: f64) -> bool {
     (1e-4..=1.0).contains(&rate)
+}
+
+fn part_of_1(text: &str) -> Result<f64, String> {
+    number(text, |part| (0.0..1.0).contains(&part), "it is a number from 0 to less than 1")
 }
 
 fn bandwidth(text: &str) -> Result<f64, String> {

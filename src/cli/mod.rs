@@ -18,10 +18,10 @@ use crate::driver::{auto_pace, cores};
 use crate::export::to_pov;
 use crate::gui::{self, Opening, Settings};
 use crate::output::{as_file_name, check_writable, is_same_file, write_whole};
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
-use crate::tracer::{Quality, Tracer};
+use crate::tracer::Tracer;
 use args::{Args, Command};
 
 /// Why a command ended without doing its work: one sentence.
@@ -129,8 +129,7 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     header.pace = auto_pace(&header.speeds, header.cores);
     let out = free_name(&as_file_name(&header.scene));
     check_outputs("", &[&out])?;
-    let quality = Quality { samples: header.samples, ..Quality::default() };
-    let tracer = Arc::new(Tracer::new(&scene, header.size, quality));
+    let tracer = Arc::new(Tracer::new(&scene, header.size, header.quality));
     render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 

@@ -15,7 +15,7 @@ use crate::driver::{Run, Update, Whole, probe};
 use crate::picture::{Frame, write_png};
 use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::sim::Sim;
-use crate::tracer::{Quality, RayCounts, Tracer};
+use crate::tracer::{RayCounts, Tracer};
 
 /// Where a run's results go.
 pub(super) struct Outputs<'a> {
@@ -39,8 +39,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
         [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&args.scene, &outputs)?;
     let measured = args.costs.as_deref().map(|path| measured(path, &header)).transpose()?;
-    let quality = Quality { samples: args.samples, ..Quality::default() };
-    let tracer = Arc::new(Tracer::new(&opened.scene, args.size, quality));
+    let tracer = Arc::new(Tracer::new(&opened.scene, header.size, header.quality));
     run_and_save(&tracer, &header, measured, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
 }
 

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use crate::picture::Quality;
 use crate::runlog::{Messages, RunLog, Tally};
 use crate::tracer::{Compiled, RayCounts, Tracer};
 
@@ -14,7 +15,8 @@ pub(super) struct Report {
     scene: String,
     width: u32,
     height: u32,
-    samples: u32,
+    #[serde(flatten)]
+    quality: Quality,
     strategy: &'static str,
     driver: &'static str,
     nodes: usize,
@@ -47,7 +49,7 @@ impl Report {
             scene: header.scene.clone(),
             width: header.size.width(),
             height: header.size.height(),
-            samples: header.samples,
+            quality: header.quality,
             strategy: header.strategy_name(),
             driver: header.driver.name(),
             nodes: header.speeds.len(),

@@ -79,7 +79,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         scene: opened.name.clone(),
         scene_text: opened.text.clone(),
         size: args.size,
-        samples: args.samples,
+        quality: args.quality(),
         division,
         driver,
         rules,

@@ -82,9 +82,8 @@ fn spread(atoms: u32) -> impl Iterator<Item = Atom> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Size;
+    use crate::picture::{Quality, Size};
     use crate::scene::{Scene, built_in};
-    use crate::tracer::Quality;
 
     fn tracer(size: Size) -> Tracer {
         let scene = Scene::parse(built_in("ten-objects").unwrap()).unwrap();

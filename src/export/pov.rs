@@ -8,9 +8,8 @@ use std::fmt::Write;
 use glam::{DAffine3, DVec3};
 
 use crate::csg::{Primitive, Solid};
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::scene::{Light, Material, Scene};
-use crate::tracer::Quality;
 
 /// The text of a POV-Ray scene file for a picture of the shape of `size`.
 pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {

@@ -8,7 +8,7 @@ use super::preset::Preset;
 use super::tempo::Tempo;
 use crate::balance::{Rules, Strategy};
 use crate::driver::auto_pace;
-use crate::picture::{Division, Size};
+use crate::picture::{Division, Quality, Size};
 use crate::runlog::{Driver, Header, Link};
 use crate::view::Sharing;
 
@@ -18,8 +18,8 @@ use crate::view::Sharing;
 pub struct Settings {
     /// Width and height of the picture.
     pub size: Size,
-    /// The picture is made of n × n samples a pixel, at most [`Settings::MOST_SAMPLES`].
-    pub samples: u32,
+    /// How good the picture is, with at most [`Settings::MOST_SAMPLES`].
+    pub quality: Quality,
     /// Pixels in an atom.
     pub atom: u32,
     /// Who executes the run: in real time, in virtual time, or rayon by its own rules.
@@ -77,7 +77,8 @@ impl Settings {
         Size::new(self.size.width(), self.size.height())?;
         within("The width", self.size.width(), 16, Self::LONGEST_SIDE)?;
         within("The height", self.size.height(), 16, Self::LONGEST_SIDE)?;
-        within("Samples", self.samples, 1, Self::MOST_SAMPLES)?;
+        within("Samples", self.quality.samples, 1, Self::MOST_SAMPLES)?;
+        self.quality.check()?;
         within("The number of machines", self.speeds.len() as u32, 1, Self::MOST_NODES as u32)?;
         within("An atom's pixels", self.atom, 1, self.size.pixels())?;
         within("A part", self.part, 1, Self::MOST_ATOMS)?;
@@ -154,7 +155,7 @@ impl Settings {
             scene: name.to_owned(),
             scene_text: text.to_owned(),
             size: self.size,
-            samples: self.samples,
+            quality: self.quality,
             division: self.division(),
             driver: self.driver,
             rules: Rules { strategy: self.strategy, part: self.part, batch: Some(self.batch()) },
@@ -175,7 +176,7 @@ impl Settings {
         let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
         Self {
             size: header.size,
-            samples: header.samples,
+            quality: header.quality,
             atom: header.division.atom_pixels(),
             driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
             strategy: header.rules.strategy,
@@ -207,7 +208,15 @@ impl Settings {
             say(true, if nodes == 1 { "1 machine".into() } else { format!("{nodes} machines") });
         }
         say(self.size != before.size, format!("{} pixels", self.size));
-        say(self.samples != before.samples, format!("{0} × {0} samples a pixel", self.samples));
+        let (quality, before_it) = (self.quality, before.quality);
+        say(quality.samples != before_it.samples, format!("{0} × {0} samples a pixel", quality.samples));
+        let threshold = match quality.threshold {
+            0.0 => "all samples for every pixel".into(),
+            threshold => format!("samples until the error is {threshold}"),
+        };
+        say(quality.threshold != before_it.threshold, threshold);
+        say(quality.max_depth != before_it.max_depth, format!("{} levels of rays", quality.max_depth));
+        say(quality.cutoff != before_it.cutoff, format!("rays left out up to {:.4}", quality.cutoff));
         say(self.atom != before.atom, format!("atoms of {} pixels", self.atom));
         let (sharing, before_it) = (self.sharing(), before.sharing());
         say(sharing != before_it, sharing.name().to_lowercase());
@@ -257,7 +266,7 @@ impl Default for Settings {
         let mut settings = Self {
             // Neither side is 0, and there are few pixels.
             size: Size::new(640, 480).expect("a possible size"),
-            samples: 1,
+            quality: Quality::default(),
             atom: 50,
             driver: Driver::Threads,
             strategy: Strategy::Ring,

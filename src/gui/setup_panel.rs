@@ -1,7 +1,10 @@
 //! What can be set, at the left: what acts at once, and what starts the run anew.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Button, ComboBox, Label, Response, RichText, ScrollArea, TextWrapMode, Ui, WidgetInfo, vec2};
+use egui::{
+    Button, ComboBox, Label, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextWrapMode, Ui, WidgetInfo,
+    vec2,
+};
 
 use super::history::Gesture;
 use super::preset::Preset;
@@ -11,7 +14,7 @@ use super::tempo::Tempo;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, choice, number, slider};
 use crate::balance::Strategy;
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
 use crate::view::{Sharing, count};
 
@@ -20,6 +23,12 @@ pub const WIDTH: f32 = 36.0 * GRID;
 
 /// The sizes that are offered; any other can be typed.
 const SIZES: [(u32, u32); 6] = [(320, 240), (640, 480), (800, 600), (1280, 960), (1280, 720), (1920, 1080)];
+
+/// When a pixel has enough samples: the errors that are offered; 0 is never.
+const THRESHOLDS: [f64; 6] = [0.0, 0.05, 0.02, 0.01, 0.005, 0.002];
+
+/// What weak rays may count together: the parts that are offered.
+const CUTOFFS: [f64; 6] = [0.0, 1e-4, 1e-3, 1.0 / 255.0, 0.02, 0.1];
 
 /// The panel.
 pub struct SetupPanel {
@@ -240,13 +249,47 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
         }
     });
     line(ui, "Samples a pixel", look, |ui| {
-        let suffix = format!(" × {}", draft.samples);
-        number(ui, &mut draft.samples, 1..=Settings::MOST_SAMPLES, &suffix, VALUE, "Samples");
+        let samples = &mut draft.quality.samples;
+        let suffix = format!(" × {samples}");
+        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, VALUE, "Samples");
+        let more =
+            button(ui, None, "Quality…", true, Weight::Quiet).on_hover_text("What else makes a picture good or fast");
+        Popup::menu(&more).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+            ui.set_width(WIDTH);
+            quality(ui, &mut draft.quality, look);
+        });
     });
     line(ui, "An atom is", look, |ui| {
         number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, "Pixels in an atom");
     });
     small(ui, &format!("That makes {} atoms", count(draft.division().atoms())), look);
+}
+
+/// What is seldom changed.
+fn quality(ui: &mut Ui, quality: &mut Quality, look: Look) {
+    if quality.samples > 1 {
+        let until =
+            |error: f64| if error > 0.0 { format!("until the error is {error}") } else { "for every pixel".into() };
+        line(ui, "Samples", look, |ui| {
+            one_of(ui, &mut quality.threshold, &THRESHOLDS, "When a pixel has enough samples", until)
+        });
+    }
+    line(ui, "Tree of rays", look, |ui| {
+        number(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, " levels", VALUE, "Levels of the tree of rays");
+    });
+    let part = |part: f64| if part > 0.0 { format!("up to {:.2} % of a pixel", 100.0 * part) } else { "none".into() };
+    line(ui, "Weak rays left out", look, |ui| one_of(ui, &mut quality.cutoff, &CUTOFFS, "Weak rays left out", part));
+}
+
+/// One value of a list, or what it is if it is not in the list.
+fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f64) -> String) {
+    let combo = ComboBox::from_id_salt(name).selected_text(text(*value)).width(20.0 * GRID);
+    let combo = combo.show_ui(ui, |ui| {
+        for &one in all {
+            ui.selectable_value(value, one, text(one));
+        }
+    });
+    combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
 }
 
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look) {

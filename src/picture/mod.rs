@@ -1,12 +1,14 @@
-//! The picture: its size, its division into atoms and bands, its frame in linear light, and its PNG.
+//! The picture: its size and quality, its division into atoms and bands, its frame in linear light, and its PNG.
 
 mod division;
 mod frame;
 mod png;
+mod quality;
 
 pub use division::{Atom, Division};
 pub use frame::{Colour, Frame, srgb8};
 pub use png::{encode_png, write_png};
+pub use quality::Quality;
 
 use std::fmt;
 use std::str::FromStr;

@@ -26,7 +26,7 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
         "the division is not that of a picture of this size",
     )?;
     ensure(header.division.atoms() <= Division::MAX_ATOMS, "there are more atoms than a run can have")?;
-    ensure((1..=64).contains(&header.samples), "the samples are not 1 to 64")?;
+    header.quality.check()?;
     ensure((1..=1024).contains(&header.speeds.len()), "there must be 1 to 1024 speeds")?;
     ensure(header.link.latency <= HOUR && header.handling <= HOUR, "a message takes longer than an hour")?;
     ensure(header.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)), "a speed is not between 0 and 1")?;

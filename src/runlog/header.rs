@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::balance::{Rules, Strategy};
-use crate::picture::{Division, Size};
+use crate::picture::{Division, Quality, Size};
 
 /// What a run was asked to do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,8 +16,9 @@ pub struct Header {
     pub scene_text: String,
     /// Width and height of the picture.
     pub size: Size,
-    /// The picture is made of n × n samples a pixel.
-    pub samples: u32,
+    /// How good the picture is.
+    #[serde(flatten)]
+    pub quality: Quality,
     /// How the picture is cut into atoms.
     pub division: Division,
     /// Who executes the run.
@@ -73,7 +74,7 @@ impl Header {
             scene: String::new(),
             scene_text: String::new(),
             size,
-            samples: 1,
+            quality: Quality::default(),
             division,
             driver: Driver::Threads,
             rules: Rules::usual(strategy, division, speeds.len()),

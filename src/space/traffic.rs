@@ -95,7 +95,7 @@ fn each_path(tracer: &Tracer, every: u32, mut each: impl FnMut(Path)) {
 struct Count<'a> {
     octree: &'a Octree,
     owner_of: &'a [u32],
-    /// With whom the rays from the camera to the present one ended, by level; nobody, if they met no leaf.
+    /// With whom the rays of the present sample ended, by their numbers; nobody, if they met no leaf.
     ended: Vec<Option<u32>>,
     rays: u64,
     staying: u64,
@@ -113,9 +113,10 @@ impl<'a> Count<'a> {
     }
 
     fn add(&mut self, path: &Path) {
-        let is_shadow = path.kind == RayKind::Shadow;
-        self.ended.truncate(path.level as usize - usize::from(!is_shadow));
-        let mut began = self.ended.last().copied().flatten();
+        if path.kind == RayKind::Primary {
+            self.ended.clear();
+        }
+        let mut began = path.from.and_then(|from| self.ended[from as usize]);
         let (mut at, mut changes) = (began, 0);
         self.octree.walk(&path.ray, path.to, |leaf| {
             let owner = self.owner_of[leaf as usize];
@@ -125,7 +126,7 @@ impl<'a> Count<'a> {
             changes += u32::from(at.is_some_and(|at| at != owner));
             at = Some(owner);
         });
-        if !is_shadow {
+        if path.kind != RayKind::Shadow {
             self.ended.push(at);
         }
         self.rays += 1;

@@ -5,13 +5,13 @@ use std::time::Duration;
 
 use crate::balance::{Rules, Strategy};
 use crate::driver::{Whole, probe};
-use crate::picture::{Division, Size};
+use crate::picture::{Division, Quality, Size};
 use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::scenario::Command;
 use crate::scene::Opened;
 use crate::sim::Sim;
 use crate::time::Time;
-use crate::tracer::{Quality, Tracer};
+use crate::tracer::Tracer;
 
 /// What each atom costs the reference machine.
 pub(super) type Costs = Arc<[Duration]>;
@@ -59,7 +59,7 @@ impl Workbench {
         Header {
             scene: self.scene.name.clone(),
             scene_text: self.scene.text.clone(),
-            samples: self.samples,
+            quality: self.tracer.quality(),
             rules: Rules { batch: None, ..plain.rules },
             ..plain
         }

@@ -14,12 +14,10 @@ pub(super) struct Camera {
     /// From one pixel to the next on its right, and to the next below.
     right: DVec3,
     down: DVec3,
-    /// Samples a pixel are n × n.
-    n: u32,
 }
 
 impl Camera {
-    pub fn new(camera: &scene::Camera, size: Size, n: u32) -> Self {
+    pub fn new(camera: &scene::Camera, size: Size) -> Self {
         let forward = (camera.look_at - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();
         let up = right.cross(forward);
@@ -32,22 +30,12 @@ impl Camera {
             corner: forward - right * (pixel * width / 2.0) + up * (plane_height / 2.0),
             right: right * pixel,
             down: -up * pixel,
-            n,
         }
     }
 
-    /// One ray through the middle of each of the n × n equal parts of a pixel.
-    pub fn rays(&self, x: u32, y: u32) -> impl Iterator<Item = Ray> {
-        let step = 1.0 / f64::from(self.n);
-        (0..self.n * self.n).map(move |sample| {
-            let part = |index: u32| (f64::from(index) + 0.5) * step;
-            let across = self.right * (f64::from(x) + part(sample % self.n));
-            let along = self.down * (f64::from(y) + part(sample / self.n));
-            Ray::new(self.eye, (self.corner + across + along).normalize())
-        })
-    }
-
-    pub fn rays_a_pixel(&self) -> f64 {
-        f64::from(self.n * self.n)
+    /// The ray through a place in a pixel: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
+    pub fn ray(&self, x: u32, y: u32, [u, v]: [f64; 2]) -> Ray {
+        let (across, along) = (self.right * (f64::from(x) + u), self.down * (f64::from(y) + v));
+        Ray::new(self.eye, (self.corner + across + along).normalize())
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct Media {
     end: usize,
 }
 
-/// The media of a ray, and above them those of the rays that start at its end.
+/// The media of every ray of a sample.
 #[derive(Debug, Default)]
 pub(super) struct MediaStack(Vec<Medium>);
 
@@ -35,11 +35,6 @@ impl MediaStack {
     /// How high it is.
     pub fn height(&self) -> usize {
         self.0.len()
-    }
-
-    /// Forgets what lies above `height`.
-    pub fn cut(&mut self, height: usize) {
-        self.0.truncate(height);
     }
 
     /// All that a ray is in.
@@ -92,8 +87,7 @@ mod tests {
         let inside = stack.beyond(stack.height(), three, medium(5), true);
         assert_eq!([3, 5, 9].map(|root| stack.around(inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
         assert_eq!(stack.get(start), [medium(7)]);
-        stack.cut(1);
-        assert_eq!(stack.get(start), [medium(7)]);
+        assert_eq!(stack.get(three), [medium(7), medium(3)], "what starts later leaves the others as they are");
     }
 
     #[test]

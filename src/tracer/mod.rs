@@ -5,6 +5,7 @@ mod camera;
 mod hit;
 mod media;
 mod path;
+mod pattern;
 mod shade;
 mod world;
 
@@ -13,31 +14,16 @@ pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Aabb;
-use crate::picture::{Colour, Size};
+use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
 use camera::Camera;
 use path::{Nobody, Watch};
+use pattern::Pattern;
 use world::World;
-
-/// How good the picture is to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quality {
-    /// n × n samples a pixel, on a regular grid.
-    pub samples: u32,
-    /// The limit of the tree of rays (§3: "for example 10 levels"); a primary ray is level 1.
-    pub max_depth: u32,
-    /// A ray that can contribute no more than this to its pixel is not followed (§3: "irrelevant").
-    pub cutoff: f64,
-}
-
-impl Default for Quality {
-    fn default() -> Self {
-        Self { samples: 1, max_depth: 10, cutoff: 1.0 / 255.0 }
-    }
-}
 
 /// How many rays of each kind were traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -56,6 +42,15 @@ impl RayCounts {
     /// Rays of all kinds.
     pub fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflected + self.refracted
+    }
+
+    fn count(&mut self, kind: RayKind) {
+        *match kind {
+            RayKind::Primary => &mut self.primary,
+            RayKind::Shadow => &mut self.shadow,
+            RayKind::Reflected => &mut self.reflected,
+            RayKind::Refracted => &mut self.refracted,
+        } += 1;
     }
 }
 
@@ -80,8 +75,7 @@ pub struct Tracer {
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        let camera = Camera::new(&scene.camera, size, quality.samples.max(1));
-        Self { world: World::new(scene), camera, size, quality }
+        Self { world: World::new(scene), camera: Camera::new(&scene.camera, size), size, quality }
     }
 
     /// What the compiled scene kept, in figures.
@@ -92,6 +86,11 @@ impl Tracer {
     /// Width and height of the picture.
     pub fn size(&self) -> Size {
         self.size
+    }
+
+    /// How good the picture is.
+    pub fn quality(&self) -> Quality {
+        self.quality
     }
 
     /// The boxes of all primitives of solids with bounds, each no larger than its solid's. Outside of its box a
@@ -109,9 +108,37 @@ impl Tracer {
 
     fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
-        let samples = self.camera.rays(x, y).map(|ray| self.sample(&ray, scratch, watch));
-        let mean = samples.reduce(|sum, colour| sum + colour).unwrap_or_default() / self.camera.rays_a_pixel();
-        mean.as_vec3().to_array()
+        let colour = if self.quality.samples == 1 {
+            self.sample(&self.camera.ray(x, y, [0.5; 2]), scratch, watch)
+        } else {
+            let pattern = Pattern::new(x, y, self.quality.pattern);
+            let sample = |index| self.sample(&self.camera.ray(x, y, pattern.sample(index)), scratch, watch);
+            mean(self.quality.samples.pow(2), self.quality.threshold, sample)
+        };
+        colour.as_vec3().to_array()
+    }
+}
+
+/// The mean of at most so many samples: of the first 4, and then of four times as many until its error is estimated as
+/// no more than `threshold`. A threshold of 0 takes them all.
+fn mean(most: u32, threshold: f64, mut sample: impl FnMut(u32) -> DVec3) -> DVec3 {
+    let (mut sum, mut squares, mut count) = (DVec3::ZERO, DVec3::ZERO, 0);
+    let mut enough = if threshold > 0.0 { most.min(4) } else { most };
+    loop {
+        while count < enough {
+            let colour = sample(count);
+            sum += colour;
+            squares += colour * colour;
+            count += 1;
+        }
+        let samples = f64::from(count);
+        // As if the samples were independent. They are spread better than that, so that this is too much rather than
+        // too little, unless all of them miss what is there.
+        let variance = (squares - sum * sum / samples).max_element() / (samples - 1.0);
+        if count == most || variance <= threshold * threshold * samples {
+            return sum / samples;
+        }
+        enough = most.min(4 * count);
     }
 }
 

@@ -13,6 +13,9 @@ pub struct Path {
     /// Its place in the tree of rays: 1 for a primary ray, one more for each reflection and refraction. A shadow ray
     /// has the level of the ray at whose end it starts.
     pub level: u32,
+    /// The ray at whose end it starts, by its number among the sample's: the primary ray has 0, and the others are
+    /// numbered as they are traced, but for shadow rays. None for a primary ray.
+    pub from: Option<u32>,
     /// Where it starts and where it goes.
     pub ray: Ray,
     /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
@@ -34,8 +37,8 @@ pub enum RayKind {
 }
 
 impl Tracer {
-    /// Traces `pixels` (positions in scan order) and hands over each ray's path instead of colours: first a ray's own,
-    /// then those of the rays that start at its end.
+    /// Traces `pixels` (positions in scan order) and hands over each ray's path instead of colours: a ray's own, then those
+    /// of the shadow rays that start at its end; then those of the ray that counts most among those still to be traced.
     pub fn paths(&self, pixels: Range<u32>, scratch: &mut Scratch, mut each: impl FnMut(Path)) {
         for pixel in pixels {
             self.pixel(pixel, scratch, &mut each);

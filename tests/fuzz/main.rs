@@ -12,9 +12,9 @@ mod run;
 use std::path::Path;
 
 use anel::export::to_pov;
-use anel::picture::Size;
+use anel::picture::{Quality, Size};
 use anel::scene::{Opened, SceneError};
-use anel::tracer::{Quality, Scratch, Tracer};
+use anel::tracer::{Scratch, Tracer};
 use hunt::{Hunt, corpus};
 
 /// The scenes that come with the program are good parents too.

@@ -95,7 +95,7 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     type_number(&mut window, "Height in pixels", "300");
     until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x300");
     type_number(&mut window, "Samples", "2");
-    until(&mut window, "samples", |window| session(window).header().samples == 2);
+    until(&mut window, "samples", |window| session(window).header().quality.samples == 2);
     choose(&mut window, "Strategy", "Serial");
     assert_eq!(session(&window).header().rules.strategy, Strategy::Serial);
     until(&mut window, "atoms of the first", |window| session(window).stage().state.nodes()[0].done > 10);

@@ -5,9 +5,9 @@ mod solids;
 
 use anel::csg::Solid;
 use anel::geometry::rotation;
-use anel::picture::{Colour, Size};
+use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, Camera, Light, Scene};
-use anel::tracer::{Quality, Scratch, Tracer};
+use anel::tracer::{Scratch, Tracer};
 use glam::{DAffine3, DMat3, DVec3};
 
 const WIDTH: u32 = 80;

@@ -13,10 +13,10 @@ use super::super::opening::Opening;
 use super::super::settings::Settings;
 use crate::driver::{RAY, probe};
 use crate::output::OutputError;
-use crate::picture::{Frame, Size, write_png};
+use crate::picture::{Frame, Quality, Size, write_png};
 use crate::runlog::{Driver, RunLog};
 use crate::scene::{Opened, Scene};
-use crate::tracer::{Quality, Scratch, Tracer};
+use crate::tracer::{Scratch, Tracer};
 
 /// What a job has come to.
 pub enum Done {
@@ -68,7 +68,7 @@ pub struct Prepared {
     /// Of the picture that it is compiled for.
     pub size: Size,
     /// Of the picture that it is compiled for.
-    pub samples: u32,
+    pub quality: Quality,
     /// The estimated CPU time of the whole picture, traced by threads that rest after each atom.
     cpu: Duration,
     /// The estimated time of the whole picture in virtual time.
@@ -87,7 +87,7 @@ pub struct Recorded {
 impl Prepared {
     /// Whether it is compiled for the picture that is set.
     pub fn is_for(&self, settings: &Settings) -> bool {
-        (self.size, self.samples) == (settings.size, settings.samples)
+        (self.size, self.quality) == (settings.size, settings.quality)
     }
 
     /// The estimated time of the whole picture on the reference machine at full pace.
@@ -133,21 +133,21 @@ impl Jobs {
         settings: &Settings,
     ) -> u64 {
         self.next += 1;
-        let (number, size, samples, division) = (self.next, settings.size, settings.samples, settings.division());
+        let (number, size, quality, division) = (self.next, settings.size, settings.quality, settings.division());
         self.start("prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
-                    let tracer = tracer(&opened.scene, size, samples);
+                    let tracer = tracer(&opened.scene, size, quality);
                     let found = probe(&tracer, division, PROBE);
                     let cpu = found.whole_with_rests(&tracer, division);
                     let virtual_time = RAY.mul_f64(found.rays as f64);
-                    Ok(Ready::Scene(Prepared { opened, tracer, size, samples, cpu, virtual_time }))
+                    Ok(Ready::Scene(Prepared { opened, tracer, size, quality, cpu, virtual_time }))
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size)?;
                     let scene = Scene::parse(&log.header.scene_text);
                     let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
-                    let tracer = tracer(&scene, log.header.size, log.header.samples);
+                    let tracer = tracer(&scene, log.header.size, log.header.quality);
                     Ok(Ready::Run(Recorded { log, tracer }))
                 }
             });
@@ -237,8 +237,8 @@ const PROBE: Duration = Duration::from_millis(120);
 /// How often a file that is watched is looked at.
 const LOOK: Duration = Duration::from_millis(700);
 
-fn tracer(scene: &Scene, size: Size, samples: u32) -> Arc<Tracer> {
-    Arc::new(Tracer::new(scene, size, Quality { samples, ..Quality::default() }))
+fn tracer(scene: &Scene, size: Size, quality: Quality) -> Arc<Tracer> {
+    Arc::new(Tracer::new(scene, size, quality))
 }
 
 /// Whether a window can hold a recorded picture.
@@ -264,7 +264,7 @@ fn told(path: &Path, saved: Result<(), OutputError>) -> Result<String, String> {
 fn thumbnail(scene: &Scene) -> Thumbnail {
     // Neither side is 0, and there are few pixels.
     let size = Size::new(400, 300).expect("a possible size");
-    let tracer = tracer(scene, size, 2);
+    let tracer = tracer(scene, size, Quality { samples: 2, ..Quality::default() });
     let (mut pixels, mut frame) = (Vec::new(), Frame::new(size));
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
     frame.place(0..size.pixels(), &pixels);

@@ -15,9 +15,9 @@ use super::rivals::{self, Needs};
 use super::workbench::{Workbench, cost_of};
 use super::{Study, Tell};
 use crate::driver::cores;
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::scene::Opened;
-use crate::tracer::{Quality, Tracer};
+use crate::tracer::Tracer;
 use measure::Measuring;
 use rows::Row;
 

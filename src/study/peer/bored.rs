@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::{SAME, apart};
 use crate::geometry::rotation;
-use crate::picture::{Size, srgb8};
+use crate::picture::{Quality, Size, srgb8};
 use crate::scene::{Opened, Scene};
-use crate::tracer::{Quality, RayKind, Scratch, Tracer};
+use crate::tracer::{RayKind, Scratch, Tracer};
 
 /// The rotation makes rounding differ between the two.
 const SCENE: &str = r#"Scene(

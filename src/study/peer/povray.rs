@@ -6,9 +6,8 @@ use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
 
 use crate::export::to_pov;
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::tracer::Quality;
 
 /// POV-Ray as it is installed.
 #[derive(Debug)]

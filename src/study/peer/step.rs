@@ -4,8 +4,8 @@ use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
 use crate::csg::Solid;
+use crate::picture::Quality;
 use crate::scene::{Light, Scene};
-use crate::tracer::Quality;
 
 /// The steps, in the order in which they are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

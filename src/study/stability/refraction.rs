@@ -7,9 +7,9 @@ use super::exact::{Exact, dot, vector};
 use super::random::{aside, between, sign, turn, unit};
 use super::{Case, Count, Outcome, tens, twos};
 use crate::csg::{Primitive, Solid};
-use crate::picture::Size;
+use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Material, Scene};
-use crate::tracer::{Path, Quality, RayKind, Scratch, Tracer};
+use crate::tracer::{Path, RayKind, Scratch, Tracer};
 use crate::view::Scale;
 
 const IOR: f64 = 1.5;
@@ -82,7 +82,7 @@ fn scene_of(solids: Vec<Solid>, eye: DVec3, direction: DVec3) -> Scene {
 
 /// The ways of the ray from the eye and of those that it becomes, `depth` in a row at most.
 fn ways(scene: &Scene, depth: u32) -> Vec<Path> {
-    let quality = Quality { samples: 1, max_depth: depth, cutoff: 0.0 };
+    let quality = Quality { max_depth: depth, cutoff: 0.0, ..Quality::default() };
     let mut ways = Vec::new();
     if let Ok(size) = Size::new(1, 1) {
         Tracer::new(scene, size, quality).paths(0..1, &mut Scratch::default(), |path| ways.push(path));

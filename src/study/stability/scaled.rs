@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec3};
 use super::{Case, Count, Outcome, twos};
 use crate::csg::Solid;
 use crate::geometry::Ray;
-use crate::picture::{Colour, Size};
+use crate::picture::{Colour, Quality, Size};
 use crate::scene::{BUILT_IN, Light, Scene};
-use crate::tracer::{Quality, Scratch, Tracer};
+use crate::tracer::{Scratch, Tracer};
 use crate::view::Scale;
 
 /// Nothing in a tracer may know how large a scene is.

@@ -1,0 +1,45 @@
+//! How good a picture is to be: few knobs, each with a bound or a limit that can be said.
+
+use serde::{Deserialize, Serialize};
+
+/// How good a picture is to be. What a run file does not say is as by default.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Quality {
+    /// At most n × n samples a pixel, from 1 to [`Quality::MOST_SAMPLES`].
+    pub samples: u32,
+    /// A pixel needs no more samples once the error of their mean is estimated as no more than this, in linear light and
+    /// in every channel. At 0 every pixel gets all.
+    pub threshold: f64,
+    /// The limit of the tree of rays, from 1 to [`Quality::MOST_DEPTH`] (§3: "for example 10 levels"); a primary ray is level 1.
+    pub max_depth: u32,
+    /// What rays that are too weak to be followed (§3: "irrelevant") would count, all those of a sample together, at
+    /// most: at least 0 and less than 1. The limit of the tree of rays comes on top.
+    pub cutoff: f64,
+    /// Which of many equally good patterns of samples is taken.
+    pub pattern: u32,
+}
+
+impl Quality {
+    /// n × n samples at most.
+    pub const MOST_SAMPLES: u32 = 64;
+    /// The deepest tree of rays.
+    pub const MOST_DEPTH: u32 = 100;
+
+    /// # Errors
+    /// A sentence, if a knob is beyond its range.
+    pub fn check(&self) -> Result<(), String> {
+        let is_within = |ok: bool, what: String| if ok { Ok(()) } else { Err(what) };
+        let (samples, depth) = (1..=Self::MOST_SAMPLES, 1..=Self::MOST_DEPTH);
+        is_within(samples.contains(&self.samples), format!("the samples are not 1 to {}", Self::MOST_SAMPLES))?;
+        is_within((0.0..1.0).contains(&self.threshold), "the threshold is not 0 or a part of 1".into())?;
+        is_within(depth.contains(&self.max_depth), format!("the depth is not 1 to {}", Self::MOST_DEPTH))?;
+        is_within((0.0..1.0).contains(&self.cutoff), "the cutoff is not 0 or a part of 1".into())
+    }
+}
+
+impl Default for Quality {
+    fn default() -> Self {
+        Self { samples: 1, threshold: 0.0, max_depth: 10, cutoff: 1.0 / 255.0, pattern: 0 }
+    }
+}

@@ -1,0 +1,100 @@
+//! What the knobs of quality promise.
+
+use anel::picture::{Colour, Quality, Size};
+use anel::scene::{BUILT_IN, Opened, Scene};
+use anel::tracer::{Scratch, Tracer};
+
+/// Clear balls and mirrors under a white sky: no ray brings more than 1, and every ray that is not followed is missed.
+const WHITE: &str = r#"(
+    camera: (eye: (0, 2, 9), look_at: (0, 0, 0), field_of_view: 40),
+    background: (1, 1, 1),
+    materials: {
+        "mirror": (ka: 0, kd: 0, ks: 0.9),
+        "glass": (ka: 0, kd: 0, ks: 0.15, kt: 0.85, ior: 1.5),
+        "gray": (ka: 0, kd: 0, ks: 0.3, kt: 0.4, ior: 1.2),
+    },
+    objects: [
+        HalfSpace(normal: (0, 1, 0), offset: -1, material: "mirror"),
+        Sphere(centre: (-1.2, 0, 0), radius: 1, material: "glass"),
+        Sphere(centre: (1.2, 0, 0.5), radius: 1, material: "gray"),
+        Difference(material: "glass", of: [
+            Box(min: (-0.8, -0.9, 1.5), max: (0.8, 0.2, 2.5)),
+            Sphere(centre: (0, 0.3, 2), radius: 0.6),
+        ]),
+    ],
+)"#;
+
+fn picture(scene: &Scene, quality: Quality) -> (Vec<Colour>, u64) {
+    let size = Size::new(48, 36).expect("a small picture");
+    let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
+    Tracer::new(scene, size, quality).trace(0..size.pixels(), &mut scratch, &mut pixels);
+    (pixels, scratch.rays.total())
+}
+
+/// By how much each channel of `b` is brighter than that of `a`.
+fn brighter<'a>(a: &'a [Colour], b: &'a [Colour]) -> impl Iterator<Item = f64> + 'a {
+    a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| f64::from(*b) - f64::from(*a))
+}
+
+fn rmse(a: &[Colour], b: &[Colour]) -> f64 {
+    (brighter(a, b).map(|error| error * error).sum::<f64>() / (3 * a.len()) as f64).sqrt()
+}
+
+#[test]
+fn all_that_is_cut_off_counts_no_more_than_the_cutoff() {
+    let scene = Scene::parse(WHITE).expect("a scene");
+    let with = |cutoff| picture(&scene, Quality { cutoff, max_depth: 100, ..Quality::default() });
+    let (exact, mut most_rays) = with(1e-9);
+    for cutoff in [1e-4, 1e-3, 1.0 / 255.0, 0.02, 0.1, 0.5] {
+        let (pixels, rays) = with(cutoff);
+        let worst = brighter(&pixels, &exact).fold(0.0, f64::max);
+        assert!(worst <= cutoff + 1e-6, "{worst} is lost with a cutoff of {cutoff}");
+        assert!(brighter(&pixels, &exact).all(|error| error > -1e-6));
+        // Nearly all of it is made use of.
+        assert!(worst > 0.5 * cutoff, "a cutoff of {cutoff} could have been one of {worst}");
+        assert!(rays < most_rays);
+        most_rays = rays;
+    }
+}
+
+#[test]
+fn a_threshold_saves_samples_and_keeps_its_error() {
+    for (name, _) in BUILT_IN {
+        let scene = Opened::new(name).expect("a built-in scene").scene;
+        let with = |samples, threshold| picture(&scene, Quality { samples, threshold, ..Quality::default() });
+        let (reference, _) = with(32, 0.0);
+        let (all, all_rays) = with(8, 0.0);
+        for threshold in [0.02, 0.005] {
+            let (pixels, rays) = with(8, threshold);
+            assert!(4 * rays < 3 * all_rays, "{name}: {rays} rays of {all_rays} with a threshold of {threshold}");
+            // Where the first four samples miss an edge, the error is more than the estimate.
+            let error = rmse(&pixels, &reference);
+            assert!(error < 2.0 * threshold + rmse(&all, &reference), "{name}: {error} with a threshold of {threshold}");
+        }
+    }
+}
+
+#[test]
+fn a_threshold_of_zero_takes_all_samples() {
+    let scene = Scene::parse(r#"(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), background: (1, 1, 1), objects: [])"#)
+        .expect("a sky");
+    let rays = |samples, threshold| picture(&scene, Quality { samples, threshold, ..Quality::default() }).1;
+    let pixels = 48 * 36;
+    assert_eq!([1, 2, 3, 8].map(|samples| rays(samples, 0.0)), [1, 4, 9, 64].map(|samples| samples * pixels));
+    // Nothing to be seen: four samples are enough, if there are so many.
+    assert_eq!([1, 2, 3, 8].map(|samples| rays(samples, 1e-9)), [1, 4, 4, 4].map(|samples| samples * pixels));
+}
+
+#[test]
+fn more_samples_come_nearer_whatever_the_pattern() {
+    let scene = Opened::new("ten-objects").expect("a built-in scene").scene;
+    let with = |samples, pattern| picture(&scene, Quality { samples, pattern, ..Quality::default() }).0;
+    let reference = with(24, 99);
+    for pattern in [0, 1, 2] {
+        let errors = [1, 2, 4, 8].map(|samples| rmse(&with(samples, pattern), &reference));
+        // Sixteen times the samples: at the least as much nearer as if they were random.
+        assert!(errors[3] < errors[1] / 4.0 && errors[1] < errors[0], "{errors:?}");
+    }
+    assert_eq!(with(1, 0), with(1, 1), "one sample lies in the middle of its pixel");
+    assert_ne!(with(2, 0), with(2, 1));
+}
