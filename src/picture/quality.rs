@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Quality {
     /// At most n × n samples a pixel, from 1 to [`Quality::MOST_SAMPLES`].
     pub samples: u32,
-    /// A pixel needs no more samples once the error of their mean is estimated as no more than this, in linear light and
-    /// in every channel. At 0 every pixel gets all.
+    /// A pixel gets no more samples once they are the same within this, its corners among them, or once the error of
+    /// their mean is estimated as no more than this; in linear light and in every channel. At 0 every pixel gets all.
     pub threshold: f64,
     /// The limit of the tree of rays, from 1 to [`Quality::MOST_DEPTH`] (§3: "for example 10 levels"); a primary ray is level 1.
     pub max_depth: u32,

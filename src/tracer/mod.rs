@@ -108,38 +108,52 @@ impl Tracer {
 
     fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
-        let colour = if self.quality.samples == 1 {
-            self.sample(&self.camera.ray(x, y, [0.5; 2]), scratch, watch)
-        } else {
-            let pattern = Pattern::new(x, y, self.quality.pattern);
-            let sample = |index| self.sample(&self.camera.ray(x, y, pattern.sample(index)), scratch, watch);
-            mean(self.quality.samples.pow(2), self.quality.threshold, sample)
+        let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
+        let Quality { samples, threshold, pattern, .. } = self.quality;
+        let pattern = Pattern::new(x, y, pattern);
+        let colour = match samples {
+            1 => at([0.5; 2]),
+            _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern, at),
+            _ => (0..samples.pow(2)).map(|index| at(pattern.sample(index))).sum::<DVec3>() / f64::from(samples.pow(2)),
         };
         colour.as_vec3().to_array()
     }
 }
 
-/// The mean of at most so many samples: of the first 4, and then of four times as many until its error is estimated as
-/// no more than `threshold`. A threshold of 0 takes them all.
-fn mean(most: u32, threshold: f64, mut sample: impl FnMut(u32) -> DVec3) -> DVec3 {
-    let (mut sum, mut squares, mut count) = (DVec3::ZERO, DVec3::ZERO, 0);
-    let mut enough = if threshold > 0.0 { most.min(4) } else { most };
-    loop {
-        while count < enough {
-            let colour = sample(count);
+/// The mean of no more samples than are needed, at most `most` (at least 4).
+///
+/// At first those at the corners and four of the pattern: an edge that goes through the pixel parts the corners, however
+/// little it cuts off (Whitted 1980 looks at corners too), and what is small is likely met within. If they are the same
+/// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
+/// estimated as no more than that.
+fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> DVec3 {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(&mut at);
+    let within = [0, 1, 2, 3].map(|index| at(pattern.sample(index)));
+    let all = || corners.iter().chain(&within);
+    let greatest = all().fold(DVec3::NEG_INFINITY, |greatest, colour| greatest.max(*colour));
+    let least = all().fold(DVec3::INFINITY, |least, colour| least.min(*colour));
+    if (greatest - least).max_element() <= threshold {
+        return all().sum::<DVec3>() / 8.0;
+    }
+    let mut sum: DVec3 = within.iter().sum();
+    let mut squares: DVec3 = within.iter().map(|&colour| colour * colour).sum();
+    let mut count = 4;
+    while count < most {
+        for index in count..most.min(4 * count) {
+            let colour = at(pattern.sample(index));
             sum += colour;
             squares += colour * colour;
-            count += 1;
         }
+        count = most.min(4 * count);
         let samples = f64::from(count);
         // As if the samples were independent. They are spread better than that, so that this is too much rather than
-        // too little, unless all of them miss what is there.
+        // too little.
         let variance = (squares - sum * sum / samples).max_element() / (samples - 1.0);
-        if count == most || variance <= threshold * threshold * samples {
-            return sum / samples;
+        if variance <= threshold * threshold * samples {
+            break;
         }
-        enough = most.min(4 * count);
     }
+    sum / f64::from(count)
 }
 
 /// What a compiled scene kept of its solids: tells why it costs what it costs.
