@@ -62,7 +62,7 @@ fn a_threshold_saves_samples_and_keeps_its_error() {
     for (name, _) in BUILT_IN {
         let scene = Opened::new(name).expect("a built-in scene").scene;
         let with = |samples, threshold| picture(&scene, Quality { samples, threshold, ..Quality::default() });
-        let (reference, _) = with(32, 0.0);
+        let (reference, _) = with(16, 0.0);
         let (all, all_rays) = with(8, 0.0);
         for threshold in [0.02, 0.005] {
             let (pixels, rays) = with(8, threshold);

@@ -67,9 +67,10 @@ impl Step {
             ],
             Self::NoCutoff => [
                 "the cutoff",
-                "Both drop rays that can contribute no more than 1/255. Under total internal reflection POV-Ray counts a ray as \
-                 Kt of the one before it, though it adds all that it brings, and drops it too soon. *anel is nearer*: it \
-                 counts a ray as what it is multiplied by.",
+                "POV-Ray drops each ray that counts less than 1/255, however many there are; anel drops the weakest rays of a \
+                 sample, as many as count no more than 1/255 together. And under total internal reflection POV-Ray counts \
+                 a ray as Kt of the one before it, though it adds all that it brings, and drops it too soon. *anel is \
+                 nearer*: it counts a ray as what it is multiplied by.",
             ],
         })
     }
