@@ -1,5 +1,7 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
+mod cpu;
+mod needs;
 mod paper;
 mod peer;
 mod progress;
@@ -9,6 +11,7 @@ mod scale_report;
 mod stability;
 mod workbench;
 
+pub use needs::needs;
 pub use paper::paper;
 pub use peer::peer;
 pub use progress::Tell;

@@ -2,6 +2,7 @@
 
 mod bvh;
 mod camera;
+mod compiled;
 mod hit;
 mod media;
 mod path;
@@ -9,6 +10,7 @@ mod pattern;
 mod shade;
 mod world;
 
+pub use compiled::Compiled;
 pub use path::{Path, RayKind};
 pub use shade::Scratch;
 
@@ -17,6 +19,7 @@ use std::ops::{AddAssign, Range};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use crate::csg::Reductions;
 use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
@@ -75,12 +78,12 @@ pub struct Tracer {
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        Self { world: World::new(scene), camera: Camera::new(&scene.camera, size), size, quality }
+        Self::reduced(scene, size, quality, Reductions::default())
     }
 
-    /// What the compiled scene kept, in figures.
-    pub fn compiled(&self) -> Compiled {
-        self.world.compiled()
+    /// Compiles `scene` by some of the reductions only. The picture is the same.
+    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Reductions) -> Self {
+        Self { world: World::new(scene, reductions), camera: Camera::new(&scene.camera, size), size, quality }
     }
 
     /// Width and height of the picture.
@@ -154,23 +157,4 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
         }
     }
     sum / f64::from(count)
-}
-
-/// What a compiled scene kept of its solids: tells why it costs what it costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Compiled {
-    /// Solids that a ray is tested against one by one.
-    pub solids: usize,
-    /// Solids of these that are made of several primitives.
-    pub compositions: usize,
-    /// Solids without bounds, which every ray has to be tested against.
-    pub unbounded: usize,
-    /// Solids that were proved empty and dropped.
-    pub dropped: usize,
-    /// Lights.
-    pub lights: usize,
-    /// Whether any surface reflects other solids: if not, no reflection code runs.
-    pub reflects: bool,
-    /// Whether any surface transmits: if not, no refraction code runs and a shadow ray ends at the first solid.
-    pub transmits: bool,
 }
