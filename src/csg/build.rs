@@ -36,7 +36,7 @@ impl Tree {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };
                     bounds = bounds.union(child_bounds);
-                    children.extend(self.parts(Operation::Union, child));
+                    children.push(child);
                 }
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
@@ -45,24 +45,20 @@ impl Tree {
                         self.dropped.empty += 1;
                         return None;
                     }
-                    children.extend(self.parts(Operation::Intersection, child));
+                    children.push(child);
                 }
                 Operation::Difference if index == 0 => {
                     let (child, child_bounds) = child?;
                     bounds = child_bounds;
-                    // (a − b) − c = a − b − c
-                    children.extend(self.parts(Operation::Difference, child));
+                    children.push(child);
                 }
                 Operation::Difference => {
-                    let Some((child, _)) = child else { continue };
-                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
-                    let parts = self.parts(Operation::Union, child);
-                    let all = parts.len();
-                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
-                    let before = children.len();
-                    children
-                        .extend(parts.into_iter().filter(|part| !self.reductions.has(Reduction::Reach) || reach(part)));
-                    self.dropped.out_of_reach += before + all - children.len();
+                    let Some((child, child_bounds)) = child else { continue };
+                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Reduction::Reach) {
+                        self.dropped.out_of_reach += 1;
+                    } else {
+                        children.push(child);
+                    }
                 }
             }
         }
@@ -139,21 +135,5 @@ impl Tree {
     fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
         self.nodes.push(Node { bounds, kind });
         self.nodes.len() as u32 - 1
-    }
-
-    /// The operands of `node` if it is a composition by `operation`, else itself.
-    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
-        match &self.nodes[node as usize].kind {
-            Kind::Composition { operation: same, children }
-                if *same == operation && self.reductions.has(Reduction::Flat) =>
-            {
-                match operation {
-                    // Those of a tree of unions.
-                    Operation::Union => children.iter().flat_map(|&child| self.parts(operation, child)).collect(),
-                    _ => children.clone(),
-                }
-            }
-            _ => vec![node],
-        }
     }
 }

@@ -5,8 +5,6 @@
 pub enum Reduction {
     /// What is proved empty is dropped, and what reaches none of that which it would be taken from.
     Reach,
-    /// Nested unions, intersections and differences become one.
-    Flat,
     /// A union of many is a tree of unions of neighbours.
     Neighbours,
     /// Convex primitives that are intersected are one span.
@@ -19,27 +17,20 @@ pub enum Reduction {
     Apart,
     /// Solids are in a hierarchy of boxes.
     Hierarchy,
-    /// A shadow ray ends at the first solid of which nothing transmits.
-    Opaque,
-    /// What light does not change is not lit.
-    Unlit,
     /// Whole exponents are powers by multiplication.
     Powers,
 }
 
 impl Reduction {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 8] = [
         Self::Reach,
-        Self::Flat,
         Self::Neighbours,
         Self::Convex,
         Self::Shapes,
         Self::Boxes,
         Self::Apart,
         Self::Hierarchy,
-        Self::Opaque,
-        Self::Unlit,
         Self::Powers,
     ];
 
@@ -47,15 +38,12 @@ impl Reduction {
     pub fn says(self) -> &'static str {
         match self {
             Self::Reach => "what is empty or out of reach is dropped",
-            Self::Flat => "nested unions, intersections and differences become one",
             Self::Neighbours => "a union of many is a tree of unions of neighbours",
             Self::Convex => "convex primitives that are intersected are one span",
             Self::Shapes => "balls, and boxes along the axes, are kept in the scene's coordinates",
             Self::Boxes => "compositions are tested only by rays that meet their boxes",
             Self::Apart => "an opaque union is as many solids as it has parts",
             Self::Hierarchy => "solids are in a hierarchy of boxes",
-            Self::Opaque => "a shadow ray ends at the first solid that transmits nothing",
-            Self::Unlit => "what light does not change is not lit",
             Self::Powers => "whole exponents are powers by multiplication",
         }
     }

@@ -24,8 +24,6 @@ pub struct Scratch {
     memory: Memory,
     media: MediaStack,
     branches: Branches,
-    /// The solid that blocked each light last.
-    suspects: Vec<Option<u32>>,
 }
 
 /// A hit with what the equation needs of it.
@@ -138,7 +136,6 @@ impl Branches {
 impl Tracer {
     /// The colour that a primary ray brings, in linear light.
     pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
-        scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.count(RayKind::Primary);
         let media = scratch.media.restart(&self.world.eye_media);
         scratch.branches.restart();
@@ -230,10 +227,8 @@ impl Tracer {
     ) -> DVec3 {
         let finish = place.finish;
         let mut colour = finish.ambient;
-        if finish.lit {
-            for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, place, branch, scratch, watch);
-            }
+        for index in 0..self.world.lights.len() {
+            colour += self.light(index, ray, place, branch, scratch, watch);
         }
         if (finish.ks == 0.0 && finish.kt == 0.0) || branch.level == self.quality.max_depth {
             return colour;
@@ -308,7 +303,7 @@ impl Tracer {
             return DVec3::ZERO;
         }
         scratch.rays.count(RayKind::Shadow);
-        let Scratch { memory, suspects, media, .. } = scratch;
+        let Scratch { memory, media, .. } = scratch;
         let onward = ray.onward(place.t, direction);
         watch.see(|| Path {
             kind: RayKind::Shadow,
@@ -317,9 +312,7 @@ impl Tracer {
             ray: onward,
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
-        let suspect = &mut suspects[index];
-        let arriving =
-            self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, suspect, memory);
+        let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }

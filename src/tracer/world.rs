@@ -11,8 +11,6 @@ use crate::scene::{Light, Material, Scene};
 #[derive(Debug)]
 pub(super) struct World {
     pub tree: Tree,
-    /// Whether anything of the solid transmits, by its root.
-    pub transmits: Vec<bool>,
     /// The roots with bounds.
     pub bounded: Bvh,
     /// The roots without.
@@ -39,8 +37,6 @@ pub(super) struct Finish {
     pub kt: f64,
     pub exponent: Exponent,
     pub ior: f64,
-    /// Whether lights matter to it.
-    pub lit: bool,
 }
 
 /// Phong's exponent: whole ones, the usual case, need no logarithm.
@@ -62,7 +58,7 @@ impl Exponent {
 impl World {
     pub fn new(scene: &Scene, reductions: Reductions) -> Self {
         let mut tree = Tree::new(reductions);
-        let (mut bounded, mut unbounded, mut transmits, mut dropped) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
         let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
             if reductions.has(Reduction::Apart) {
@@ -81,10 +77,8 @@ impl World {
             } else {
                 unbounded.push(root);
             }
-            transmits.resize(root as usize + 1, false);
             let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
             let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
-            transmits[root as usize] = transmitting.is_some() || !reductions.has(Reduction::Opaque);
             if let Some(material) = transmitting.filter(|_| solid.holds(scene.camera.eye)) {
                 eye_media.push(Medium { root, ior: material.ior });
             }
@@ -92,7 +86,6 @@ impl World {
         tree.finish();
         Self {
             tree,
-            transmits,
             bounded: if reductions.has(Reduction::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
             unbounded,
             background: scene.background,
@@ -143,7 +136,6 @@ impl Finish {
                 Exponent::Real(n)
             },
             ior,
-            lit: ks > 0.0 || colour * kd != DVec3::ZERO || !reductions.has(Reduction::Unlit),
         }
     }
 }
