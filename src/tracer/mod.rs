@@ -1,5 +1,6 @@
 //! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
 
+mod branches;
 mod bvh;
 mod camera;
 mod compiled;
