@@ -16,7 +16,6 @@ pub(super) struct Traced {
 }
 
 impl Traced {
-    #[expect(clippy::disallowed_methods, reason = "what is studied is the time that a picture takes")]
     pub fn new(tracer: &Tracer) -> Self {
         let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
         let begun = ThreadTime::now();
