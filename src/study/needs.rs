@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::cpu::Traced;
+use super::cpu::{Looks, Traced};
 use super::progress::Progress;
 use super::{Study, Tell};
 use crate::csg::{Reduction, Reductions};
@@ -34,9 +34,11 @@ struct Saving {
 /// A sentence, if the rows cannot be written.
 pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
     let size = Size::new(240, 180)?;
-    let mut progress = Progress::new(scenes.len() * TURNS, tell);
-    let mut rows = Vec::new();
+    let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
+    let (mut rows, mut looks) = (Vec::new(), Vec::new());
     for scene in scenes {
+        progress.next(&format!("{}, a first look", scene.name));
+        looks.push(first_look(scene)?);
         let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
         let all = tracer(Reductions::default());
         let without = Reduction::ALL.map(|reduction| tracer(Reductions::default().without(reduction)));
@@ -67,8 +69,37 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
     }
     let mut study = Study::new("needs");
     study.add_rows(&rows)?;
-    study.add_report(report(scenes, &rows, size));
+    study.add_report(report(scenes, &rows, size) + &looks_report(scenes, &looks));
     Ok(study)
+}
+
+/// The turn in the middle.
+fn first_look(scene: &Opened) -> Result<Looks, String> {
+    let size = Size::new(640, 480)?;
+    let look = |_| Looks::new(|| Tracer::new(&scene.scene, size, Quality::default()));
+    let mut looks: Vec<Looks> = (0..TURNS).map(look).collect();
+    looks.sort_by(|a, b| a.exact.total_cmp(&b.exact));
+    Ok(looks[TURNS / 2])
+}
+
+fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
+    let mut text = String::from(
+        "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the scene that is read to \
+         it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as above:\n\n\
+         | scene | compiled | first look | exact picture | without a preview | with / without | the same |\n\
+         |---|---:|---:|---:|---:|---:|---|\n",
+    );
+    for (scene, Looks { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
+        let same = if *same { "yes" } else { "no" };
+        let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
+        _ = writeln!(
+            text,
+            "| {} | {compiled:.2} | {first:.1} | {whole:.0} | {alone:.0} | {:.3} | {same} |",
+            scene.name,
+            exact / plain
+        );
+    }
+    text
 }
 
 fn median(values: &mut [f64]) -> f64 {

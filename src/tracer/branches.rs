@@ -27,8 +27,12 @@ pub(super) struct Branch {
 }
 
 /// So many rays wait in the order of their weights at most; others are traced at once, so that however many rays a
-/// sample needs, they take little memory.
-const MOST_WAITING: usize = 4096;
+/// sample needs, they take some megabytes at most.
+const MOST_WAITING: usize = 1 << 16;
+
+/// Of those that are traced at once, one is left out that counts no more than this part of what may still be left out:
+/// else each would be followed to the last level.
+const LEFT_OUT: f64 = 1e-3;
 
 /// The rays of a sample that wait to be traced.
 ///
@@ -43,8 +47,10 @@ pub(super) struct Branches {
     free: Vec<u32>,
     /// To be traced before those that wait, the last one first.
     at_once: Vec<Branch>,
-    /// What all of them count together.
+    /// What all of them count together, and what was left out already.
     weight: f64,
+    /// What was left out of those to be traced at once: at most half of the cutoff.
+    left_out: f64,
     /// How many were traced.
     traced: u64,
 }
@@ -76,6 +82,7 @@ impl Branches {
         self.free.clear();
         self.at_once.clear();
         self.weight = 0.0;
+        self.left_out = 0.0;
         self.traced = 1;
     }
 
@@ -100,7 +107,7 @@ impl Branches {
         if self.weight <= cutoff {
             return None;
         }
-        let next = self.at_once.pop().or_else(|| {
+        let next = self.next_at_once(cutoff).or_else(|| {
             let Waiting(_, _, place) = self.waiting.pop()?;
             self.free.push(place);
             Some(self.places[place as usize])
@@ -109,6 +116,17 @@ impl Branches {
         let number = self.traced;
         self.traced += 1;
         Some(Branch { number, ..next })
+    }
+
+    #[inline(always)]
+    fn next_at_once(&mut self, cutoff: f64) -> Option<Branch> {
+        while let Some(next) = self.at_once.pop() {
+            if next.weight > LEFT_OUT * (cutoff / 2.0 - self.left_out) {
+                return Some(next);
+            }
+            self.left_out += next.weight;
+        }
+        None
     }
 }
 
@@ -145,11 +163,11 @@ mod tests {
     }
 
     #[test]
-    fn however_many_rays_there_are_few_wait() {
+    fn however_many_rays_there_are_they_take_little_memory() {
         let mut branches = Branches::default();
         branches.restart();
         branches.add(branch(1.0));
-        for _ in 0..200_000 {
+        for _ in 0..1_000_000 {
             let next = branches.next(0.0).expect("more of them");
             branches.add(Branch { level: next.level + 1, ..branch(next.weight * 0.6) });
             if next.level < 60 {

@@ -8,11 +8,13 @@ mod hit;
 mod media;
 mod path;
 mod pattern;
+mod preview;
 mod shade;
 mod world;
 
 pub use compiled::Compiled;
 pub use path::{Path, RayKind};
+pub use preview::Preview;
 pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
@@ -25,7 +27,7 @@ use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
 use camera::Camera;
-use path::{Nobody, Watch};
+use path::Watch;
 use pattern::Pattern;
 use world::World;
 
@@ -74,6 +76,7 @@ pub struct Tracer {
     camera: Camera,
     size: Size,
     quality: Quality,
+    preview: Option<Preview>,
 }
 
 impl Tracer {
@@ -84,7 +87,13 @@ impl Tracer {
 
     /// Compiles `scene` by some of the reductions only. The picture is the same.
     pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Reductions) -> Self {
-        Self { world: World::new(scene, reductions), camera: Camera::new(&scene.camera, size), size, quality }
+        Self {
+            world: World::new(scene, reductions),
+            camera: Camera::new(&scene.camera, size),
+            size,
+            quality,
+            preview: None,
+        }
     }
 
     /// Width and height of the picture.
@@ -107,7 +116,7 @@ impl Tracer {
     ///
     /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        out.extend(pixels.map(|pixel| self.pixel(pixel, scratch, &mut Nobody)));
+        out.extend(pixels.map(|pixel| self.known_or_traced(pixel, scratch)));
     }
 
     fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
