@@ -137,7 +137,7 @@ impl Canvas {
         let plain = colour.map_or(self.ground, |colour| mix(self.ground, colour, strength));
         if self.previewed && !traced_now {
             // Fainter the more owners are shown, so that what is done stands out.
-            let share = 0.5 - 0.25 * self.blend;
+            let share = 0.35 - 0.2 * self.blend;
             for (to, &guess) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
                 *to = mix(plain, guess, share);
             }
