@@ -40,11 +40,11 @@ pub(super) enum Command {
     Study {
         /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines; rivals: what sharing costs
         /// at full speed; stability: where methods fail; peer: every pixel beside POV-Ray's; needs: what compiling a scene
-        /// keeps, and what that saves
+        /// keeps, and what that saves; accuracy: what each knob of quality costs, and how far its picture is from the truth
         #[arg(value_enum)]
         kind: StudyKind,
-        /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals, peer and needs all that are built in; for
-        /// stability none]
+        /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals, peer, needs and accuracy all that
+        /// are built in; for stability none]
         #[arg(long)]
         scene: Option<String>,
         /// The directory for the files
@@ -71,6 +71,7 @@ pub(super) enum StudyKind {
     Stability,
     Peer,
     Needs,
+    Accuracy,
 }
 
 #[derive(Debug, clap::Args)]

@@ -16,6 +16,7 @@
 
 mod clock;
 mod jobs;
+mod measured;
 mod meter;
 mod node_thread;
 mod pace;
@@ -35,6 +36,7 @@ mod teller;
 mod whole;
 mod worker;
 
+pub use measured::Measured;
 pub use pace::{auto_pace, cores};
 pub use perform::perform;
 pub use probe::{Probe, probe};

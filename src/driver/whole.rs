@@ -34,10 +34,23 @@ impl Whole {
     /// # Errors
     /// A sentence, if a thread could not be started, or failed.
     pub fn of(tracer: &Arc<Tracer>, division: Division, done: &(dyn Fn(u32) + Sync)) -> Result<Self, String> {
+        Self::unless(tracer, division, done, &|| false).map(Option::unwrap_or_default)
+    }
+
+    /// As [`Whole::of`], but `None` if it `is_over` before.
+    ///
+    /// # Errors
+    /// As [`Whole::of`].
+    pub fn unless(
+        tracer: &Arc<Tracer>,
+        division: Division,
+        done: &(dyn Fn(u32) + Sync),
+        is_over: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Self>, String> {
         let tracer = tracer.clone();
         let trace =
             move |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| tracer.trace(pixels, scratch, out);
-        Self::trace(division, &trace, done, &|| false).map(Option::unwrap_or_default)
+        Self::trace(division, &trace, done, is_over)
     }
 
     /// What each atom costs the reference machine in virtual time.

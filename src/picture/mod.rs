@@ -1,10 +1,13 @@
-//! The picture: its size and quality, its division into atoms and bands, its frame in linear light, and its PNG.
+//! The picture: its size and quality, its division into atoms and bands, its frame in linear light, its PNG, and how far
+//! it is from another.
 
+mod compare;
 mod division;
 mod frame;
 mod png;
 mod quality;
 
+pub use compare::Difference;
 pub use division::{Atom, Division};
 pub use frame::{Colour, Frame, srgb8};
 pub use png::{encode_png, write_png};

@@ -1,5 +1,6 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
+pub mod accuracy;
 mod cpu;
 mod needs;
 mod paper;
@@ -11,6 +12,7 @@ mod scale_report;
 mod stability;
 mod workbench;
 
+pub use accuracy::accuracy;
 pub use needs::needs;
 pub use paper::paper;
 pub use peer::peer;
@@ -43,13 +45,21 @@ impl Study {
 
     /// Adds rows, as JSON and as a CSV file of the study's name.
     fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), String> {
-        let mut csv = csv::Writer::from_writer(Vec::new());
         for row in rows {
-            csv.serialize(row).map_err(|error| error.to_string())?;
             self.rows.push(serde_json::to_value(row).map_err(|error| error.to_string())?);
         }
-        let bytes = csv.into_inner().map_err(|error| error.to_string())?;
-        self.files.push((format!("{}.csv", self.name), bytes));
+        self.add_csv(format!("{}.csv", self.name), rows)
+    }
+
+    /// Adds a table of something else, as a CSV file.
+    fn add_table(&mut self, name: &str, rows: &[impl Serialize]) -> Result<(), String> {
+        self.add_csv(format!("{}-{name}.csv", self.name), rows)
+    }
+
+    fn add_csv(&mut self, file: String, rows: &[impl Serialize]) -> Result<(), String> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        rows.iter().try_for_each(|row| csv.serialize(row)).map_err(|error| error.to_string())?;
+        self.files.push((file, csv.into_inner().map_err(|error| error.to_string())?));
         Ok(())
     }
 

@@ -1,0 +1,169 @@
+//! How far a picture is from another.
+//!
+//! A mean hides speckle, so that three numbers are told. What people see best follows ꟻLIP (Andersson et al. 2020), which
+//! is left out: no library of it does without a C++ compiler.
+
+use super::frame::{Colour, Frame, srgb8};
+
+/// How far a picture is from a reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// The root of the mean squared error in linear light, over all pixels and channels; at least 0.
+    pub rmse: f64,
+    /// Pixels of which a channel is more than [`Difference::SAME`] apart, in 8-bit sRGB.
+    pub wrong_pixels: u32,
+    /// The least structural similarity of a block of 8 × 8 pixels, from −1 to 1 (the same), of the luminance in 8-bit sRGB
+    /// (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, *Image quality assessment: from error visibility to structural
+    /// similarity*, 2004, equation 13).
+    pub worst_ssim: f64,
+}
+
+impl Difference {
+    /// How far apart two 8-bit sRGB values are taken for the same.
+    pub const SAME: u8 = 2;
+
+    /// # Panics
+    /// If the pictures are not of one size.
+    pub fn of(picture: &Frame, reference: &Frame) -> Self {
+        assert_eq!(picture.size(), reference.size(), "only pictures of one size are compared");
+        Self {
+            rmse: rmse(picture.pixels(), reference.pixels()),
+            wrong_pixels: wrong_pixels(picture, reference),
+            worst_ssim: worst_ssim(picture, reference),
+        }
+    }
+}
+
+/// The root of the mean squared difference of all channels.
+fn rmse(pixels: &[Colour], reference: &[Colour]) -> f64 {
+    let channels = pixels.as_flattened().iter().zip(reference.as_flattened());
+    let squares = channels.map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2));
+    (squares.sum::<f64>() / (3 * pixels.len()) as f64).sqrt()
+}
+
+fn wrong_pixels(picture: &Frame, reference: &Frame) -> u32 {
+    let is_wrong =
+        |(&a, &b): (&Colour, &Colour)| srgb8(a).iter().zip(srgb8(b)).any(|(a, b)| a.abs_diff(b) > Difference::SAME);
+    picture.pixels().iter().zip(reference.pixels()).filter(|&pair| is_wrong(pair)).count() as u32
+}
+
+/// The side of a block.
+const BLOCK: u32 = 8;
+
+fn worst_ssim(picture: &Frame, reference: &Frame) -> f64 {
+    let (size, pixels) = (picture.size(), [grey(picture), grey(reference)]);
+    let block = |x: u32, y: u32| {
+        let (columns, rows) = (x..(x + BLOCK).min(size.width()), y..(y + BLOCK).min(size.height()));
+        let places = rows.flat_map(|y| columns.clone().map(move |x| (y * size.width() + x) as usize));
+        ssim(places.map(|place| (pixels[0][place], pixels[1][place])))
+    };
+    let corners = starts(size.height()).flat_map(|y| starts(size.width()).map(move |x| (x, y)));
+    corners.map(|(x, y)| block(x, y)).fold(1.0, f64::min)
+}
+
+/// Where blocks begin along a side: one after the other, but the last one ends with the picture.
+fn starts(side: u32) -> impl Iterator<Item = u32> + Clone {
+    (0..side.div_ceil(BLOCK)).map(move |block| (block * BLOCK).min(side.saturating_sub(BLOCK)))
+}
+
+/// The luminance of the 8-bit sRGB picture, 0 to 255 (the weights of Rec. ITU-R BT.709).
+fn grey(frame: &Frame) -> Vec<f64> {
+    let luminance = |&pixel: &Colour| {
+        let [red, green, blue] = srgb8(pixel).map(f64::from);
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    };
+    frame.pixels().iter().map(luminance).collect()
+}
+
+/// The structural similarity of pairs of values from 0 to 255.
+fn ssim(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    const C1: f64 = (0.01 * 255.0) * (0.01 * 255.0);
+    const C2: f64 = (0.03 * 255.0) * (0.03 * 255.0);
+    let count = pairs.clone().count() as f64;
+    let mean = |of: &dyn Fn(f64, f64) -> f64| pairs.clone().map(|(a, b)| of(a, b)).sum::<f64>() / count;
+    let (a_mean, b_mean) = (mean(&|a, _| a), mean(&|_, b| b));
+    let a_variance = mean(&|a, _| (a - a_mean).powi(2));
+    let b_variance = mean(&|_, b| (b - b_mean).powi(2));
+    let covariance = mean(&|a, b| (a - a_mean) * (b - b_mean));
+    let luminance = (2.0 * a_mean * b_mean + C1) / (a_mean * a_mean + b_mean * b_mean + C1);
+    luminance * (2.0 * covariance + C2) / (a_variance + b_variance + C2)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::Size;
+    use super::*;
+
+    fn frame(width: u32, height: u32, pixels: &[Colour]) -> Frame {
+        let size = Size::new(width, height).unwrap();
+        let mut frame = Frame::new(size);
+        frame.place(0..size.pixels(), pixels);
+        frame
+    }
+
+    fn pictures() -> impl Strategy<Value = (Frame, Frame)> {
+        (1..30_u32, 1..30_u32).prop_flat_map(|(width, height)| {
+            let pixels = || prop::collection::vec(prop::array::uniform3(0.0..1.0_f32), (width * height) as usize);
+            (pixels(), pixels()).prop_map(move |(a, b)| (frame(width, height, &a), frame(width, height, &b)))
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn a_picture_is_itself((a, _) in pictures()) {
+            let Difference { rmse, wrong_pixels, worst_ssim } = Difference::of(&a, &a);
+            prop_assert!(rmse == 0.0 && wrong_pixels == 0 && (worst_ssim - 1.0).abs() < 1e-9);
+        }
+
+        #[test]
+        fn one_is_as_far_from_the_other_as_the_other_from_it((a, b) in pictures()) {
+            let (there, back) = (Difference::of(&a, &b), Difference::of(&b, &a));
+            prop_assert!((there.worst_ssim - back.worst_ssim).abs() < 1e-12);
+            prop_assert_eq!((there.rmse, there.wrong_pixels), (back.rmse, back.wrong_pixels));
+            prop_assert!((-1.0..=1.0).contains(&there.worst_ssim) && there.wrong_pixels <= a.size().pixels());
+        }
+
+        #[test]
+        fn half_the_way_is_half_the_error((a, b) in pictures()) {
+            let middle: Vec<Colour> =
+                a.pixels().iter().zip(b.pixels()).map(|(a, b)| [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0)).collect();
+            let middle = frame(a.size().width(), a.size().height(), &middle);
+            let error = |picture| Difference::of(picture, &b).rmse;
+            prop_assert!((error(&middle) - error(&a) / 2.0).abs() < 1e-6);
+        }
+
+        #[test]
+        fn one_wrong_pixel_is_found_wherever_it_is(width in 1..40_u32, height in 1..40_u32, place: prop::sample::Index) {
+            let mut pixels = vec![[0.5; 3]; (width * height) as usize];
+            let even = frame(width, height, &pixels);
+            pixels[place.index((width * height) as usize)] = [0.0; 3];
+            let found = Difference::of(&frame(width, height, &pixels), &even);
+            prop_assert_eq!(found.wrong_pixels, 1);
+            prop_assert!(found.worst_ssim < 0.3, "{}", found.worst_ssim);
+            prop_assert!((found.rmse - 0.5 / f64::from(width * height).sqrt()).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_is_twice_as_bright_or_turned_round_has_a_known_similarity() {
+        // Values 0 and 255, half of each: means of 127.5, variances of 127.5², covariance −127.5².
+        let stripes: Vec<(f64, f64)> = (0..64).map(|i| f64::from(i % 2) * 255.0).map(|a| (a, 255.0 - a)).collect();
+        let (variance, c2) = (127.5 * 127.5, 7.65 * 7.65);
+        assert!((ssim(stripes.into_iter()) - (c2 - 2.0 * variance) / (c2 + 2.0 * variance)).abs() < 1e-12);
+        // Even grounds: only their means tell.
+        let (even, c1) = ((0..64).map(|_| (100.0, 50.0)), 2.55 * 2.55);
+        assert!((ssim(even) - (10_000.0 + c1) / (12_500.0 + c1)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn two_of_255_are_the_same_and_three_are_not() {
+        let linear = |value: f32| ((value / 255.0 + 0.055) / 1.055).powf(2.4);
+        let apart = |steps: f32| {
+            let step = |value: f32| frame(1, 1, &[[linear(value), 0.5, 0.5]]);
+            Difference::of(&step(100.0 + steps), &step(100.0)).wrong_pixels
+        };
+        assert_eq!([-3.0, -2.0, 0.0, 2.0, 3.0].map(apart), [1, 0, 0, 0, 1]);
+    }
+}

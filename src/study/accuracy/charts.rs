@@ -1,0 +1,139 @@
+//! What the study of accuracy draws.
+
+use super::choice::front as front_of;
+use super::fit::correlation;
+use super::knobs::Knob;
+use super::ring::{LATENCIES, Ring};
+use super::scene::{Entry, Found};
+use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+
+/// Seconds against the error, with the front and the floor.
+pub(super) fn front(found: &Found) -> Chart {
+    let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
+    let line = |(i, knob): (usize, Knob)| Series {
+        name: format!("{} alone", knob.name()),
+        hue: series_hue(i),
+        points: found.of_knob(Some(knob)).map(point).collect(),
+        style: Style::Line,
+    };
+    let points = found.points();
+    let best: Vec<(f64, f64)> = front_of(&points).into_iter().map(|point| (point.cpu_s, point.rmse())).collect();
+    let times = points.iter().map(|point| point.cpu_s);
+    let [least, most] = [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)];
+    let dots = Series {
+        name: "together".into(),
+        hue: series_hue(4),
+        points: found.of_knob(None).map(point).collect(),
+        style: Style::Dots,
+    };
+    let dashed = |name: &str, i, points| Series { name: name.into(), hue: series_hue(i), points, style: Style::Dashed };
+    let mut series: Vec<Series> = Knob::ALL.into_iter().enumerate().map(line).collect();
+    series.extend([
+        dots,
+        dashed("front", 5, best),
+        dashed("the reference's", 6, vec![(least, found.floor), (most, found.floor)]),
+    ]);
+    Chart {
+        title: format!("Speed against accuracy: {}", found.scene),
+        note: format!(
+            "{} pixels; one knob turned alone, or all together; dashed: the front, and the reference's own error",
+            found.size
+        ),
+        x: seconds(),
+        y: error("error of the picture (RMSE, linear light)"),
+        series,
+    }
+}
+
+/// Seconds against what each knob alone does.
+pub(super) fn alone(found: &Found) -> Chart {
+    let line = |(i, knob): (usize, Knob)| Series {
+        name: knob.name().into(),
+        hue: series_hue(i),
+        points: found.of_knob(Some(knob)).filter_map(|entry| Some((entry.point.cpu_s, entry.alone?))).collect(),
+        style: Style::Line,
+    };
+    Chart {
+        title: format!("What each knob alone leaves out: {}", found.scene),
+        note: "Samples and threshold: against very many samples; depth and cutoff: against the same samples without a limit".into(),
+        x: seconds(),
+        y: error("error for this knob alone (RMSE, linear light)"),
+        series: Knob::ALL.into_iter().enumerate().map(line).collect(),
+    }
+}
+
+fn seconds() -> Axis {
+    Axis { label: "CPU seconds on one core".into(), scale: Scale::Log10, range: None }
+}
+
+fn error(label: &str) -> Axis {
+    Axis { label: label.into(), scale: Scale::Log10, range: None }
+}
+
+/// So many atoms must wait for a share of them to be one.
+pub(super) const MANY: u32 = 20;
+
+/// The estimated share of each transfer against the true one.
+pub(super) fn estimate(ring: &Ring) -> Chart {
+    let large = ring.transfers().filter(|transfer| transfer.waiting >= MANY);
+    let points: Vec<(f64, f64)> = large.map(|transfer| (transfer.truth, transfer.estimate)).collect();
+    let note = format!("{} transfers where at least {MANY} atoms wait", points.len());
+    let right = vec![(0.0, 0.0), (1.0, 1.0)];
+    let side = |label: &str| Axis { label: label.into(), scale: Scale::Linear, range: Some((0.0, 1.0)) };
+    Chart {
+        title: "What an offer says of speeds, and what is true".into(),
+        note,
+        x: side("share with which both would end together"),
+        y: side("share by the counts of traced atoms (R7)"),
+        series: vec![
+            Series { name: "transfers".into(), hue: series_hue(0), points, style: Style::Dots },
+            Series { name: "right".into(), hue: series_hue(1), points: right, style: Style::Dashed },
+        ],
+    }
+}
+
+/// How late runs end, against how wrong their estimates are.
+pub(super) fn lateness(ring: &Ring) -> Chart {
+    let series = |(i, runs): (usize, &Vec<_>)| Series {
+        name: scene_of(runs),
+        hue: series_hue(i),
+        points: Ring::points(runs),
+        style: Style::Dots,
+    };
+    let all: Vec<(f64, f64)> = ring.shared.iter().flat_map(|runs| Ring::points(runs)).collect();
+    let related = correlation(&all).map_or(String::new(), |r| format!("; correlation {r:.2}"));
+    Chart {
+        title: "Wrong estimates and late ends".into(),
+        note: format!("A dot is a run of the ring on eight machines of random speeds{related}"),
+        x: Axis { label: "mean error of the estimated share, by the work that waits".into(), ..Axis::default() },
+        y: Axis { label: "makespan / ideal − 1".into(), ..Axis::default() },
+        series: ring.shared.iter().enumerate().map(series).collect(),
+    }
+}
+
+/// The scene of some runs.
+pub(super) fn scene_of(runs: &[super::sharing::Shared]) -> String {
+    runs.first().map_or_else(String::new, |shared| shared.run.scene.clone())
+}
+
+/// How late runs end, against what they say, as atoms are coarser or finer.
+pub(super) fn atoms(ring: &Ring) -> Chart {
+    let line = |(i, latency): (usize, f64)| Series {
+        name: format!("{latency} ms a message"),
+        hue: series_hue(i),
+        points: ring
+            .grained
+            .iter()
+            .filter(|grain| grain.latency_ms == latency)
+            .map(|grain| (grain.mean(|run| run.messages as f64), grain.mean(|run| run.lateness)))
+            .collect(),
+        style: Style::Line,
+    };
+    Chart {
+        title: "What finer atoms cost and save".into(),
+        note: "From atoms of 5,000 pixels (left) to 5; means over rings of random speeds".into(),
+        x: Axis { label: "messages a run".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "makespan / ideal − 1".into(), scale: Scale::Log10, range: None },
+        series: LATENCIES.into_iter().enumerate().map(line).collect(),
+    }
+}

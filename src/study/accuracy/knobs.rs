@@ -1,0 +1,130 @@
+//! The knobs of quality: what each is set to while the others stand still, and how they are combined.
+
+use crate::picture::{Quality, Size};
+use crate::scene::Scene;
+use crate::tracer::{Scratch, Tracer};
+
+/// A knob that is turned alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Knob {
+    Samples,
+    Threshold,
+    Depth,
+    Cutoff,
+}
+
+/// The most samples of what is measured, a side.
+pub(super) const MOST: u32 = 8;
+
+/// The samples a side at which depth and cutoff are turned: many enough that what these do is seen.
+const USUAL: u32 = 4;
+
+impl Knob {
+    pub const ALL: [Self; 4] = [Self::Samples, Self::Threshold, Self::Depth, Self::Cutoff];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Samples => "samples",
+            Self::Threshold => "threshold",
+            Self::Depth => "depth",
+            Self::Cutoff => "cutoff",
+        }
+    }
+
+    /// Whether it says how many samples are taken, and not how far rays are followed.
+    pub fn is_of_sampling(self) -> bool {
+        matches!(self, Self::Samples | Self::Threshold)
+    }
+
+    /// What it is set to, the best last. The last of depth and cutoff stand for no limit.
+    pub fn values(self) -> &'static [f64] {
+        match self {
+            Self::Samples => &[1.0, 2.0, 3.0, 4.0, 6.0, MOST as f64],
+            Self::Threshold => &[0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
+            Self::Depth => &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0, 50.0],
+            Self::Cutoff => &[0.3, 0.1, 0.03, 0.01, 1.0 / 255.0, 1e-3, 1e-4, 1e-5],
+        }
+    }
+
+    /// The knob at some value. The others are at their defaults; but a threshold needs many samples to do without some.
+    pub fn quality(self, value: f64) -> Quality {
+        let usual = Quality { samples: USUAL, ..Quality::default() };
+        match self {
+            Self::Samples => Quality { samples: value as u32, ..usual },
+            Self::Threshold => Quality { samples: MOST, threshold: value, ..usual },
+            Self::Depth => Quality { max_depth: value as u32, ..usual },
+            Self::Cutoff => Quality { cutoff: value, ..usual },
+        }
+    }
+}
+
+/// Sensible combinations of all knobs.
+pub(super) fn combinations() -> Vec<Quality> {
+    const LIMITS: [(u32, f64); 4] = [(3, 0.1), (6, 0.02), (10, 1.0 / 255.0), (20, 1e-3)];
+    // With so few samples at most, a threshold would only add some.
+    let even = [1, 2].map(|samples| (samples, 0.0));
+    let adaptive = [4, MOST].into_iter().flat_map(|samples| [0.05, 0.02, 0.005, 0.0].map(|error| (samples, error)));
+    let samplings = even.into_iter().chain(adaptive);
+    let combined = samplings.flat_map(|(samples, threshold)| {
+        let quality = Quality { samples, threshold, ..Quality::default() };
+        LIMITS.map(|(max_depth, cutoff)| Quality { max_depth, cutoff, ..quality })
+    });
+    combined.collect()
+}
+
+/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about [`RAYS`] rays at most, so
+/// that scenes whose trees of rays are large do not take much longer than others.
+///
+/// # Errors
+/// A sentence, if there is no such size.
+pub(super) fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
+    /// Rays of all kinds in a picture of one sample a pixel.
+    const RAYS: f64 = 120_000.0;
+    let small = Size::new(most.width().min(64), most.height().min(48))?;
+    let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
+    Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);
+    let a_pixel = scratch.rays.total() as f64 / f64::from(small.pixels());
+    let part = (RAYS / (a_pixel * f64::from(most.pixels()))).sqrt();
+    if part >= 1.0 {
+        return Ok(most);
+    }
+    // Whole blocks of those whose similarity is compared.
+    let side = |most: u32| ((f64::from(most) * part / 8.0).round() as u32 * 8).clamp(1, most);
+    Size::new(side(most.width()), side(most.height()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{BUILT_IN, Opened};
+
+    #[test]
+    fn every_quality_is_possible_and_none_is_tried_twice() {
+        for knob in Knob::ALL {
+            let qualities: Vec<Quality> = knob.values().iter().map(|&value| knob.quality(value)).collect();
+            assert!(qualities.iter().all(|quality| quality.check().is_ok()), "{}", knob.name());
+            assert!(qualities.windows(2).all(|pair| pair[0] != pair[1]), "{}", knob.name());
+            // The default is among what is tried of each.
+            assert!(knob == Knob::Threshold || qualities.contains(&Quality { samples: USUAL, ..Quality::default() }));
+        }
+        let combined = combinations();
+        for (place, quality) in combined.iter().enumerate() {
+            assert!(quality.check().is_ok() && !combined[..place].contains(quality), "{quality:?}");
+        }
+    }
+
+    #[test]
+    fn the_more_rays_a_scene_takes_the_smaller_is_its_picture() {
+        let most = Size::new(320, 240).unwrap();
+        let size = |name: &str| size_for(&Opened::new(name).unwrap().scene, most).unwrap();
+        assert!(size("glass").pixels() < size("ten-objects").pixels());
+        for (name, _) in BUILT_IN {
+            let size = size(name);
+            assert!(size.width() <= 320 && size.height() <= 240 && size.pixels() > 2000, "{name}: {size}");
+            let ratio = f64::from(size.width()) / f64::from(size.height());
+            assert!((ratio - 4.0 / 3.0).abs() < 0.1, "{name}: {size}");
+        }
+        let few = Size::new(3, 5).unwrap();
+        assert_eq!(size_for(&Opened::new("glass").unwrap().scene, few).unwrap(), few);
+    }
+}

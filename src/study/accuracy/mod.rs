@@ -1,0 +1,108 @@
+//! Speed against accuracy: what each knob of quality costs, and how far its picture is from a reference; and the same
+//! question of the ring, whose estimates of speeds and whose atoms may be finer or coarser.
+//!
+//! [`Reference`], [`measure`] and the automatic choice know no files and tell no words, so that the window can ask them
+//! about its own scene.
+
+mod charts;
+mod check;
+mod choice;
+mod fit;
+mod knobs;
+mod measure;
+mod reference;
+mod report;
+mod ring;
+mod scene;
+mod sharing;
+
+pub use choice::{best_within, fastest_within, front};
+pub use measure::{Point, measure};
+pub use reference::Reference;
+
+use serde::Serialize;
+
+use super::progress::Progress;
+use super::{Study, Tell};
+use crate::output::as_file_name;
+use crate::picture::Size;
+use crate::scene::Opened;
+use crate::view::CHART_SIZE;
+use ring::Ring;
+use scene::{Entry, Found};
+
+/// One quality of one scene.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    scene: String,
+    width: u32,
+    height: u32,
+    /// The knob that is turned alone, or `together`.
+    knob: &'static str,
+    /// What that is set to.
+    value: Option<f64>,
+    samples: u32,
+    threshold: f64,
+    max_depth: u32,
+    cutoff: f64,
+    cpu_s: f64,
+    rays: u64,
+    rmse: f64,
+    /// The error for this knob alone.
+    rmse_alone: Option<f64>,
+    wrong_pixels: u32,
+    worst_ssim: f64,
+}
+
+/// What is measured where all knobs are turned.
+const TOGETHER: &str = "together";
+
+impl Row {
+    fn new(found: &Found, entry: &Entry) -> Self {
+        let Entry { knob, value, point, alone } = *entry;
+        Self {
+            scene: found.scene.clone(),
+            width: found.size.width(),
+            height: found.size.height(),
+            knob: knob.map_or(TOGETHER, |knob| knob.name()),
+            value,
+            samples: point.quality.samples,
+            threshold: point.quality.threshold,
+            max_depth: point.quality.max_depth,
+            cutoff: point.quality.cutoff,
+            cpu_s: point.cpu_s,
+            rays: point.rays,
+            rmse: point.rmse(),
+            rmse_alone: alone,
+            wrong_pixels: point.difference.wrong_pixels,
+            worst_ssim: point.difference.worst_ssim,
+        }
+    }
+}
+
+/// The scenes in pictures of no more than `most`, smaller where a scene's trees of rays are large, and runs of the ring in
+/// virtual time.
+///
+/// # Errors
+/// A sentence, if a thread could not be started, or failed.
+pub fn accuracy(scenes: &[Opened], most: Size, tell: Tell<'_>) -> Result<Study, String> {
+    let mut progress = Progress::new(scenes.len() * (scene::steps() + 1) + ring::STEPS, tell);
+    let mut study = Study::new("accuracy");
+    let found: Vec<Found> =
+        scenes.iter().map(|opened| Found::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
+    let ring = Ring::of(scenes, most, &mut progress)?;
+    let rows: Vec<Row> =
+        found.iter().flat_map(|found| found.entries.iter().map(|entry| Row::new(found, entry))).collect();
+    study.add_rows(&rows)?;
+    study.add_table("ring", &ring.rows())?;
+    for found in &found {
+        let name = as_file_name(&found.scene);
+        study.add_chart(&format!("{name}-front"), &charts::front(found).marks(CHART_SIZE));
+        study.add_chart(&format!("{name}-alone"), &charts::alone(found).marks(CHART_SIZE));
+    }
+    study.add_chart("estimate", &charts::estimate(&ring).marks(CHART_SIZE));
+    study.add_chart("lateness", &charts::lateness(&ring).marks(CHART_SIZE));
+    study.add_chart("atoms", &charts::atoms(&ring).marks(CHART_SIZE));
+    study.add_report(report::report(&found, &ring));
+    Ok(study)
+}

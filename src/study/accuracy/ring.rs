@@ -1,0 +1,92 @@
+//! The ring's side of the question: runs in virtual time with many speeds, and with finer and coarser atoms.
+
+use std::time::Duration;
+
+use super::sharing::{NODES, Run, Shared, Transfer, run, usual};
+use crate::picture::Size;
+use crate::scene::Opened;
+use crate::study::progress::Progress;
+use crate::study::workbench::Workbench;
+
+/// Runs a scene.
+const SEEDS: u64 = 40;
+
+/// Runs of each size of atoms, and each latency.
+const FEW_SEEDS: u64 = 12;
+
+/// Steps besides one a scene.
+pub(super) const STEPS: usize = LATENCIES.len();
+
+/// A message's, in milliseconds, where sizes of atoms are compared.
+pub(super) const LATENCIES: [f64; 3] = [0.1, 1.0, 10.0];
+
+/// Pixels in an atom.
+const ATOMS: [u32; 10] = [5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+
+/// What is found of the ring.
+pub(super) struct Ring {
+    pub size: Size,
+    /// Runs of the scenes with atoms of 50 pixels, by scene, and their transfers.
+    pub shared: Vec<Vec<Shared>>,
+    /// Runs of the first scene, by latency, then by the size of atoms, then by speeds.
+    pub grained: Vec<Grain>,
+}
+
+/// Runs with one size of atoms, on several rings.
+pub(super) struct Grain {
+    pub latency_ms: f64,
+    pub atom_pixels: u32,
+    pub runs: Vec<Run>,
+}
+
+impl Grain {
+    /// The mean of something over the runs.
+    pub fn mean(&self, of: impl Fn(&Run) -> f64) -> f64 {
+        self.runs.iter().map(of).sum::<f64>() / self.runs.len() as f64
+    }
+}
+
+impl Ring {
+    /// Lets rings of eight machines share the scenes' pictures.
+    ///
+    /// # Errors
+    /// A sentence, if a scene could not be traced.
+    pub fn of(scenes: &[Opened], size: Size, progress: &mut Progress<'_>) -> Result<Self, String> {
+        let mut shared = Vec::new();
+        let mut first = None;
+        for opened in scenes {
+            progress.next(&format!("{}: rings of {NODES} machines", opened.name));
+            let bench = Workbench::new(opened, size, 1)?;
+            shared.push((0..SEEDS).map(|seed| usual(&bench, seed)).collect());
+            first.get_or_insert(bench);
+        }
+        let mut grained = Vec::new();
+        for latency_ms in LATENCIES {
+            progress.next(&format!("rings whose messages take {latency_ms} ms"));
+            let Some(bench) = &first else { continue };
+            let latency = Duration::from_secs_f64(latency_ms * 1e-3);
+            grained.extend(ATOMS.map(|atom_pixels| Grain {
+                latency_ms,
+                atom_pixels,
+                runs: (0..FEW_SEEDS).map(|seed| run(bench, atom_pixels, latency, seed).run).collect(),
+            }));
+        }
+        Ok(Self { size, shared, grained })
+    }
+
+    /// All runs.
+    pub fn rows(&self) -> Vec<Run> {
+        let usual = self.shared.iter().flatten().map(|shared| shared.run.clone());
+        usual.chain(self.grained.iter().flat_map(|grain| grain.runs.iter().cloned())).collect()
+    }
+
+    /// All transfers of runs with usual atoms.
+    pub fn transfers(&self) -> impl Iterator<Item = &Transfer> {
+        self.shared.iter().flatten().flat_map(|shared| &shared.transfers)
+    }
+
+    /// Runs with usual atoms as points: the error of the estimates, and the lateness.
+    pub fn points(runs: &[Shared]) -> Vec<(f64, f64)> {
+        runs.iter().filter_map(|shared| Some((shared.run.estimate_error?, shared.run.lateness))).collect()
+    }
+}
