@@ -1,7 +1,7 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
 pub mod accuracy;
-mod cpu;
+mod looks;
 mod needs;
 mod paper;
 mod peer;

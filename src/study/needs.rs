@@ -4,10 +4,12 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::cpu::{Looks, Traced};
+use super::accuracy::measure::median;
+use super::looks::Looks;
 use super::progress::Progress;
 use super::{Study, Tell};
 use crate::csg::{Reduction, Reductions};
+use crate::driver::Measured;
 use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
@@ -49,10 +51,12 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
             progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
             for (index, without) in without.iter().enumerate() {
                 // Side by side, so that what disturbs the computer disturbs both.
-                let (with, without) = (Traced::new(&all), Traced::new(without));
+                let [Some(with), Some(without)] = [&all, without].map(|tracer| Measured::of(tracer, &|| false)) else {
+                    continue;
+                };
                 ratios[index].push(without.cpu.as_secs_f64() / with.cpu.as_secs_f64());
                 seconds.push(with.cpu.as_secs_f64());
-                let pairs = with.pixels.iter().zip(&without.pixels);
+                let pairs = with.frame.pixels().iter().zip(without.frame.pixels());
                 differing[index] = pairs.filter(|(a, b)| srgb8(**a) != srgb8(**b)).count();
             }
         }
@@ -100,11 +104,6 @@ fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
         );
     }
     text
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {

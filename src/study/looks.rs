@@ -1,19 +1,8 @@
-//! A picture traced on this thread, and the CPU time that it took.
-
-use std::time::Duration;
+//! How soon there is something to see of a scene.
 
 use cpu_time::ThreadTime;
 
-use crate::picture::Colour;
 use crate::tracer::{Scratch, Tracer};
-
-/// A traced picture.
-pub(super) struct Traced {
-    /// In scan order.
-    pub pixels: Vec<Colour>,
-    /// Of this thread.
-    pub cpu: Duration,
-}
 
 /// How long looking at a scene takes, in seconds of CPU time on this thread.
 #[derive(Clone, Copy, Debug)]
@@ -37,19 +26,15 @@ impl Looks {
         let compiled = begun.elapsed().as_secs_f64();
         tracer.refine();
         let first = begun.elapsed().as_secs_f64();
-        let with = Traced::new(&tracer);
+        let picture = |tracer: &Tracer| {
+            let mut pixels = Vec::new();
+            tracer.trace(0..tracer.size().pixels(), &mut Scratch::default(), &mut pixels);
+            pixels
+        };
+        let with = picture(&tracer);
         let exact = begun.elapsed().as_secs_f64();
         let begun = ThreadTime::now();
-        let without = Traced::new(&compile());
-        Self { compiled, first, exact, plain: begun.elapsed().as_secs_f64(), same: with.pixels == without.pixels }
-    }
-}
-
-impl Traced {
-    pub fn new(tracer: &Tracer) -> Self {
-        let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
-        let begun = ThreadTime::now();
-        tracer.trace(0..tracer.size().pixels(), &mut scratch, &mut pixels);
-        Self { cpu: begun.elapsed(), pixels }
+        let without = picture(&compile());
+        Self { compiled, first, exact, plain: begun.elapsed().as_secs_f64(), same: with == without }
     }
 }
