@@ -210,7 +210,7 @@ impl Tree {
 
     /// Pushes the events of a node. Spans that lie outside `window` may be left out.
     #[inline(always)]
-    fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
+    pub(super) fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
         let Node { bounds, kind } = &self.nodes[node as usize];
         if bounds.entry(ray, window[0], window[1]).is_some() {
             self.events_within_bounds(kind, ray, start, window, stack);
@@ -285,6 +285,11 @@ impl Tree {
                 }
             }
         }
+    }
+
+    /// The events of a leaf.
+    pub(super) fn leaf_stays(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> Vec<Event> {
+        self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
     }
 
     #[inline(always)]

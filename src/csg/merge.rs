@@ -18,9 +18,12 @@ pub struct Event {
 
 /// A boolean operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operation {
+pub enum Operation {
+    /// What is in at least one of its operands.
     Union,
+    /// What is in all of them.
     Intersection,
+    /// What is in the first and in none of the others.
     Difference,
 }
 

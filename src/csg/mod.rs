@@ -4,6 +4,7 @@
 mod build;
 mod coincidence;
 mod compiled;
+mod figure;
 mod merge;
 mod primitive;
 mod quadratic;
@@ -14,7 +15,8 @@ mod span;
 mod torus;
 
 pub use compiled::{Dropped, Hit, Stack, Start, Tree, rank};
-pub use merge::Event;
+pub use figure::{Figure, What};
+pub use merge::{Event, Operation};
 pub use primitive::{Primitive, QuadricCoefficients};
 pub use reduction::{Reduction, Reductions};
 pub use shape::{Leaf, Surface};

@@ -25,6 +25,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The materials; the tag of a primitive is a place in this list.
     pub materials: Vec<Material>,
+    /// What the materials are called, in their order. The first is that of solids without one and has no name.
+    pub names: Vec<String>,
     /// The solids that stand in the scene.
     pub solids: Vec<Solid>,
 }

@@ -25,7 +25,9 @@ const MAX_DEPTH: usize = 100;
 pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
     let mut materials: Vec<Material> = vec![Material::default()];
     let mut tags = BTreeMap::new();
+    let mut called = vec![String::new()];
     for (name, material) in file.materials.0 {
+        called.push(name.clone());
         tags.insert(name, materials.len() as u32);
         materials.push(material);
     }
@@ -49,7 +51,7 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
         names.place(solid, DAffine3::IDENTITY, 0)?;
     }
     let SceneFile { camera, background, ambient, lights, .. } = file;
-    Ok(Scene { camera, background, ambient, lights, materials, solids })
+    Ok(Scene { camera, background, ambient, lights, materials, names: called, solids })
 }
 
 struct Names<'a> {

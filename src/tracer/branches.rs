@@ -118,6 +118,11 @@ impl Branches {
         Some(Branch { number, ..next })
     }
 
+    /// What all of them that were not traced count together.
+    pub fn weight(&self) -> f64 {
+        self.weight
+    }
+
     #[inline(always)]
     fn next_at_once(&mut self, cutoff: f64) -> Option<Branch> {
         while let Some(next) = self.at_once.pop() {

@@ -4,6 +4,7 @@ mod branches;
 mod bvh;
 mod camera;
 mod compiled;
+mod explain;
 mod hit;
 mod media;
 mod path;
@@ -13,6 +14,7 @@ mod shade;
 mod world;
 
 pub use compiled::Compiled;
+pub use explain::{Explained, Lit, Met, RayNotes};
 pub use path::{Path, RayKind};
 pub use preview::Preview;
 pub use shade::Scratch;
@@ -27,6 +29,7 @@ use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
 use camera::Camera;
+use explain::Note;
 use path::Watch;
 use pattern::Pattern;
 use world::World;
@@ -124,11 +127,15 @@ impl Tracer {
         let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
         let Quality { samples, threshold, pattern, .. } = self.quality;
         let pattern = Pattern::new(x, y, pattern);
-        let colour = match samples {
-            1 => at([0.5; 2]),
+        let (colour, shares) = match samples {
+            1 => (at([0.5; 2]), [1.0; 2]),
             _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern, at),
-            _ => (0..samples.pow(2)).map(|index| at(pattern.sample(index))).sum::<DVec3>() / f64::from(samples.pow(2)),
+            _ => {
+                let share = 1.0 / f64::from(samples.pow(2));
+                ((0..samples.pow(2)).map(|index| at(pattern.sample(index))).sum::<DVec3>() * share, [share; 2])
+            }
         };
+        watch.note(|| Note::Shares(shares));
         colour.as_vec3().to_array()
     }
 }
@@ -139,14 +146,15 @@ impl Tracer {
 /// little it cuts off (Whitted 1980 looks at corners too), and what is small is likely met within. If they are the same
 /// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
 /// estimated as no more than that.
-fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> DVec3 {
+/// Also returns the shares of the mean that each of the corners has, and each of the others.
+fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> (DVec3, [f64; 2]) {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(&mut at);
     let within = [0, 1, 2, 3].map(|index| at(pattern.sample(index)));
     let all = || corners.iter().chain(&within);
     let greatest = all().fold(DVec3::NEG_INFINITY, |greatest, colour| greatest.max(*colour));
     let least = all().fold(DVec3::INFINITY, |least, colour| least.min(*colour));
     if (greatest - least).max_element() <= threshold {
-        return all().sum::<DVec3>() / 8.0;
+        return (all().sum::<DVec3>() / 8.0, [1.0 / 8.0; 2]);
     }
     let mut sum: DVec3 = within.iter().sum();
     let mut squares: DVec3 = within.iter().map(|&colour| colour * colour).sum();
@@ -166,5 +174,5 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
             break;
         }
     }
-    sum / f64::from(count)
+    (sum / f64::from(count), [0.0, 1.0 / f64::from(count)])
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::explain::Note;
 use super::{Scratch, Tracer};
 use crate::geometry::Ray;
 
@@ -16,6 +17,8 @@ pub struct Path {
     /// The ray at whose end it starts, by its number among the sample's: the primary ray has 0, and the others are
     /// numbered as they are traced, but for shadow rays. None for a primary ray.
     pub from: Option<u64>,
+    /// What the sample keeps of its colour; of a shadow ray's, what it keeps of that of the ray at whose end it starts.
+    pub weight: f64,
     /// Where it starts and where it goes.
     pub ray: Ray,
     /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
@@ -50,6 +53,9 @@ impl Tracer {
 pub(super) trait Watch {
     /// A ray was traced; `path` tells its way, which may take work.
     fn see(&mut self, path: impl FnOnce() -> Path);
+
+    /// Something is known of the ray whose path was seen last, but for shadow rays.
+    fn note(&mut self, _: impl FnOnce() -> Note) {}
 }
 
 /// Does not look, so that no path is ever worked out.

@@ -5,6 +5,7 @@
 use glam::DVec3;
 
 use super::branches::{Branch, Branches};
+use super::explain::{Lit, Met, Note};
 use super::hit::{Memory, has_turned_at};
 use super::media::{Media, MediaSets, Medium};
 use super::path::{Path, RayKind, Watch};
@@ -71,6 +72,7 @@ impl Tracer {
             scratch.rays.count(branch.kind);
             colour += self.colour(&branch, scratch, watch) * branch.weight;
         }
+        watch.note(|| Note::LeftOut(scratch.branches.weight()));
         colour
     }
 
@@ -87,6 +89,7 @@ impl Tracer {
         }
         watch.see(|| path(branch, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
         let Some((root, hit)) = nearest else {
+            watch.note(|| Note::Background(self.world.background));
             return self.world.background;
         };
         let place = self.place(ray, root, &hit, has_turned_at(*start, ray, hit.t), *media, around);
@@ -120,7 +123,10 @@ impl Tracer {
             watch.see(|| path(branch, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
             return match nearest {
                 Some(_) => self.shade(&ray, &place, branch, scratch, watch),
-                None => self.world.background,
+                None => {
+                    watch.note(|| Note::Background(self.world.background));
+                    self.world.background
+                }
             };
         }
     }
@@ -143,10 +149,19 @@ impl Tracer {
     ) -> DVec3 {
         let finish = place.finish;
         let mut colour = finish.ambient;
+        watch.note(|| {
+            let Place { start, enters, normal, media, .. } = *place;
+            let met = Met { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
+            Note::Met { met, began: branch.start, ambient: colour, inside: scratch.media.get(media).len() }
+        });
         for index in 0..self.world.lights.len() {
             colour += self.light(index, ray, place, branch, scratch, watch);
         }
-        if (finish.ks == 0.0 && finish.kt == 0.0) || branch.level == self.quality.max_depth {
+        if finish.ks == 0.0 && finish.kt == 0.0 {
+            return colour;
+        }
+        if branch.level == self.quality.max_depth {
+            watch.note(|| Note::TooDeep(branch.weight * (finish.ks + finish.kt)));
             return colour;
         }
         let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, place)).flatten();
@@ -224,21 +239,27 @@ impl Tracer {
             kind: RayKind::Shadow,
             level: branch.level,
             from: Some(branch.number),
+            weight: branch.weight,
             ray: onward,
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
         let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
         if arriving == 0.0 {
+            watch.note(|| Note::Lit(Lit { light: index, arriving, diffuse: DVec3::ZERO, specular: DVec3::ZERO }));
             return DVec3::ZERO;
         }
-        let mut reflected = place.finish.diffuse * cosine;
+        let diffuse = place.finish.diffuse * cosine;
+        let mut specular = 0.0;
         if place.finish.ks > 0.0 {
             let towards_eye = -ray.direction.dot(reflect(-direction, place.normal));
             if towards_eye > 0.0 {
-                reflected += place.finish.ks * place.finish.exponent.raise(towards_eye);
+                specular = place.finish.ks * place.finish.exponent.raise(towards_eye);
             }
         }
-        intensity * arriving * reflected
+        let coming = intensity * arriving;
+        watch
+            .note(|| Note::Lit(Lit { light: index, arriving, diffuse: coming * diffuse, specular: coming * specular }));
+        coming * (diffuse + specular)
     }
 }
 
@@ -248,7 +269,7 @@ fn is_hidden(root: u32, around: Option<Medium>) -> bool {
 }
 
 fn path(branch: &Branch, to: f64) -> Path {
-    Path { kind: branch.kind, level: branch.level, from: branch.from, ray: branch.ray, to }
+    Path { kind: branch.kind, level: branch.level, from: branch.from, weight: branch.weight, ray: branch.ray, to }
 }
 
 /// Of length 1 again: in a mirror ball, what is missing or too much would grow 18 times with each reflection.

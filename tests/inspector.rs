@@ -1,0 +1,116 @@
+//! What the inspector tells of a pixel is what made it.
+
+use anel::csg::{Figure, Operation, What};
+use anel::picture::{Quality, Size};
+use anel::scene::{BUILT_IN, Scene};
+use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
+use glam::DVec3;
+
+fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
+    BUILT_IN.iter().map(|(name, text)| (*name, Scene::parse(text).expect("a built-in scene")))
+}
+
+/// For each pixel what it is told of it, and its colour.
+fn each_pixel(scene: &Scene, quality: Quality, mut each: impl FnMut(&Tracer, Vec<Explained>, [f32; 3], RayCounts)) {
+    let size = Size::new(40, 30).expect("a small picture");
+    let tracer = Tracer::new(scene, size, quality);
+    for pixel in 0..size.pixels() {
+        let (mut alone, mut colour) = (Scratch::default(), Vec::new());
+        tracer.trace(pixel..pixel + 1, &mut alone, &mut colour);
+        let mut watched = Scratch::default();
+        let explained = tracer.explain(pixel, &mut watched);
+        assert_eq!(watched.rays, alone.rays, "who looks on changes nothing");
+        each(&tracer, explained, colour[0], alone.rays);
+    }
+}
+
+#[test]
+fn the_sum_of_all_terms_is_the_colour_of_the_pixel() {
+    let usual = Quality::default();
+    for quality in [usual, Quality { samples: 2, ..usual }, Quality { samples: 6, threshold: 0.02, ..usual }] {
+        for (name, scene) in built_in() {
+            each_pixel(&scene, quality, |_, samples, colour, _| {
+                let sum = samples.iter().fold(DVec3::ZERO, |sum, sample| sum + sample.colour() * sample.share);
+                let colour = DVec3::from_array(colour.map(f64::from));
+                // The colour is an f32.
+                assert!(sum.abs_diff_eq(colour, 1e-6 * (1.0 + colour.max_element())), "{name}: {sum} is not {colour}");
+                let shares: f64 = samples.iter().map(|sample| sample.share).sum();
+                assert!((shares - 1.0).abs() < 1e-12, "{name}: the shares are {shares} together");
+                for sample in &samples {
+                    assert!(sample.brings(0).abs_diff_eq(sample.colour(), 1e-12 * (1.0 + sum.length())), "{name}");
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
+    for (name, scene) in built_in() {
+        each_pixel(&scene, Quality::default(), |_, samples, _, rays| {
+            let [sample] = &samples[..] else { panic!("{name}: one sample") };
+            let of = |kind| sample.rays.iter().filter(|ray| ray.path.kind == kind).count() as u64;
+            let counted = [RayKind::Primary, RayKind::Reflected, RayKind::Refracted].map(of);
+            assert_eq!(counted, [rays.primary, rays.reflected, rays.refracted], "{name}");
+            let lit: usize = sample.rays.iter().map(|ray| ray.lights.len()).sum();
+            assert_eq!(lit as u64, rays.shadow, "{name}");
+            assert!(sample.left_out <= Quality::default().cutoff, "{name}");
+            for ray in &sample.rays {
+                let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
+                let material = &scene.materials[from.met.expect("it starts somewhere").tag as usize];
+                let part = ray.path.weight / from.path.weight;
+                let possible = match ray.path.kind {
+                    RayKind::Refracted => vec![material.kt],
+                    // All of it under total internal reflection.
+                    _ => vec![material.ks, material.ks + material.kt],
+                };
+                assert!(possible.iter().any(|expected| (part - expected).abs() < 1e-12), "{name}: {part}");
+            }
+        });
+    }
+}
+
+/// Where the stays of a composition begin and end, by its operands' alone.
+fn recomputed(operation: Operation, operands: &[Figure]) -> impl Fn(f64) -> bool {
+    move |t| {
+        let mut holds = operands.iter().map(|operand| operand.stays.iter().any(|[from, to]| *from <= t && t <= *to));
+        match operation {
+            Operation::Union => holds.any(|holds| holds),
+            Operation::Intersection => holds.all(|holds| holds),
+            Operation::Difference => holds.next() == Some(true) && !holds.any(|holds| holds),
+        }
+    }
+}
+
+fn assert_made_of_its_operands(figure: &Figure, name: &str) {
+    if let What::Composition(operation) = figure.what {
+        let mut places: Vec<f64> =
+            figure.operands.iter().flat_map(|operand| operand.stays.concat()).filter(|t| t.is_finite()).collect();
+        places.sort_by(f64::total_cmp);
+        let holds = recomputed(operation, &figure.operands);
+        for pair in places.windows(2).filter(|pair| pair[1] - pair[0] > 1e-6) {
+            let middle = (pair[0] + pair[1]) / 2.0;
+            let is_inside = figure.stays.iter().any(|[from, to]| *from < middle && middle < *to);
+            assert_eq!(is_inside, holds(middle), "{name}: {operation:?} at {middle}: {figure:#?}");
+        }
+    }
+    figure.operands.iter().for_each(|operand| assert_made_of_its_operands(operand, name));
+}
+
+#[test]
+fn figures_show_what_a_ray_passes_and_what_it_hits() {
+    for (name, scene) in built_in() {
+        each_pixel(&scene, Quality::default(), |tracer, samples, _, _| {
+            for ray in samples[0].rays.iter().take(4) {
+                let figures = tracer.figures(&ray.path.ray, ray.began, ray.path.to);
+                figures.iter().for_each(|(_, figure)| assert_made_of_its_operands(figure, name));
+                let Some(met) = ray.met else { continue };
+                // Where the ray ends, a stay of the solid that it met begins or ends.
+                let (_, figure) =
+                    figures.iter().find(|(root, _)| *root == met.start.root).expect("the solid that it met");
+                let near = figure.stays.concat().iter().any(|t| (t - ray.path.to).abs() < 1e-9 * (1.0 + t.abs()));
+                assert!(near, "{name}: {} is not in {figure:#?}", ray.path.to);
+            }
+        });
+    }
+}
