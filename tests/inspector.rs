@@ -4,7 +4,6 @@ use anel::csg::{Figure, Operation, What};
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
 use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
-use glam::DVec3;
 
 fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
     BUILT_IN.iter().map(|(name, text)| (*name, Scene::parse(text).expect("a built-in scene")))
@@ -30,14 +29,11 @@ fn the_sum_of_all_terms_is_the_colour_of_the_pixel() {
     for quality in [usual, Quality { samples: 2, ..usual }, Quality { samples: 6, threshold: 0.02, ..usual }] {
         for (name, scene) in built_in() {
             each_pixel(&scene, quality, |_, samples, colour, _| {
-                let sum = samples.iter().fold(DVec3::ZERO, |sum, sample| sum + sample.colour() * sample.share);
-                let colour = DVec3::from_array(colour.map(f64::from));
-                // The colour is an f32.
-                assert!(sum.abs_diff_eq(colour, 1e-6 * (1.0 + colour.max_element())), "{name}: {sum} is not {colour}");
-                let shares: f64 = samples.iter().map(|sample| sample.share).sum();
-                assert!((shares - 1.0).abs() < 1e-12, "{name}: the shares are {shares} together");
+                // To the last bit.
+                assert_eq!(Explained::mean(&samples).as_vec3().to_array(), colour, "{name}");
                 for sample in &samples {
-                    assert!(sample.brings(0).abs_diff_eq(sample.colour(), 1e-12 * (1.0 + sum.length())), "{name}");
+                    let (colour, brought) = (sample.colour(), sample.brings(0));
+                    assert!(brought.abs_diff_eq(colour, 1e-12 * (1.0 + colour.length())), "{name}");
                 }
             });
         }
@@ -54,6 +50,7 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
             assert_eq!(counted, [rays.primary, rays.reflected, rays.refracted], "{name}");
             let lit: usize = sample.rays.iter().map(|ray| ray.lights.len()).sum();
             assert_eq!(lit as u64, rays.shadow, "{name}");
+            assert!(sample.rays.iter().all(|ray| ray.lights.len() == ray.shadows.len()), "{name}");
             assert!(sample.left_out <= Quality::default().cutoff, "{name}");
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
@@ -102,7 +99,7 @@ fn figures_show_what_a_ray_passes_and_what_it_hits() {
     for (name, scene) in built_in() {
         each_pixel(&scene, Quality::default(), |tracer, samples, _, _| {
             for ray in samples[0].rays.iter().take(4) {
-                let figures = tracer.figures(&ray.path.ray, ray.began, ray.path.to);
+                let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
                 figures.iter().for_each(|(_, figure)| assert_made_of_its_operands(figure, name));
                 let Some(met) = ray.met else { continue };
                 // Where the ray ends, a stay of the solid that it met begins or ends.

@@ -1,5 +1,6 @@
 //! A ray's stays in a solid and in all that it is made of (the article's Figure 2).
 
+use super::coincidence::coincide;
 use super::compiled::Kind;
 use super::{Event, Operation, Start, Surface, Tree};
 use crate::geometry::Ray;
@@ -34,13 +35,37 @@ impl Tree {
     /// ray starts, if it starts on a solid.
     pub fn figure(&self, root: u32, ray: &Ray, start: Option<Start>) -> Figure {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
-        self.figure_of_node(root, ray, start)
+        let mut figure = self.figure_of_node(root, ray, start);
+        if start.is_none() && !figure.operands.is_empty() {
+            figure.stays = stays(&self.without_slivers(&self.node_events(root, ray, start), ray));
+        }
+        figure
+    }
+
+    /// What a ray that starts elsewhere meets (see [`super::coincidence`]).
+    fn without_slivers(&self, mut events: &[Event], ray: &Ray) -> Vec<Event> {
+        let mut kept = Vec::new();
+        while let [event, rest @ ..] = events {
+            events = match rest {
+                [next, rest @ ..] if coincide(&self.leaves, *event, *next, ray) => rest,
+                _ => {
+                    kept.push(*event);
+                    rest
+                }
+            };
+        }
+        kept
+    }
+
+    fn node_events(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Vec<Event> {
+        const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut events = Vec::new();
+        self.events(node, ray, start, EVERYWHERE, &mut events);
+        events
     }
 
     fn figure_of_node(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Figure {
-        const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-        let mut events: Vec<Event> = Vec::new();
-        self.events(node, ray, start, EVERYWHERE, &mut events);
+        let events = self.node_events(node, ray, start);
         let (what, operands) = match &self.nodes[node as usize].kind {
             Kind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
             Kind::Convex(leaves) => {

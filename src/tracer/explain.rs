@@ -13,8 +13,8 @@ use crate::geometry::Ray;
 pub struct Explained {
     /// Its primary, reflected and refracted rays in the order in which they were traced; a ray's number is its place here.
     pub rays: Vec<RayNotes>,
-    /// What part of the pixel it is; 0 of a corner that only told that more samples are needed.
-    pub share: f64,
+    /// Whether it is one of those whose mean the pixel is: a corner may only tell that more samples are needed.
+    pub counts: bool,
     /// What the rays that were left out would have counted together: no more than the cutoff.
     pub left_out: f64,
 }
@@ -24,8 +24,7 @@ pub struct Explained {
 pub struct RayNotes {
     /// Its way.
     pub path: Path,
-    /// Where it started, unless that was the eye.
-    pub began: Option<Start>,
+
     /// What it met; nothing, if it met no solid.
     pub met: Option<Met>,
     /// In how many solids that transmit it was.
@@ -34,6 +33,8 @@ pub struct RayNotes {
     pub ambient: DVec3,
     /// The terms Kd Il (N·L) and Ks Il (S·R)ⁿ of each light that is on its side.
     pub lights: Vec<Lit>,
+    /// The ways of the rays to these lights.
+    pub shadows: Vec<Path>,
     /// What rays from its end would count, which the limit of the tree of rays forbids.
     pub too_deep: f64,
 }
@@ -58,10 +59,12 @@ pub struct Lit {
     pub light: usize,
     /// What part of its intensity arrives.
     pub arriving: f64,
-    /// Kd Il (N·L)
+    /// The light that arrives: Il.
+    pub coming: DVec3,
+    /// Kd (N·L), by the surface's colour.
     pub diffuse: DVec3,
-    /// Ks Il (S·R)ⁿ
-    pub specular: DVec3,
+    /// Ks (S·R)ⁿ
+    pub specular: f64,
 }
 
 /// What is known of a ray.
@@ -69,7 +72,6 @@ pub(super) enum Note {
     Background(DVec3),
     Met {
         met: Met,
-        began: Option<Start>,
         ambient: DVec3,
         inside: usize,
     },
@@ -77,14 +79,14 @@ pub(super) enum Note {
     TooDeep(f64),
     /// Of the whole sample.
     LeftOut(f64),
-    /// Of all samples: the part of the pixel that each of the first four is, and each of the others.
-    Shares([f64; 2]),
+    /// Of all samples: whether the pixel is the mean of all of them, or of all but the first four.
+    FirstCount(bool),
 }
 
 impl RayNotes {
     /// What it brings, but for what comes by rays that start at its end.
     pub fn colour(&self) -> DVec3 {
-        self.lights.iter().fold(self.ambient, |sum, lit| sum + (lit.diffuse + lit.specular))
+        self.lights.iter().fold(self.ambient, |sum, lit| sum + lit.coming * (lit.diffuse + lit.specular))
     }
 }
 
@@ -94,7 +96,14 @@ impl Explained {
         self.rays.iter().fold(DVec3::ZERO, |sum, ray| sum + ray.colour() * ray.path.weight)
     }
 
-    /// What comes by the ray of this number and all that follow from it, times what the sample keeps of it.
+    /// The colour of the pixel of these samples.
+    pub fn mean(samples: &[Self]) -> DVec3 {
+        let counting = || samples.iter().filter(|sample| sample.counts);
+        counting().map(Self::colour).sum::<DVec3>() / counting().count() as f64
+    }
+
+    /// What comes by the ray of this number (its place in [`Explained::rays`]) and all that follow from it, times what the
+    /// sample keeps of it.
     pub fn brings(&self, number: usize) -> DVec3 {
         let mut sums: Vec<DVec3> = self.rays.iter().map(|ray| ray.colour() * ray.path.weight).collect();
         // A ray comes after that at whose end it starts.
@@ -116,20 +125,22 @@ impl Tracer {
         notes.0
     }
 
-    /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters them: its
-    /// stays in each and in all that it is made of.
+    /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
+    /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
     pub fn figures(&self, ray: &Ray, start: Option<Start>, to: f64) -> Vec<(u32, Figure)> {
         let roots = self.world.unbounded.iter().copied().chain(self.world.bounded.roots());
         let figures = roots.map(|root| (root, self.world.tree.figure(root, ray, start)));
-        let entered = |figure: &Figure| figure.stays.iter().find(|[_, leave]| *leave > 0.0).map(|[enter, _]| *enter);
-        let passed = figures.filter(|(_, figure)| entered(figure).is_some_and(|enter| enter <= to));
-        let mut passed: Vec<(u32, Figure)> = passed.collect();
-        passed.sort_by(|(_, a), (_, b)| {
-            let [a, b] = [a, b].map(|figure| entered(figure).unwrap_or(f64::INFINITY));
-            a.total_cmp(&b)
-        });
-        passed
+        let mut passed: Vec<(f64, u32, Figure)> =
+            figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
+        passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        passed.into_iter().map(|(_, root, figure)| (root, figure)).collect()
     }
+}
+
+/// Where a ray first enters a solid or any of its operands; infinite if it enters none.
+fn entered(figure: &Figure) -> f64 {
+    let own = figure.stays.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
+    figure.operands.iter().map(entered).fold(own, f64::min)
 }
 
 /// Writes everything down.
@@ -140,17 +151,22 @@ impl Watch for Notes {
     fn see(&mut self, path: impl FnOnce() -> Path) {
         let path = path();
         match path.kind {
-            RayKind::Shadow => return,
+            RayKind::Shadow => {
+                let ray = self.0.last_mut().and_then(|sample| sample.rays.last_mut());
+                ray.into_iter().for_each(|ray| ray.shadows.push(path));
+                return;
+            }
             RayKind::Primary => self.0.push(Explained::default()),
             RayKind::Reflected | RayKind::Refracted => {}
         }
         let ray = RayNotes {
             path,
-            began: None,
+
             met: None,
             inside: 0,
             ambient: DVec3::ZERO,
             lights: Vec::new(),
+            shadows: Vec::new(),
             too_deep: 0.0,
         };
         self.0.last_mut().into_iter().for_each(|sample| sample.rays.push(ray.clone()));
@@ -158,22 +174,20 @@ impl Watch for Notes {
 
     fn note(&mut self, note: impl FnOnce() -> Note) {
         let note = note();
-        if let Note::Shares([first, others]) = note {
-            let shares = [first; 4].into_iter().chain(std::iter::repeat(others));
-            self.0.iter_mut().zip(shares).for_each(|(sample, share)| sample.share = share);
+        if let Note::FirstCount(count) = note {
+            self.0.iter_mut().enumerate().for_each(|(place, sample)| sample.counts = count || place >= 4);
             return;
         }
         let Some(sample) = self.0.last_mut() else { return };
         let Some(ray) = sample.rays.last_mut() else { return };
         match note {
             Note::Background(colour) => ray.ambient = colour,
-            Note::Met { met, began, ambient, inside } => {
-                (ray.met, ray.began, ray.ambient, ray.inside) = (Some(met), began, ambient, inside);
-            }
+            Note::Met { met, ambient, inside } => (ray.met, ray.ambient, ray.inside) = (Some(met), ambient, inside),
             Note::Lit(lit) => ray.lights.push(lit),
             Note::TooDeep(weight) => ray.too_deep = weight,
-            Note::LeftOut(weight) => sample.left_out = weight,
-            Note::Shares(_) => {}
+            // What is left of a sum may be less than nothing by rounding.
+            Note::LeftOut(weight) => sample.left_out = weight.max(0.0),
+            Note::FirstCount(_) => {}
         }
     }
 }

@@ -127,15 +127,15 @@ impl Tracer {
         let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
         let Quality { samples, threshold, pattern, .. } = self.quality;
         let pattern = Pattern::new(x, y, pattern);
-        let (colour, shares) = match samples {
-            1 => (at([0.5; 2]), [1.0; 2]),
+        let (colour, corners_count) = match samples {
+            1 => (at([0.5; 2]), true),
             _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern, at),
             _ => {
-                let share = 1.0 / f64::from(samples.pow(2));
-                ((0..samples.pow(2)).map(|index| at(pattern.sample(index))).sum::<DVec3>() * share, [share; 2])
+                let all = (0..samples.pow(2)).map(|index| at(pattern.sample(index)));
+                (all.sum::<DVec3>() / f64::from(samples.pow(2)), true)
             }
         };
-        watch.note(|| Note::Shares(shares));
+        watch.note(|| Note::FirstCount(corners_count));
         colour.as_vec3().to_array()
     }
 }
@@ -146,15 +146,15 @@ impl Tracer {
 /// little it cuts off (Whitted 1980 looks at corners too), and what is small is likely met within. If they are the same
 /// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
 /// estimated as no more than that.
-/// Also returns the shares of the mean that each of the corners has, and each of the others.
-fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> (DVec3, [f64; 2]) {
+/// Also returns whether the corners are among the samples whose mean it is.
+fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> (DVec3, bool) {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(&mut at);
     let within = [0, 1, 2, 3].map(|index| at(pattern.sample(index)));
     let all = || corners.iter().chain(&within);
     let greatest = all().fold(DVec3::NEG_INFINITY, |greatest, colour| greatest.max(*colour));
     let least = all().fold(DVec3::INFINITY, |least, colour| least.min(*colour));
     if (greatest - least).max_element() <= threshold {
-        return (all().sum::<DVec3>() / 8.0, [1.0 / 8.0; 2]);
+        return (all().sum::<DVec3>() / 8.0, true);
     }
     let mut sum: DVec3 = within.iter().sum();
     let mut squares: DVec3 = within.iter().map(|&colour| colour * colour).sum();
@@ -174,5 +174,5 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
             break;
         }
     }
-    (sum / f64::from(count), [0.0, 1.0 / f64::from(count)])
+    (sum / f64::from(count), false)
 }

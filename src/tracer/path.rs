@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::explain::Note;
 use super::{Scratch, Tracer};
+use crate::csg::Start;
 use crate::geometry::Ray;
 
 /// A ray's way, from where it starts to where it ends.
@@ -21,6 +22,8 @@ pub struct Path {
     pub weight: f64,
     /// Where it starts and where it goes.
     pub ray: Ray,
+    /// The face that it starts on; a primary ray starts on none.
+    pub start: Option<Start>,
     /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
     /// no light through. Infinite if it ends nowhere.
     pub to: f64,

@@ -152,7 +152,7 @@ impl Tracer {
         watch.note(|| {
             let Place { start, enters, normal, media, .. } = *place;
             let met = Met { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
-            Note::Met { met, began: branch.start, ambient: colour, inside: scratch.media.get(media).len() }
+            Note::Met { met, ambient: colour, inside: scratch.media.get(media).len() }
         });
         for index in 0..self.world.lights.len() {
             colour += self.light(index, ray, place, branch, scratch, watch);
@@ -241,11 +241,14 @@ impl Tracer {
             from: Some(branch.number),
             weight: branch.weight,
             ray: onward,
+            start: Some(place.turned()),
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
         let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
         if arriving == 0.0 {
-            watch.note(|| Note::Lit(Lit { light: index, arriving, diffuse: DVec3::ZERO, specular: DVec3::ZERO }));
+            watch.note(|| {
+                Note::Lit(Lit { light: index, arriving, coming: DVec3::ZERO, diffuse: DVec3::ZERO, specular: 0.0 })
+            });
             return DVec3::ZERO;
         }
         let diffuse = place.finish.diffuse * cosine;
@@ -257,8 +260,7 @@ impl Tracer {
             }
         }
         let coming = intensity * arriving;
-        watch
-            .note(|| Note::Lit(Lit { light: index, arriving, diffuse: coming * diffuse, specular: coming * specular }));
+        watch.note(|| Note::Lit(Lit { light: index, arriving, coming, diffuse, specular }));
         coming * (diffuse + specular)
     }
 }
@@ -269,7 +271,15 @@ fn is_hidden(root: u32, around: Option<Medium>) -> bool {
 }
 
 fn path(branch: &Branch, to: f64) -> Path {
-    Path { kind: branch.kind, level: branch.level, from: branch.from, weight: branch.weight, ray: branch.ray, to }
+    Path {
+        kind: branch.kind,
+        level: branch.level,
+        from: branch.from,
+        weight: branch.weight,
+        ray: branch.ray,
+        start: branch.start,
+        to,
+    }
 }
 
 /// Of length 1 again: in a mirror ball, what is missing or too much would grow 18 times with each reflection.
