@@ -44,7 +44,7 @@ fn rmse(a: &[Colour], b: &[Colour]) -> f64 {
 fn all_that_is_cut_off_counts_no_more_than_the_cutoff() {
     let scene = Scene::parse(WHITE).expect("a scene");
     let with = |cutoff| picture(&scene, Quality { cutoff, max_depth: 100, ..Quality::default() });
-    let (exact, mut most_rays) = with(1e-9);
+    let (exact, mut most_rays) = with(1e-7);
     for cutoff in [1e-4, 1e-3, 1.0 / 255.0, 0.02, 0.1, 0.5] {
         let (pixels, rays) = with(cutoff);
         let worst = brighter(&pixels, &exact).fold(0.0, f64::max);
@@ -96,4 +96,31 @@ fn more_samples_come_nearer_whatever_the_pattern() {
     }
     assert_eq!(with(1, 0), with(1, 1), "one sample lies in the middle of its pixel");
     assert_ne!(with(2, 0), with(2, 1));
+}
+
+#[test]
+fn a_preview_costs_the_picture_nothing() {
+    for (name, text) in BUILT_IN {
+        let scene = Scene::parse(text).expect("a built-in scene");
+        let size = Size::new(75, 41).expect("a small picture");
+        let traced = |tracer: &Tracer| {
+            let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
+            tracer.trace(0..size.pixels(), &mut scratch, &mut pixels);
+            (pixels, scratch.rays)
+        };
+        let mut tracer = Tracer::new(&scene, size, Quality::default());
+        let plain = traced(&tracer);
+        for step in [16, 8, 4, 2, 1] {
+            tracer.refine();
+            let preview = tracer.preview().expect("a preview");
+            assert_eq!(preview.step(), step);
+            for (x, y) in [(0, 0), (16, 32), (64, 16)] {
+                assert_eq!(preview.guess(x, y), plain.0[(y * 75 + x) as usize], "{name}: a pixel that is known");
+            }
+            assert!(traced(&tracer) == plain, "{name}: with every {step}th pixel known beforehand");
+        }
+        let preview = tracer.preview().expect("the whole picture");
+        let whole: Vec<_> = (0..size.pixels()).map(|pixel| preview.guess(pixel % 75, pixel / 75)).collect();
+        assert!(whole == plain.0, "{name}");
+    }
 }

@@ -78,7 +78,10 @@ fn walls_stand() {
     let walls: [(&[&str], &[&str]); 4] = [
         (&["egui::", "eframe::"], &["src/gui/"]),
         (&["crossbeam_channel", "std::thread"], &["src/driver/", "src/gui/session/"]),
-        (&["Instant::now", "ThreadTime"], &["src/driver/", "src/gui/session/", "src/cli/", "src/study/rivals.rs"]),
+        (
+            &["Instant::now", "ThreadTime"],
+            &["src/driver/", "src/gui/session/", "src/cli/", "src/study/rivals.rs", "src/study/looks.rs"],
+        ),
         (&["glow::", "rfd::"], &["src/gui/"]),
     ];
     for path in sources("src") {

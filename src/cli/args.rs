@@ -39,12 +39,12 @@ pub(super) enum Command {
     /// Make many runs and say what they show: CSV, charts, and a report
     Study {
         /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines; rivals: what sharing costs
-        /// at full speed; stability: where methods fail; peer: every pixel beside POV-Ray's; accuracy: what each knob of quality
-        /// costs, and how far its picture is from the truth
+        /// at full speed; stability: where methods fail; peer: every pixel beside POV-Ray's; needs: what compiling a scene
+        /// keeps, and what that saves; accuracy: what each knob of quality costs, and how far its picture is from the truth
         #[arg(value_enum)]
         kind: StudyKind,
-        /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals, peer and accuracy all that are built in;
-        /// for stability none]
+        /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals, peer, needs and accuracy all that
+        /// are built in; for stability none]
         #[arg(long)]
         scene: Option<String>,
         /// The directory for the files
@@ -70,6 +70,7 @@ pub(super) enum StudyKind {
     Rivals,
     Stability,
     Peer,
+    Needs,
     Accuracy,
 }
 

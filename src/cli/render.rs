@@ -57,8 +57,9 @@ pub(super) fn run_and_save(
     }
     // In virtual time nothing is contended for.
     let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
-    let report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
+    let mut report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
     if to.json {
+        report.levels = tracer.levels();
         return print(&report.json());
     }
     // The picture is what was asked for; where standard error is closed the figures are not missed.

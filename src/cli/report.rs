@@ -39,6 +39,8 @@ pub(super) struct Report {
     atoms_by_node: Vec<u32>,
     messages: Messages,
     compiled: Compiled,
+    /// Of a sample of the pixels: primary, reflected and refracted rays on each level of their trees.
+    pub levels: Vec<u64>,
 }
 
 impl Report {
@@ -67,6 +69,7 @@ impl Report {
             atoms_by_node: tally.atoms_by_node(),
             messages: tally.messages(),
             compiled: tracer.compiled(),
+            levels: Vec::new(),
         }
     }
 

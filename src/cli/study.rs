@@ -11,7 +11,7 @@ use super::{Failure, open, print, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
-use crate::study::{Study, accuracy, paper, peer, rivals, scale, stability};
+use crate::study::{Study, accuracy, needs, paper, peer, rivals, scale, stability};
 
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
 pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: bool) -> Result<(), Failure> {
@@ -21,7 +21,7 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         }
         (None, StudyKind::Stability) => Vec::new(),
         (Some(scene), _) => vec![scene],
-        (None, StudyKind::Rivals | StudyKind::Peer | StudyKind::Accuracy) => {
+        (None, StudyKind::Rivals | StudyKind::Peer | StudyKind::Needs | StudyKind::Accuracy) => {
             BUILT_IN.iter().map(|(name, _)| *name).collect()
         }
         (None, _) => vec!["ten-objects"],
@@ -43,6 +43,7 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         StudyKind::Scale => scale(&scenes[0], &mut told),
         StudyKind::Rivals => rivals(&scenes, &mut told),
         StudyKind::Peer => Size::new(320, 240).and_then(|size| peer(&scenes, size, &mut told)),
+        StudyKind::Needs => needs(&scenes, &mut told),
         StudyKind::Stability => stability(&mut told),
         StudyKind::Accuracy => Size::new(320, 240).and_then(|size| accuracy(&scenes, size, &mut told)),
     };

@@ -3,18 +3,24 @@
 
 use super::compiled::{Kind, Node, Tree};
 use super::merge::Operation;
-use super::{Leaf, Solid};
+use super::{Leaf, Reduction, Reductions, Solid};
 use crate::geometry::{Aabb, split};
 
 /// Of more operands a union is a tree.
 const FEW: usize = 4;
 
 impl Tree {
+    /// Nothing yet; solids will be compiled by these reductions.
+    pub fn new(reductions: Reductions) -> Self {
+        Self { reductions, ..Self::default() }
+    }
+
     /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
     pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
         let (operation, solids) = match solid {
             Solid::Placed { primitive, scene_from_own, tag } => {
-                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag);
+                let shapes = self.reductions.has(Reduction::Shapes);
+                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag, shapes);
                 self.leaves.push(leaf);
                 return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
             }
@@ -30,27 +36,29 @@ impl Tree {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };
                     bounds = bounds.union(child_bounds);
-                    children.extend(self.parts(Operation::Union, child));
+                    children.push(child);
                 }
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
                     bounds = bounds.intersection(child_bounds);
-                    if bounds.is_empty() {
+                    if bounds.is_empty() && self.reductions.has(Reduction::Reach) {
+                        self.dropped.empty += 1;
                         return None;
                     }
-                    children.extend(self.parts(Operation::Intersection, child));
+                    children.push(child);
                 }
                 Operation::Difference if index == 0 => {
                     let (child, child_bounds) = child?;
                     bounds = child_bounds;
-                    // (a − b) − c = a − b − c
-                    children.extend(self.parts(Operation::Difference, child));
+                    children.push(child);
                 }
                 Operation::Difference => {
-                    let Some((child, _)) = child else { continue };
-                    // a − (b ∪ c) = a − b − c, and what does not reach the first operand takes nothing from it.
-                    let reach = |part: &u32| !bounds.intersection(self.nodes[*part as usize].bounds).is_empty();
-                    children.extend(self.parts(Operation::Union, child).into_iter().filter(reach));
+                    let Some((child, child_bounds)) = child else { continue };
+                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Reduction::Reach) {
+                        self.dropped.out_of_reach += 1;
+                    } else {
+                        children.push(child);
+                    }
                 }
             }
         }
@@ -59,12 +67,12 @@ impl Tree {
         }
         match operation {
             Operation::Union => return Some((self.union_of(&children), bounds)),
-            Operation::Intersection => self.join_convex(&mut children),
-            Operation::Difference if children.len() - 1 > FEW => {
+            Operation::Intersection if self.reductions.has(Reduction::Convex) => self.join_convex(&mut children),
+            Operation::Difference if children.len() - 1 > FEW && self.reductions.has(Reduction::Neighbours) => {
                 let taken = self.union_of(&children[1..]);
                 children.splice(1.., [taken]);
             }
-            Operation::Difference => {}
+            Operation::Intersection | Operation::Difference => {}
         }
         match children[..] {
             [only] => {
@@ -87,7 +95,8 @@ impl Tree {
             return *only;
         }
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let place = if parts.len() > FEW { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
+        let is_tree = parts.len() > FEW && self.reductions.has(Reduction::Neighbours);
+        let place = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
         let children = match parts.split_at_mut(place) {
             ([], all) => all.iter().map(|(part, _)| *part).collect(),
             (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
@@ -116,20 +125,15 @@ impl Tree {
         }
     }
 
+    /// Gives up the boxes of all compositions, if they are not asked for.
+    pub fn finish(&mut self) {
+        if !self.reductions.has(Reduction::Boxes) {
+            self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);
+        }
+    }
+
     fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
         self.nodes.push(Node { bounds, kind });
         self.nodes.len() as u32 - 1
-    }
-
-    /// The operands of `node` if it is a composition by `operation`, else itself.
-    fn parts(&self, operation: Operation, node: u32) -> Vec<u32> {
-        match &self.nodes[node as usize].kind {
-            Kind::Composition { operation: same, children } if *same == operation => match operation {
-                // Those of a tree of unions.
-                Operation::Union => children.iter().flat_map(|&child| self.parts(operation, child)).collect(),
-                _ => children.clone(),
-            },
-            _ => vec![node],
-        }
     }
 }

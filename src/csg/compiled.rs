@@ -1,9 +1,11 @@
 //! A scene's solids, compiled: what can never be seen is gone, and every composition knows its bounds.
 
+use serde::Serialize;
+
 use super::coincidence::coincide;
 use super::merge::{Operation, merge};
 use super::span::Span;
-use super::{Event, Leaf, Surface};
+use super::{Event, Leaf, Reductions, Surface};
 use crate::geometry::{Aabb, Ray, greater, lesser};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
@@ -11,6 +13,17 @@ use crate::geometry::{Aabb, Ray, greater, lesser};
 pub struct Tree {
     pub(super) leaves: Vec<Leaf>,
     pub(super) nodes: Vec<Node>,
+    pub(super) reductions: Reductions,
+    pub(super) dropped: Dropped,
+}
+
+/// What was left out of solids, since nothing of it can be seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Dropped {
+    /// Compositions that were proved empty.
+    pub empty: usize,
+    /// Operands of differences that take nothing away.
+    pub out_of_reach: usize,
 }
 
 /// Where a ray first crosses the boundary of a solid.
@@ -75,6 +88,22 @@ pub(super) enum Kind {
 }
 
 impl Tree {
+    /// What was left out.
+    pub fn dropped(&self) -> Dropped {
+        self.dropped
+    }
+
+    /// How many boolean operations the solid `root` is made by.
+    pub fn operations_of(&self, root: u32) -> usize {
+        match &self.nodes[root as usize].kind {
+            Kind::Leaf(_) => 0,
+            Kind::Convex(_) => 1,
+            Kind::Composition { children, .. } => {
+                1 + children.iter().map(|&child| self.operations_of(child)).sum::<usize>()
+            }
+        }
+    }
+
     /// The leaf that a surface belongs to.
     pub fn leaf(&self, surface: Surface) -> &Leaf {
         &self.leaves[surface.leaf as usize]

@@ -7,13 +7,15 @@ mod compiled;
 mod merge;
 mod primitive;
 mod quadratic;
+mod reduction;
 mod shape;
 mod solid;
 mod span;
 mod torus;
 
-pub use compiled::{Hit, Stack, Start, Tree, rank};
+pub use compiled::{Dropped, Hit, Stack, Start, Tree, rank};
 pub use merge::Event;
 pub use primitive::{Primitive, QuadricCoefficients};
+pub use reduction::{Reduction, Reductions};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;

@@ -71,8 +71,9 @@ struct Own {
 }
 
 impl Leaf {
-    /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it.
-    pub(super) fn new(primitive: &Primitive, scene_from_own: &DAffine3, tag: u32) -> (Self, Aabb) {
+    /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it. With
+    /// `shapes`, balls and boxes along the axes are stored as such.
+    pub(super) fn new(primitive: &Primitive, scene_from_own: &DAffine3, tag: u32, shapes: bool) -> (Self, Aabb) {
         let own_from_scene = scene_from_own.inverse();
         let to_own = own_from_scene.matrix3;
         let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];
@@ -85,7 +86,7 @@ impl Leaf {
         let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
         let about = |half: DVec3| Aabb { min: centre - half, max: centre + half };
         let (shape, bounds) = match *primitive {
-            Primitive::Sphere => match uniform_scale(columns) {
+            Primitive::Sphere => match uniform_scale(columns).filter(|_| shapes) {
                 Some(radius) => (Shape::Ball { centre, radius }, about(DVec3::splat(radius))),
                 None => {
                     let half = columns.iter().map(|&column| column * column).sum::<DVec3>().map(f64::sqrt);
@@ -100,7 +101,7 @@ impl Leaf {
             }
             Primitive::Cube => {
                 let bounds = Aabb::of_cube(scene_from_own);
-                let along_axes = (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
+                let along_axes = shapes && (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
                 (if along_axes { Shape::Block(bounds) } else { Shape::Cube(own()) }, bounds)
             }
             Primitive::Cylinder => (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2]))),
@@ -231,6 +232,21 @@ impl Leaf {
                     })
                 })
             }
+        }
+    }
+
+    /// What kind of primitive it has become.
+    pub fn kind(&self) -> &'static str {
+        match &self.shape {
+            Shape::Ball { .. } => "ball",
+            Shape::HalfSpace { .. } => "half-space",
+            Shape::Block(_) => "box along the axes",
+            Shape::Ellipsoid(_) => "ellipsoid",
+            Shape::Cube(_) => "box",
+            Shape::Cylinder(_) => "cylinder",
+            Shape::Cone { .. } => "cone",
+            Shape::Torus { .. } => "torus",
+            Shape::Quadric { .. } => "quadric",
         }
     }
 

@@ -1,6 +1,8 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
 pub mod accuracy;
+mod looks;
+mod needs;
 mod paper;
 mod peer;
 mod progress;
@@ -11,6 +13,7 @@ mod stability;
 mod workbench;
 
 pub use accuracy::accuracy;
+pub use needs::needs;
 pub use paper::paper;
 pub use peer::peer;
 pub use progress::Tell;

@@ -46,6 +46,14 @@ impl Bvh {
         bvh
     }
 
+    /// No hierarchy: all solids in one box.
+    pub fn flat(solids: Vec<(u32, Aabb)>) -> Self {
+        let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
+        let roots: Vec<_> = solids.iter().map(|(root, _)| *root).collect();
+        let top = (!roots.is_empty()).then_some((bounds, Child { to: 0, count: roots.len() as u32 }));
+        Self { top, nodes: Vec::new(), roots }
+    }
+
     pub fn roots(&self) -> impl Iterator<Item = u32> {
         self.roots.iter().copied()
     }

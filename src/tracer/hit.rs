@@ -67,43 +67,19 @@ impl World {
     }
 
     /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
-    /// every surface between two media on the way, 0 behind anything that does not transmit. `suspect` is the solid that blocked this light last: it
-    /// often blocks it again; what it is changes the time, never the answer.
+    /// every surface between two media on the way, 0 behind anything that does not transmit.
     #[inline(always)]
-    pub fn light_arriving(
-        &self,
-        ray: &Ray,
-        start: Start,
-        media: &[Medium],
-        t_max: f64,
-        suspect: &mut Option<u32>,
-        memory: &mut Memory,
-    ) -> f64 {
+    pub fn light_arriving(&self, ray: &Ray, start: Start, media: &[Medium], t_max: f64, memory: &mut Memory) -> f64 {
         let Memory { spans, boxes, surfaces, media: inside } = memory;
-        // Where a ray gets past it, those beside will too.
-        let suspected = suspect.take();
-        if let Some(root) = suspected
-            && self.tree.nearest(root, ray, Some(start), t_max, spans).is_some()
-        {
-            *suspect = suspected;
-            return 0.0;
-        }
         let mut arriving = 1.0;
         surfaces.clear();
         let mut test = |root: u32, t_max: f64| {
-            if suspected == Some(root) {
-                // It has just been cleared.
-            } else if self.transmits[root as usize] {
-                self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
-                    let kt = self.finish(hit.surface).kt;
-                    surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
-                    arriving = if kt > 0.0 { arriving } else { 0.0 };
-                    kt > 0.0
-                });
-            } else if self.tree.nearest(root, ray, Some(start), t_max, spans).is_some() {
-                *suspect = Some(root);
-                arriving = 0.0;
-            }
+            self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
+                let kt = self.finish(hit.surface).kt;
+                surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
+                arriving = if kt > 0.0 { arriving } else { 0.0 };
+                kt > 0.0
+            });
             if arriving > 0.0 { t_max } else { -1.0 }
         };
         for &root in &self.unbounded {

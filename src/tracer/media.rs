@@ -4,8 +4,6 @@
 //! not there (C. M. Schmidt and B. Budge, *Simple Nested Dielectrics in Ray Traced Images*, 2002, whose priorities are the
 //! order of the scene here). So glass that overlaps the water in it leaves no gap of air between them.
 
-use std::ops::Range;
-
 /// A solid that transmits, by its root, and its index of refraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Medium {
@@ -13,33 +11,32 @@ pub(super) struct Medium {
     pub ior: f64,
 }
 
-/// All that a ray is in: a part of the [`MediaStack`].
+/// All that a ray is in: one of the [`MediaSets`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Media {
     start: usize,
     end: usize,
 }
 
-/// The media of every ray of a sample.
+/// The sets of media that the rays of a sample are in.
 #[derive(Debug, Default)]
-pub(super) struct MediaStack(Vec<Medium>);
+pub(super) struct MediaSets {
+    all: Vec<Medium>,
+    sets: Vec<Media>,
+}
 
-impl MediaStack {
+impl MediaSets {
     /// Begins with what the eye is in.
     pub fn restart(&mut self, eye: &[Medium]) -> Media {
-        self.0.clear();
-        self.0.extend_from_slice(eye);
-        Media { start: 0, end: self.0.len() }
-    }
-
-    /// How high it is.
-    pub fn height(&self) -> usize {
-        self.0.len()
+        self.all.clear();
+        self.sets.clear();
+        self.all.extend_from_slice(eye);
+        self.found(0)
     }
 
     /// All that a ray is in.
     pub fn get(&self, media: Media) -> &[Medium] {
-        &self.0[Range::from(media)]
+        &self.all[media.start..media.end]
     }
 
     /// What fills the place around the boundary of `root`: of all others that the ray is in, the first in the scene.
@@ -47,26 +44,36 @@ impl MediaStack {
         self.get(media).iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root).copied()
     }
 
-    /// What a ray is in after it has entered or left `medium`. It begins at `height`: if `media` already do, they make way.
-    pub fn beyond(&mut self, height: usize, media: Media, medium: Medium, enters: bool) -> Media {
-        if media.start < height {
-            self.0.truncate(height);
-            self.0.extend_from_within(Range::from(media));
-        }
-        let others = self.0[height..].iter().position(|other| other.root == medium.root);
-        if let Some(place) = others {
-            self.0.remove(height + place);
+    /// What a ray is in after it has entered or left `medium`.
+    pub fn beyond(&mut self, media: Media, medium: Medium, enters: bool) -> Media {
+        let start = self.all.len();
+        for index in media.start..media.end {
+            if self.all[index].root != medium.root {
+                self.all.push(self.all[index]);
+            }
         }
         if enters {
-            self.0.push(medium);
+            self.all.push(medium);
         }
-        Media { start: height, end: self.0.len() }
+        self.found(start)
     }
-}
 
-impl From<Media> for Range<usize> {
-    fn from(Media { start, end }: Media) -> Self {
-        start..end
+    /// The set that begins at `start` and is the last; an equal one, if one of the last has been the same. So rays that
+    /// go in and out of the same solids, however many, take no memory.
+    fn found(&mut self, start: usize) -> Media {
+        const LOOKED_AT: usize = 16;
+        let new = Media { start, end: self.all.len() };
+        let known = self.sets.iter().rev().take(LOOKED_AT).find(|known| self.get(**known) == self.get(new));
+        match known.copied() {
+            Some(known) => {
+                self.all.truncate(start);
+                known
+            }
+            None => {
+                self.sets.push(new);
+                new
+            }
+        }
     }
 }
 
@@ -80,28 +87,28 @@ mod tests {
 
     #[test]
     fn the_first_in_the_scene_fills_a_place() {
-        let mut stack = MediaStack::default();
-        let start = stack.restart(&[medium(7)]);
-        assert_eq!((stack.around(start, 3), stack.around(start, 7)), (Some(medium(7)), None));
-        let three = stack.beyond(stack.height(), start, medium(3), true);
-        let inside = stack.beyond(stack.height(), three, medium(5), true);
-        assert_eq!([3, 5, 9].map(|root| stack.around(inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
-        assert_eq!(stack.get(start), [medium(7)]);
-        assert_eq!(stack.get(three), [medium(7), medium(3)], "what starts later leaves the others as they are");
+        let mut sets = MediaSets::default();
+        let start = sets.restart(&[medium(7)]);
+        assert_eq!((sets.around(start, 3), sets.around(start, 7)), (Some(medium(7)), None));
+        let three = sets.beyond(start, medium(3), true);
+        let inside = sets.beyond(three, medium(5), true);
+        assert_eq!([3, 5, 9].map(|root| sets.around(inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
+        assert_eq!(sets.get(start), [medium(7)]);
+        assert_eq!(sets.get(three), [medium(7), medium(3)]);
     }
 
     #[test]
-    fn a_ray_that_goes_on_and_on_keeps_one_set() {
-        let mut stack = MediaStack::default();
-        let start = stack.restart(&[medium(0)]);
-        let height = stack.height();
+    fn a_ray_that_goes_on_and_on_takes_no_memory() {
+        let mut sets = MediaSets::default();
+        let start = sets.restart(&[medium(0)]);
         let mut media = start;
-        for root in 1..100 {
-            media = stack.beyond(height, media, medium(root), true);
-            media = stack.beyond(height, media, medium(root), false);
+        for root in 0..1000 {
+            media = sets.beyond(media, medium(1 + root % 3), true);
+            media = sets.beyond(media, medium(1 + root % 3), false);
+            assert_eq!(media, start);
         }
-        assert_eq!((stack.get(media), stack.height()), (&[medium(0)][..], 2));
-        media = stack.beyond(height, media, medium(0), false);
-        assert_eq!((stack.get(media), stack.get(start)), (&[][..], &[medium(0)][..]));
+        assert_eq!(sets.all.len(), 1 + 3 * 2);
+        media = sets.beyond(media, medium(0), false);
+        assert_eq!((sets.get(media), sets.get(start)), (&[][..], &[medium(0)][..]));
     }
 }

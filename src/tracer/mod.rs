@@ -1,15 +1,20 @@
 //! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
 
+mod branches;
 mod bvh;
 mod camera;
+mod compiled;
 mod hit;
 mod media;
 mod path;
 mod pattern;
+mod preview;
 mod shade;
 mod world;
 
+pub use compiled::Compiled;
 pub use path::{Path, RayKind};
+pub use preview::Preview;
 pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
@@ -17,11 +22,12 @@ use std::ops::{AddAssign, Range};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use crate::csg::Reductions;
 use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
 use camera::Camera;
-use path::{Nobody, Watch};
+use path::Watch;
 use pattern::Pattern;
 use world::World;
 
@@ -70,17 +76,24 @@ pub struct Tracer {
     camera: Camera,
     size: Size,
     quality: Quality,
+    preview: Option<Preview>,
 }
 
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        Self { world: World::new(scene), camera: Camera::new(&scene.camera, size), size, quality }
+        Self::reduced(scene, size, quality, Reductions::default())
     }
 
-    /// What the compiled scene kept, in figures.
-    pub fn compiled(&self) -> Compiled {
-        self.world.compiled()
+    /// Compiles `scene` by some of the reductions only. The picture is the same.
+    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Reductions) -> Self {
+        Self {
+            world: World::new(scene, reductions),
+            camera: Camera::new(&scene.camera, size),
+            size,
+            quality,
+            preview: None,
+        }
     }
 
     /// Width and height of the picture.
@@ -103,7 +116,7 @@ impl Tracer {
     ///
     /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        out.extend(pixels.map(|pixel| self.pixel(pixel, scratch, &mut Nobody)));
+        out.extend(pixels.map(|pixel| self.known_or_traced(pixel, scratch)));
     }
 
     fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
@@ -154,23 +167,4 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
         }
     }
     sum / f64::from(count)
-}
-
-/// What a compiled scene kept of its solids: tells why it costs what it costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Compiled {
-    /// Solids that a ray is tested against one by one.
-    pub solids: usize,
-    /// Solids of these that are made of several primitives.
-    pub compositions: usize,
-    /// Solids without bounds, which every ray has to be tested against.
-    pub unbounded: usize,
-    /// Solids that were proved empty and dropped.
-    pub dropped: usize,
-    /// Lights.
-    pub lights: usize,
-    /// Whether any surface reflects other solids: if not, no reflection code runs.
-    pub reflects: bool,
-    /// Whether any surface transmits: if not, no refraction code runs and a shadow ray ends at the first solid.
-    pub transmits: bool,
 }

@@ -15,7 +15,7 @@ pub struct Path {
     pub level: u32,
     /// The ray at whose end it starts, by its number among the sample's: the primary ray has 0, and the others are
     /// numbered as they are traced, but for shadow rays. None for a primary ray.
-    pub from: Option<u32>,
+    pub from: Option<u64>,
     /// Where it starts and where it goes.
     pub ray: Ray,
     /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets

@@ -2,13 +2,11 @@
 //!
 //! Cp = Ka Ia + Kd Σ Ilj (N·Lj) + Ks Σ Ilj (S·Rj)ⁿ + Ks Is + Kt It
 
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
-
 use glam::DVec3;
 
+use super::branches::{Branch, Branches};
 use super::hit::{Memory, has_turned_at};
-use super::media::{Media, MediaStack, Medium};
+use super::media::{Media, MediaSets, Medium};
 use super::path::{Path, RayKind, Watch};
 use super::world::Finish;
 use super::{RayCounts, Tracer};
@@ -22,10 +20,8 @@ pub struct Scratch {
     /// Rays traced with this scratch so far.
     pub rays: RayCounts,
     memory: Memory,
-    media: MediaStack,
+    media: MediaSets,
     branches: Branches,
-    /// The solid that blocked each light last.
-    suspects: Vec<Option<u32>>,
 }
 
 /// A hit with what the equation needs of it.
@@ -54,91 +50,9 @@ impl Place<'_> {
     }
 }
 
-/// A ray of the tree of rays.
-#[derive(Clone, Copy, Debug)]
-struct Branch {
-    kind: RayKind,
-    /// What the sample keeps of the ray's colour.
-    weight: f64,
-    /// 1 for a primary ray.
-    level: u32,
-    /// Its number among the sample's rays, as they are traced.
-    number: u32,
-    /// That of the ray at whose end it starts.
-    from: Option<u32>,
-    ray: Ray,
-    start: Option<Start>,
-    /// What it is in.
-    media: Media,
-}
-
-/// The tree of rays of a sample: those that were traced and those that wait for it.
-///
-/// The ray that counts most is traced first, until all that wait together count no more than the cutoff. So a limit of
-/// what is lost costs as few rays as it can: to end each branch where it is weak (Hall and Greenberg, *A Testbed for
-/// Realistic Image Synthesis*, 1983) says nothing of what many weak branches add up to.
-#[derive(Debug, Default)]
-struct Branches {
-    all: Vec<Branch>,
-    waiting: BinaryHeap<Waiting>,
-    /// What those that wait count together.
-    weight: f64,
-    /// How many were traced.
-    traced: u32,
-}
-
-/// A branch that waits, by its weight and its number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Waiting(f64, Reverse<usize>);
-
-impl Eq for Waiting {}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        // Of equal ones the older first, so that the order is always the same.
-        self.0.total_cmp(&other.0).then(self.1.cmp(&other.1))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Branches {
-    fn restart(&mut self) {
-        self.all.clear();
-        self.waiting.clear();
-        self.weight = 0.0;
-        self.traced = 1;
-    }
-
-    #[inline(always)]
-    fn add(&mut self, branch: Branch) {
-        self.weight += branch.weight;
-        self.waiting.push(Waiting(branch.weight, Reverse(self.all.len())));
-        self.all.push(branch);
-    }
-
-    /// The next to be traced, unless what waits counts no more than `cutoff`.
-    #[inline(always)]
-    fn next(&mut self, cutoff: f64) -> Option<Branch> {
-        if self.weight <= cutoff {
-            return None;
-        }
-        let Waiting(weight, Reverse(number)) = self.waiting.pop()?;
-        self.weight -= weight;
-        let branch = Branch { number: self.traced, ..self.all[number] };
-        self.traced += 1;
-        Some(branch)
-    }
-}
-
 impl Tracer {
     /// The colour that a primary ray brings, in linear light.
     pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
-        scratch.suspects.resize(self.world.lights.len(), None);
         scratch.rays.count(RayKind::Primary);
         let media = scratch.media.restart(&self.world.eye_media);
         scratch.branches.restart();
@@ -189,10 +103,9 @@ impl Tracer {
         scratch: &mut Scratch,
         watch: &mut impl Watch,
     ) -> DVec3 {
-        let height = scratch.media.height();
         let (mut ray, mut passed) = (branch.ray, 0.0);
         loop {
-            let media = scratch.media.beyond(height, place.media, place.medium(), place.enters);
+            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
             ray = ray.onward(place.t, ray.direction);
             passed += place.t;
             let start = Some(place.start);
@@ -230,10 +143,8 @@ impl Tracer {
     ) -> DVec3 {
         let finish = place.finish;
         let mut colour = finish.ambient;
-        if finish.lit {
-            for index in 0..self.world.lights.len() {
-                colour += self.light(index, ray, place, branch, scratch, watch);
-            }
+        for index in 0..self.world.lights.len() {
+            colour += self.light(index, ray, place, branch, scratch, watch);
         }
         if (finish.ks == 0.0 && finish.kt == 0.0) || branch.level == self.quality.max_depth {
             return colour;
@@ -259,8 +170,7 @@ impl Tracer {
         };
         follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.turned(), place.media);
         if let Some(direction) = refracted {
-            let height = scratch.media.height();
-            let media = scratch.media.beyond(height, place.media, place.medium(), place.enters);
+            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
             follow(RayKind::Refracted, finish.kt, direction, place.start, media);
         }
         colour
@@ -308,7 +218,7 @@ impl Tracer {
             return DVec3::ZERO;
         }
         scratch.rays.count(RayKind::Shadow);
-        let Scratch { memory, suspects, media, .. } = scratch;
+        let Scratch { memory, media, .. } = scratch;
         let onward = ray.onward(place.t, direction);
         watch.see(|| Path {
             kind: RayKind::Shadow,
@@ -317,9 +227,7 @@ impl Tracer {
             ray: onward,
             to: self.world.light_ends(&onward, place.turned(), distance, memory),
         });
-        let suspect = &mut suspects[index];
-        let arriving =
-            self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, suspect, memory);
+        let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
         if arriving == 0.0 {
             return DVec3::ZERO;
         }

@@ -2,17 +2,15 @@
 
 use glam::DVec3;
 
-use super::Compiled;
 use super::bvh::Bvh;
+use super::compiled::Given;
 use super::media::Medium;
-use crate::csg::{Solid, Surface, Tree};
+use crate::csg::{Reduction, Reductions, Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
 #[derive(Debug)]
 pub(super) struct World {
     pub tree: Tree,
-    /// Whether anything of the solid transmits, by its root.
-    pub transmits: Vec<bool>,
     /// The roots with bounds.
     pub bounded: Bvh,
     /// The roots without.
@@ -21,8 +19,11 @@ pub(super) struct World {
     pub lights: Vec<Light>,
     /// The solids that transmit and that the eye is in.
     pub eye_media: Vec<Medium>,
-    finishes: Vec<Finish>,
-    dropped: usize,
+    pub finishes: Vec<Finish>,
+    /// What the scene's file has.
+    pub given: Given,
+    /// Solids that were proved empty.
+    pub dropped: usize,
 }
 
 /// A material with its constants multiplied out.
@@ -36,8 +37,6 @@ pub(super) struct Finish {
     pub kt: f64,
     pub exponent: Exponent,
     pub ior: f64,
-    /// Whether lights matter to it.
-    pub lit: bool,
 }
 
 /// Phong's exponent: whole ones, the usual case, need no logarithm.
@@ -57,12 +56,16 @@ impl Exponent {
 }
 
 impl World {
-    pub fn new(scene: &Scene) -> Self {
-        let mut tree = Tree::default();
-        let (mut bounded, mut unbounded, mut transmits, mut dropped) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    pub fn new(scene: &Scene, reductions: Reductions) -> Self {
+        let mut tree = Tree::new(reductions);
+        let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
         let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
-            split(solid, scene, &mut solids);
+            if reductions.has(Reduction::Apart) {
+                split(solid, scene, &mut solids);
+            } else {
+                solids.push(solid);
+            }
         }
         for solid in solids {
             let Some((root, bounds)) = tree.add(solid) else {
@@ -74,44 +77,28 @@ impl World {
             } else {
                 unbounded.push(root);
             }
-            transmits.resize(root as usize + 1, false);
             let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
             let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
-            transmits[root as usize] = transmitting.is_some();
             if let Some(material) = transmitting.filter(|_| solid.holds(scene.camera.eye)) {
                 eye_media.push(Medium { root, ior: material.ior });
             }
         }
+        tree.finish();
         Self {
             tree,
-            transmits,
-            bounded: Bvh::new(bounded),
+            bounded: if reductions.has(Reduction::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
             unbounded,
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
-            finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient)).collect(),
+            finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient, reductions)).collect(),
+            given: Given::of(&scene.solids),
             dropped,
         }
     }
 
     pub fn finish(&self, surface: Surface) -> &Finish {
         &self.finishes[self.tree.leaf(surface).tag as usize]
-    }
-
-    pub fn compiled(&self) -> Compiled {
-        let roots = || self.bounded.roots().chain(self.unbounded.iter().copied());
-        let finishes =
-            || roots().flat_map(|root| self.tree.leaves_of(root)).map(|leaf| &self.finishes[leaf.tag as usize]);
-        Compiled {
-            solids: roots().count(),
-            compositions: roots().filter(|&root| self.tree.leaves_of(root).len() > 1).count(),
-            unbounded: self.unbounded.len(),
-            dropped: self.dropped,
-            lights: self.lights.len(),
-            reflects: finishes().any(|finish| finish.ks > 0.0),
-            transmits: finishes().any(|finish| finish.kt > 0.0),
-        }
     }
 }
 
@@ -136,16 +123,19 @@ fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
 }
 
 impl Finish {
-    fn new(material: &Material, ambient: DVec3) -> Self {
+    fn new(material: &Material, ambient: DVec3, reductions: Reductions) -> Self {
         let Material { colour, ka, kd, ks, kt, n, ior } = *material;
         Self {
             ambient: colour * ambient * ka,
             diffuse: colour * kd,
             ks,
             kt,
-            exponent: if n.fract() == 0.0 { Exponent::Whole(n as i32) } else { Exponent::Real(n) },
+            exponent: if n.fract() == 0.0 && reductions.has(Reduction::Powers) {
+                Exponent::Whole(n as i32)
+            } else {
+                Exponent::Real(n)
+            },
             ior,
-            lit: ks > 0.0 || colour * kd != DVec3::ZERO,
         }
     }
 }

@@ -20,6 +20,8 @@ pub struct Canvas {
     blend: f32,
     render: Vec<Rgb>,
     placed: Vec<bool>,
+    /// Whether `render` has a preview where nothing is placed.
+    previewed: bool,
     shown: Vec<Rgb>,
     dirty: Vec<bool>,
 }
@@ -37,6 +39,7 @@ impl Canvas {
             blend: 0.0,
             render: vec![[0; 3]; pixels],
             placed: vec![false; division.atoms() as usize],
+            previewed: false,
             shown: vec![ground; pixels],
             dirty: vec![true; size.height() as usize],
         }
@@ -59,6 +62,16 @@ impl Canvas {
             *to = srgb8(from);
         }
         self.placed[atoms.start as usize..atoms.end as usize].fill(true);
+    }
+
+    /// Shows faintly what a pixel, at its place from the left and from the top, will look like.
+    pub fn preview(&mut self, guess: impl Fn(u32, u32) -> Colour, state: &RunState) {
+        let width = self.size.width();
+        for (pixel, to) in (0..).zip(&mut self.render) {
+            *to = srgb8(guess(pixel % width, pixel / width));
+        }
+        self.previewed = true;
+        self.paint(0..self.division.atoms(), state);
     }
 
     /// Draws atoms anew after what `state` knows of them.
@@ -121,7 +134,16 @@ impl Canvas {
             (None, true) => 1.0,
             (Some(_), _) => 0.6,
         };
-        self.shown[pixels].fill(colour.map_or(self.ground, |colour| mix(self.ground, colour, strength)));
+        let plain = colour.map_or(self.ground, |colour| mix(self.ground, colour, strength));
+        if self.previewed && !traced_now {
+            // Fainter the more owners are shown, so that what is done stands out.
+            let share = 0.35 - 0.2 * self.blend;
+            for (to, &guess) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
+                *to = mix(plain, guess, share);
+            }
+        } else {
+            self.shown[pixels].fill(plain);
+        }
     }
 }
 

@@ -91,7 +91,7 @@ impl Session {
     pub(super) fn play(&mut self, recorded: Recorded) {
         self.jobs.watch(None);
         let replay = Replay::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
-        self.set_stage(Performer::Recorded(replay), recorded.log.header.clone());
+        self.set_stage(Performer::Recorded(replay), recorded.log.header.clone(), &recorded.tracer);
         self.recorded = Some(recorded);
     }
 

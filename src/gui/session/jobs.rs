@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
@@ -137,7 +137,7 @@ impl Jobs {
         self.start("prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
-                    let tracer = tracer(&opened.scene, size, quality);
+                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality)));
                     let found = probe(&tracer, division, PROBE);
                     let cpu = found.whole_with_rests(&tracer, division);
                     let virtual_time = RAY.mul_f64(found.rays as f64);
@@ -147,7 +147,8 @@ impl Jobs {
                     check_size(log.header.size)?;
                     let scene = Scene::parse(&log.header.scene_text);
                     let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
-                    let tracer = tracer(&scene, log.header.size, log.header.quality);
+                    let tracer = Tracer::new(&scene, log.header.size, log.header.quality);
+                    let tracer = Arc::new(with_preview(tracer));
                     Ok(Ready::Run(Recorded { log, tracer }))
                 }
             });
@@ -237,9 +238,25 @@ const PROBE: Duration = Duration::from_millis(120);
 /// How often a file that is watched is looked at.
 const LOOK: Duration = Duration::from_millis(700);
 
-fn tracer(scene: &Scene, size: Size, quality: Quality) -> Arc<Tracer> {
-    Arc::new(Tracer::new(scene, size, quality))
+/// With as much of a preview as does not keep its user waiting.
+#[expect(clippy::disallowed_methods, reason = "how long a user waits is no matter of the run's clock")]
+fn with_preview(mut tracer: Tracer) -> Tracer {
+    let begun = Instant::now();
+    loop {
+        tracer.refine();
+        let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= FINEST);
+        // The next step takes three times as long as all before it.
+        if is_fine || 4 * begun.elapsed() > PREVIEW {
+            return tracer;
+        }
+    }
 }
+
+/// How long a preview may take.
+const PREVIEW: Duration = Duration::from_millis(200);
+
+/// Where most of the picture is known beforehand, there is little for the nodes to do.
+const FINEST: u32 = 4;
 
 /// Whether a window can hold a recorded picture.
 fn check_size(size: Size) -> Result<(), String> {
@@ -264,7 +281,7 @@ fn told(path: &Path, saved: Result<(), OutputError>) -> Result<String, String> {
 fn thumbnail(scene: &Scene) -> Thumbnail {
     // Neither side is 0, and there are few pixels.
     let size = Size::new(400, 300).expect("a possible size");
-    let tracer = tracer(scene, size, Quality { samples: 2, ..Quality::default() });
+    let tracer = Tracer::new(scene, size, Quality { samples: 2, ..Quality::default() });
     let (mut pixels, mut frame) = (Vec::new(), Frame::new(size));
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
     frame.place(0..size.pixels(), &pixels);

@@ -20,6 +20,7 @@ use crate::palette::Rgb;
 use crate::runlog::Header;
 use crate::scene::Opened;
 use crate::time::Time;
+use crate::tracer::Tracer;
 
 pub use jobs::{Done, Purpose};
 use jobs::{Jobs, Prepared, Ready, Recorded};
@@ -306,12 +307,13 @@ impl Session {
         let work = prepared.work(self.settings.driver);
         let header = self.settings.header(&opened.name, &opened.text, work, cores());
         let run = Run::start(Arc::clone(&prepared.tracer), &header);
-        self.set_stage(Performer::Live(run), header);
+        self.set_stage(Performer::Live(run), header, &prepared.tracer);
     }
 
-    fn set_stage(&mut self, performer: Performer, header: Header) {
+    fn set_stage(&mut self, performer: Performer, header: Header, tracer: &Tracer) {
         self.retire();
         self.stage = Stage::new(performer, header, self.ground);
+        self.stage.show_preview(tracer);
     }
 
     /// Lets whoever performs end in their own time.

@@ -5,6 +5,7 @@ use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
 use crate::runlog::{Header, RunLog, Tally};
 use crate::time::Time;
+use crate::tracer::Tracer;
 use crate::view::{Canvas, Narrator, Outcome, RunState, parts_words, result_words};
 
 use super::performer::Performer;
@@ -73,6 +74,13 @@ impl Stage {
             parts: String::new(),
             log: RunLog::new(header),
             colours,
+        }
+    }
+
+    /// Shows what is known of the picture beforehand where nothing is traced yet.
+    pub fn show_preview(&mut self, tracer: &Tracer) {
+        if let Some(preview) = tracer.preview() {
+            self.canvas.preview(|x, y| preview.guess(x, y), &self.state);
         }
     }
 

@@ -64,7 +64,7 @@ pub fn measure(
 }
 
 /// The middle one of some values, the greater of two; 0 of none.
-pub(super) fn median(values: &mut [f64]) -> f64 {
+pub(in crate::study) fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
 }

@@ -9,7 +9,7 @@ mod check;
 mod choice;
 mod fit;
 mod knobs;
-mod measure;
+pub(super) mod measure;
 mod reference;
 mod report;
 mod ring;

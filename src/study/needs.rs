@@ -1,0 +1,164 @@
+//! What each reduction of compiling saves: a scene's picture with all of them, and without one after the other.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::accuracy::measure::median;
+use super::looks::Looks;
+use super::progress::Progress;
+use super::{Study, Tell};
+use crate::csg::{Reduction, Reductions};
+use crate::driver::Measured;
+use crate::picture::{Quality, Size, srgb8};
+use crate::scene::Opened;
+use crate::tracer::Tracer;
+
+/// Pictures with and without each reduction.
+const TURNS: usize = 5;
+
+/// What one reduction saves of a scene's picture.
+#[derive(Debug, Serialize)]
+struct Saving {
+    scene: String,
+    reduction: String,
+    /// CPU time without it over that with it: the median of the turns.
+    ratio: f64,
+    /// CPU time with all reductions, in seconds.
+    cpu_s: f64,
+    /// Pixels whose 8-bit colours differ.
+    differing_pixels: usize,
+}
+
+/// What each reduction saves of each scene's picture.
+///
+/// # Errors
+/// A sentence, if the rows cannot be written.
+pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
+    let size = Size::new(240, 180)?;
+    let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
+    let (mut rows, mut looks) = (Vec::new(), Vec::new());
+    for scene in scenes {
+        progress.next(&format!("{}, a first look", scene.name));
+        looks.push(first_look(scene)?);
+        let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
+        let all = tracer(Reductions::default());
+        let without = Reduction::ALL.map(|reduction| tracer(Reductions::default().without(reduction)));
+        let mut ratios = Reduction::ALL.map(|_| Vec::new());
+        let mut differing = Reduction::ALL.map(|_| 0);
+        let mut seconds = Vec::new();
+        for turn in 0..TURNS {
+            progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
+            for (index, without) in without.iter().enumerate() {
+                // Side by side, so that what disturbs the computer disturbs both.
+                let [Some(with), Some(without)] = [&all, without].map(|tracer| Measured::of(tracer, &|| false)) else {
+                    continue;
+                };
+                ratios[index].push(without.cpu.as_secs_f64() / with.cpu.as_secs_f64());
+                seconds.push(with.cpu.as_secs_f64());
+                let pairs = with.frame.pixels().iter().zip(without.frame.pixels());
+                differing[index] = pairs.filter(|(a, b)| srgb8(**a) != srgb8(**b)).count();
+            }
+        }
+        let cpu_s = median(&mut seconds);
+        for (index, reduction) in Reduction::ALL.into_iter().enumerate() {
+            rows.push(Saving {
+                scene: scene.name.clone(),
+                reduction: format!("{reduction:?}").to_lowercase(),
+                ratio: median(&mut ratios[index]),
+                cpu_s,
+                differing_pixels: differing[index],
+            });
+        }
+    }
+    let mut study = Study::new("needs");
+    study.add_rows(&rows)?;
+    study.add_report(report(scenes, &rows, size) + &looks_report(scenes, &looks));
+    Ok(study)
+}
+
+/// The turn in the middle.
+fn first_look(scene: &Opened) -> Result<Looks, String> {
+    let size = Size::new(640, 480)?;
+    let look = |_| Looks::new(|| Tracer::new(&scene.scene, size, Quality::default()));
+    let mut looks: Vec<Looks> = (0..TURNS).map(look).collect();
+    looks.sort_by(|a, b| a.exact.total_cmp(&b.exact));
+    Ok(looks[TURNS / 2])
+}
+
+fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
+    let mut text = String::from(
+        "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the scene that is read to \
+         it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as above:\n\n\
+         | scene | compiled | first look | exact picture | without a preview | with / without | the same |\n\
+         |---|---:|---:|---:|---:|---:|---|\n",
+    );
+    for (scene, Looks { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
+        let same = if *same { "yes" } else { "no" };
+        let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
+        _ = writeln!(
+            text,
+            "| {} | {compiled:.2} | {first:.1} | {whole:.0} | {alone:.0} | {:.3} | {same} |",
+            scene.name,
+            exact / plain
+        );
+    }
+    text
+}
+
+fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
+    let mut text = String::from("# What scenes need\n\n");
+    _ = writeln!(
+        text,
+        "A scene is compiled to what it needs. What was kept of each, of what its file has, and how many rays of a sample \
+         of the pixels end on each level of the tree of rays, beginning with the primary ones:\n"
+    );
+    text.push_str("| scene | primitives | operations | solids | no bounds | empty | out of reach | reflects | transmits | rays by level |\n");
+    text.push_str("|---|---|---:|---:|---:|---:|---:|---|---|---|\n");
+    for scene in scenes {
+        let tracer = Tracer::new(&scene.scene, size, Quality::default());
+        let kept = tracer.compiled();
+        let primitives: Vec<_> = kept.primitives.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+        let levels: Vec<_> = tracer.levels().iter().map(u64::to_string).collect();
+        let yes = |is: bool| if is { "yes" } else { "no" };
+        _ = writeln!(
+            text,
+            "| {} | {} of {}: {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
+            scene.name,
+            kept.primitives.values().sum::<usize>(),
+            kept.given.primitives,
+            primitives.join(", "),
+            kept.operations,
+            kept.given.operations,
+            kept.solids,
+            kept.unbounded,
+            kept.dropped + kept.parts_dropped.empty,
+            kept.parts_dropped.out_of_reach,
+            yes(kept.reflects),
+            yes(kept.transmits),
+            levels.join(" ")
+        );
+    }
+    _ = writeln!(
+        text,
+        "\nWhat each reduction saves: the CPU time of the picture of {size} pixels without it over that with it, medians of {TURNS} \
+         turns side by side. In brackets how many pixels differ, by rounding.\n"
+    );
+    _ = writeln!(
+        text,
+        "| reduction | {} |",
+        scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | ")
+    );
+    _ = writeln!(text, "|---|{}", "---:|".repeat(scenes.len()));
+    for (index, reduction) in Reduction::ALL.into_iter().enumerate() {
+        let of_each = rows.iter().skip(index).step_by(Reduction::ALL.len());
+        let cells: Vec<_> = of_each
+            .map(|saving| match saving.differing_pixels {
+                0 => format!("{:.3}", saving.ratio),
+                differing => format!("{:.3} ({differing})", saving.ratio),
+            })
+            .collect();
+        _ = writeln!(text, "| {} | {} |", reduction.says(), cells.join(" | "));
+    }
+    text
+}

@@ -1,0 +1,110 @@
+//! What compiling kept of a scene, and what it dropped: tells why a picture costs what it costs.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::{Scratch, Tracer};
+use crate::csg::{Dropped, Solid};
+
+/// What a compiled scene kept and dropped.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Compiled {
+    /// What the scene has as it is written.
+    pub given: Given,
+    /// Solids that a ray is tested against one by one. Opaque unions count as their parts.
+    pub solids: usize,
+    /// Solids of these that are made of several primitives.
+    pub compositions: usize,
+    /// Solids without bounds, which every ray has to be tested against.
+    pub unbounded: usize,
+    /// Primitives that were kept, by their kind.
+    pub primitives: BTreeMap<&'static str, usize>,
+    /// Boolean operations that were kept.
+    pub operations: usize,
+    /// Solids that were proved empty and dropped.
+    pub dropped: usize,
+    /// What of other solids was dropped.
+    #[serde(flatten)]
+    pub parts_dropped: Dropped,
+    /// Lights.
+    pub lights: usize,
+    /// Whether any surface reflects other solids: if not, no reflection code runs.
+    pub reflects: bool,
+    /// Whether any surface transmits: if not, no refraction code runs and a shadow ray ends at the first solid.
+    pub transmits: bool,
+}
+
+/// What a scene has as it is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Given {
+    /// Placed primitives.
+    pub primitives: usize,
+    /// Unions, intersections and differences.
+    pub operations: usize,
+}
+
+impl Given {
+    pub(super) fn of(solids: &[Solid]) -> Self {
+        let mut given = Self::default();
+        for solid in solids {
+            match solid {
+                Solid::Placed { .. } => given.primitives += 1,
+                Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+                    let inner = Self::of(solids);
+                    given.primitives += inner.primitives;
+                    given.operations += 1 + inner.operations;
+                }
+            }
+        }
+        given
+    }
+}
+
+impl Tracer {
+    /// What the compiled scene kept and dropped, in figures.
+    pub fn compiled(&self) -> Compiled {
+        let world = &self.world;
+        let roots: Vec<u32> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
+        let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
+        let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag as usize]);
+        let mut primitives = BTreeMap::new();
+        for leaf in &leaves {
+            *primitives.entry(leaf.kind()).or_default() += 1;
+        }
+        let operations = roots.iter().map(|&root| world.tree.operations_of(root));
+        Compiled {
+            given: world.given,
+            solids: roots.len(),
+            compositions: operations.clone().filter(|&operations| operations > 0).count(),
+            unbounded: world.unbounded.len(),
+            operations: operations.sum(),
+            primitives,
+            dropped: world.dropped,
+            parts_dropped: world.tree.dropped(),
+            lights: world.lights.len(),
+            reflects: finishes().any(|finish| finish.ks > 0.0),
+            transmits: finishes().any(|finish| finish.kt > 0.0),
+        }
+    }
+
+    /// The deepest level of the trees of rays that any pixel of a sample needs, and how many rays were traced on each:
+    /// of primary, reflected and refracted rays.
+    pub fn levels(&self) -> Vec<u64> {
+        /// About so many pixels are looked at.
+        const PIXELS: u32 = 3000;
+        let mut levels = Vec::new();
+        let mut scratch = Scratch::default();
+        // An odd step seldom divides a width, so that the pixels are in many columns.
+        for pixel in (0..self.size.pixels()).step_by(((self.size.pixels() / PIXELS) | 1) as usize) {
+            self.paths(pixel..pixel + 1, &mut scratch, |path| {
+                if path.kind != super::RayKind::Shadow {
+                    let level = path.level as usize;
+                    levels.resize(levels.len().max(level), 0);
+                    levels[level - 1] += 1;
+                }
+            });
+        }
+        levels
+    }
+}

@@ -1,0 +1,91 @@
+//! A first look at the whole picture: every 16th pixel of every 16th row, then every 8th of every 8th, and so on.
+//!
+//! Its pixels are those of the picture itself and are never traced again, so that it costs the picture nothing.
+
+use super::path::Nobody;
+use super::{RayCounts, Scratch, Tracer};
+use crate::picture::{Colour, Size};
+
+/// Some pixels of a picture, spread evenly.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    size: Size,
+    step: u32,
+    /// Row by row; with the rays that each took.
+    known: Vec<(Colour, RayCounts)>,
+}
+
+impl Preview {
+    /// What the first look leaves out: it has every 16th pixel of every 16th row.
+    pub const COARSEST: u32 = 16;
+
+    /// It has every so many pixels of every so many rows.
+    pub fn step(&self) -> u32 {
+        self.step
+    }
+
+    /// What the picture probably looks like there: between the pixels around that are known, as far as each is away.
+    pub fn guess(&self, x: u32, y: u32) -> Colour {
+        let (column, row) = (x / self.step, y / self.step);
+        let part = |place: u32| (place % self.step) as f32 / self.step as f32;
+        let (across, along) = (part(x), part(y));
+        let (columns, rows) = self.shape();
+        let (right, below) = ((column + 1).min(columns - 1), (row + 1).min(rows - 1));
+        let at = |column: u32, row: u32| self.known[(row * columns + column) as usize].0;
+        let corners = [at(column, row), at(right, row), at(column, below), at(right, below)];
+        std::array::from_fn(|channel| {
+            let [a, b, c, d] = corners.map(|colour| colour[channel]);
+            let (above, below) = (a + (b - a) * across, c + (d - c) * across);
+            above + (below - above) * along
+        })
+    }
+
+    /// The pixel at this position in scan order, if it is known.
+    fn get(&self, pixel: u32) -> Option<&(Colour, RayCounts)> {
+        let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
+        let is_known = x.is_multiple_of(self.step) && y.is_multiple_of(self.step);
+        is_known.then(|| &self.known[(y / self.step * self.shape().0 + x / self.step) as usize])
+    }
+
+    fn shape(&self) -> (u32, u32) {
+        (self.size.width().div_ceil(self.step), self.size.height().div_ceil(self.step))
+    }
+}
+
+impl Tracer {
+    /// What is known of the picture beforehand.
+    pub fn preview(&self) -> Option<&Preview> {
+        self.preview.as_ref()
+    }
+
+    /// Begins a preview, or makes it twice as fine; at last it is the whole picture. The rays are counted by whoever
+    /// traces the picture later.
+    pub fn refine(&mut self) {
+        let step = self.preview.as_ref().map_or(Preview::COARSEST, |preview| (preview.step / 2).max(1));
+        let mut finer = Preview { size: self.size, step, known: Vec::new() };
+        let mut scratch = Scratch::default();
+        for y in (0..self.size.height()).step_by(step as usize) {
+            for x in (0..self.size.width()).step_by(step as usize) {
+                let pixel = y * self.size.width() + x;
+                let known = self.preview.as_ref().and_then(|coarser| coarser.get(pixel)).copied();
+                finer.known.push(known.unwrap_or_else(|| {
+                    scratch.rays = RayCounts::default();
+                    (self.pixel(pixel, &mut scratch, &mut Nobody), scratch.rays)
+                }));
+            }
+        }
+        self.preview = Some(finer);
+    }
+
+    /// The pixel at this position in scan order, traced now unless it was before.
+    #[inline(always)]
+    pub(super) fn known_or_traced(&self, pixel: u32, scratch: &mut Scratch) -> Colour {
+        match self.preview.as_ref().and_then(|preview| preview.get(pixel)) {
+            Some((colour, rays)) => {
+                scratch.rays += *rays;
+                *colour
+            }
+            None => self.pixel(pixel, scratch, &mut Nobody),
+        }
+    }
+}
