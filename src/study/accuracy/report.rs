@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::check::Landing;
 use super::choice::front;
-use super::fit::log_slope;
+use super::fit::{log_crossing, log_slope};
 use super::knobs::{Knob, MOST};
 use super::measure::median;
 use super::ring::Ring;
@@ -105,34 +105,42 @@ fn slopes(text: &mut String, found: &[Found]) {
     }
 }
 
-/// So much more error than with the best value is as good.
+/// So much more error is as good.
 const NEARLY: f64 = 1.1;
 
-/// The fastest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
-fn cheapest(found: &Found, knob: Knob) -> Option<(&Entry, f64)> {
+/// The coarsest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
+fn coarsest(found: &Found, knob: Knob) -> Option<(&Entry, f64)> {
     let best = found.of_knob(Some(knob)).last()?;
-    let good = found.of_knob(Some(knob)).filter(|entry| entry.point.rmse() <= NEARLY * best.point.rmse());
-    let cheapest = good.min_by(|a, b| a.point.cpu_s.total_cmp(&b.point.cpu_s))?;
-    Some((cheapest, cheapest.point.cpu_s / best.point.cpu_s))
+    let coarsest = found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= NEARLY * best.point.rmse())?;
+    Some((coarsest, coarsest.point.cpu_s / best.point.cpu_s))
+}
+
+/// The threshold that saves most, and what part it takes of the time that samples alone need for its error.
+fn saving(found: &Found) -> Option<(&Entry, f64)> {
+    let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
+    let samples: Vec<(f64, f64)> = found.of_knob(Some(Knob::Samples)).map(point).collect();
+    let part = |entry: &Entry| Some(entry.point.cpu_s / log_crossing(&samples, entry.point.rmse())?);
+    let savings = found.of_knob(Some(Knob::Threshold)).filter_map(|entry| Some((entry, part(entry)?)));
+    savings.min_by(|(_, this), (_, other)| this.total_cmp(other))
 }
 
 fn which_pays(text: &mut String, found: &[Found]) {
-    const KNOBS: [Knob; 3] = [Knob::Threshold, Knob::Depth, Knob::Cutoff];
     say!(
         text,
-        "\n## Which knob pays where\n\nThe cheapest value of each knob with at most a tenth more error than its most careful one, and the time \
-         that it takes, as a part of that one's. A knob pays where this is small. More samples always pay with their slope; what they \
-         cost is their number.\n"
+        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the time which samples alone \
+         need for the same error. Of depth and cutoff, the coarsest value with at most a tenth more error than without a limit, and the \
+         part that it takes of the time without one.\n"
     );
     say!(
         text,
         "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|"
     );
     for found in found {
-        let cells = KNOBS.map(|knob| {
+        let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
+        let cells = knobs.map(|found| {
             let value =
                 |(entry, part): (&Entry, f64)| format!("{} | {part:.2}", entry.value.map_or(String::new(), short));
-            cheapest(found, knob).map_or("– | –".into(), value)
+            found.map_or("– | –".into(), value)
         });
         say!(text, "| {} | {} |", found.scene, cells.join(" | "));
     }
@@ -172,16 +180,25 @@ fn scene(text: &mut String, found: &Found) {
     let name = as_file_name(&found.scene);
     say!(text, "\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene);
     let points = found.points();
-    let front = front(&points);
-    if let Some(similar) = front.iter().find(|point| point.difference.worst_ssim > SIMILAR) {
-        say!(text, "Every block is similar enough from {:.3} s on, with {}.\n", similar.cpu_s, knobs(&similar.quality));
-    } else {
-        say!(text, "At no quality tried are all blocks similar enough.\n");
+    let similar = points.iter().filter(|point| point.difference.worst_ssim > SIMILAR);
+    match similar.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s)) {
+        Some(Point { quality, cpu_s, .. }) => {
+            say!(text, "Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality));
+        }
+        None => say!(text, "At no quality tried are all blocks similar enough.\n"),
     }
-    say!(text, "The front:\n\n| seconds | error | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |");
+    say!(
+        text,
+        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |"
+    );
     say!(text, "|---:|---:|---:|---:|---:|---:|---:|---:|");
-    for Point { quality, cpu_s, difference, .. } in front {
-        let Difference { rmse, wrong_pixels, worst_ssim } = difference;
+    let mut last = f64::INFINITY;
+    for Point { quality, cpu_s, difference, .. } in front(&points) {
+        let Difference { rmse, wrong_pixels, worst_ssim } = *difference;
+        if rmse > 0.95 * last {
+            continue;
+        }
+        last = rmse;
         say!(
             text,
             "| {cpu_s:.4} | {rmse:.5} | {wrong_pixels} | {worst_ssim:.4} | {samples} × {samples} | {} | {} | {} |",

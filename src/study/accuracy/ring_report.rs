@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::charts::MANY;
-use super::fit::correlation;
+use super::fit::log_correlation;
 use super::measure::median;
 use super::report::{optional, say};
 use super::ring::{LATENCIES, Ring};
-use super::sharing::{NODES, Shared, WHOLE};
+use super::sharing::{NODES, WHOLE};
 
 /// The chapter on the ring.
 pub(super) fn ring(text: &mut String, ring: &Ring) {
@@ -29,7 +29,8 @@ fn estimates(text: &mut String, ring: &Ring) {
         "### Its estimate of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by counts: offerer / (offerer + \
          own). *True* is the share with which both would end together, knowing their speeds, what each atom that waits costs, and what \
          the owner has in hand. The error of a run is the mean distance of both shares at its transfers, weighted by the work that \
-         waits there.\n"
+         waits there. Correlations are of the logarithms: within a scene, where only speeds differ, they say what a wrong share costs; over \
+         all scenes also that what is dear in one place makes both worse.\n"
     );
     say!(
         text,
@@ -49,10 +50,9 @@ fn estimates(text: &mut String, ring: &Ring) {
             transfers as f64 / runs.len() as f64,
             median(&mut errors),
             median(&mut late),
-            optional(correlation(&Ring::points(runs)), 2)
+            optional(log_correlation(&Ring::points(runs)), 2)
         );
     }
-    let all: Vec<(f64, f64)> = ring.shared.iter().flat_map(|runs: &Vec<Shared>| Ring::points(runs)).collect();
     let large: Vec<f64> = ring
         .transfers()
         .filter(|transfer| transfer.waiting >= MANY)
@@ -63,7 +63,7 @@ fn estimates(text: &mut String, ring: &Ring) {
         text,
         "\nOver all runs the correlation is {}. Where at least {MANY} atoms wait, the estimated share is {bias:+.3} from the true one on \
          average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
-        optional(correlation(&all), 2)
+        optional(log_correlation(&ring.all_points()), 2)
     );
 }
 
