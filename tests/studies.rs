@@ -4,6 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use anel::picture::Size;
+use anel::scene::Opened;
+use anel::study::{Study, accuracy};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -63,6 +66,44 @@ fn a_study_writes_rows_charts_and_a_report_that_shows_them() {
         // Nobody is faster than perfect, and nobody who ends takes forever.
         let efficiency = row["efficiency"].as_f64().unwrap();
         assert!(efficiency > 0.0 && efficiency < 1.0 + 1e-9, "{row}");
+    }
+}
+
+#[test]
+fn accuracy_is_the_same_each_time_but_for_seconds() {
+    let scenes = ["csg-primer", "machine-part"].map(|name| Opened::new(name).unwrap());
+    let take = || {
+        let (mut told, mut steps) = (0, 0);
+        let mut tell = |done: usize, of: usize, _: &str| {
+            assert_eq!(done, told, "each step is told once");
+            (told, steps) = (told + 1, of);
+        };
+        let study = accuracy(&scenes, Size::new(12, 9).unwrap(), &mut tell).unwrap();
+        assert_eq!(told, steps);
+        study
+    };
+    let (one, other): (Study, Study) = (take(), take());
+    let mut knobs: Vec<&str> = one.rows.iter().map(|row| row["knob"].as_str().unwrap()).collect();
+    knobs.dedup();
+    assert_eq!(knobs, ["samples", "threshold", "depth", "cutoff", "together"].repeat(2));
+    for (row, again) in one.rows.iter().zip(&other.rows) {
+        let (row, again) = (row.as_object().unwrap(), again.as_object().unwrap());
+        let differing: Vec<&String> = row.keys().filter(|key| row[*key] != again[*key]).collect();
+        assert!(differing.is_empty() || differing == ["cpu_s"], "{differing:?}");
+        assert!(row["cpu_s"].as_f64().unwrap() > 0.0 && row["rmse"].as_f64().unwrap() > 0.0);
+        assert!(row["worst_ssim"].as_f64().unwrap() <= 1.0 && row["wrong_pixels"].as_u64().unwrap() <= 12 * 9);
+    }
+    let text = |name: &str| {
+        let found = one.files.iter().find(|(file, _)| file == name).unwrap_or_else(|| panic!("{name} is missing"));
+        String::from_utf8(found.1.clone()).unwrap()
+    };
+    let report = text("accuracy.md");
+    assert!(!report.contains("NaN") && !report.contains("inf"), "{report}");
+    for (file, _) in one.files.iter().filter(|(file, _)| !file.ends_with(".md")) {
+        match file.ends_with(".svg") {
+            true => assert!(roxmltree::Document::parse(&text(file)).is_ok() && report.contains(&format!("]({file})"))),
+            false => assert!(report.contains(&format!("`{file}`")), "{file} is not named"),
+        }
     }
 }
 

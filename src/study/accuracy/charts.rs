@@ -1,7 +1,7 @@
 //! What the study of accuracy draws.
 
 use super::choice::front as front_of;
-use super::fit::correlation;
+use super::fit::log_correlation;
 use super::knobs::Knob;
 use super::ring::{LATENCIES, Ring};
 use super::scene::{Entry, Found};
@@ -11,7 +11,7 @@ use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
 pub(super) fn front(found: &Found) -> Chart {
     let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
     let line = |(i, knob): (usize, Knob)| Series {
-        name: format!("{} alone", knob.name()),
+        name: knob.name().into(),
         hue: series_hue(i),
         points: found.of_knob(Some(knob)).map(point).collect(),
         style: Style::Line,
@@ -27,20 +27,15 @@ pub(super) fn front(found: &Found) -> Chart {
         style: Style::Dots,
     };
     let dashed = |name: &str, i, points| Series { name: name.into(), hue: series_hue(i), points, style: Style::Dashed };
-    let mut series: Vec<Series> = Knob::ALL.into_iter().enumerate().map(line).collect();
-    series.extend([
-        dots,
-        dashed("front", 5, best),
-        dashed("the reference's", 6, vec![(least, found.floor), (most, found.floor)]),
-    ]);
+    // Below the lines.
+    let mut series = vec![dots];
+    series.extend(Knob::ALL.into_iter().enumerate().map(line));
+    series.extend([dashed("front", 5, best), dashed("floor", 6, vec![(least, found.floor), (most, found.floor)])]);
     Chart {
         title: format!("Speed against accuracy: {}", found.scene),
-        note: format!(
-            "{} pixels; one knob turned alone, or all together; dashed: the front, and the reference's own error",
-            found.size
-        ),
+        note: format!("{} pixels; each knob alone, and all together; floor: the reference's own error", found.size),
         x: seconds(),
-        y: error("error of the picture (RMSE, linear light)"),
+        y: logarithmic("error of the picture (RMSE, linear light)"),
         series,
     }
 }
@@ -55,27 +50,31 @@ pub(super) fn alone(found: &Found) -> Chart {
     };
     Chart {
         title: format!("What each knob alone leaves out: {}", found.scene),
-        note: "Samples and threshold: against very many samples; depth and cutoff: against the same samples without a limit".into(),
+        note: "Against the same picture with this knob at its best".into(),
         x: seconds(),
-        y: error("error for this knob alone (RMSE, linear light)"),
+        y: logarithmic("error for this knob alone (RMSE, linear light)"),
         series: Knob::ALL.into_iter().enumerate().map(line).collect(),
     }
 }
 
 fn seconds() -> Axis {
-    Axis { label: "CPU seconds on one core".into(), scale: Scale::Log10, range: None }
+    logarithmic("CPU seconds on one core")
 }
 
-fn error(label: &str) -> Axis {
+fn logarithmic(label: &str) -> Axis {
     Axis { label: label.into(), scale: Scale::Log10, range: None }
 }
 
 /// So many atoms must wait for a share of them to be one.
 pub(super) const MANY: u32 = 20;
 
+/// Runs of a scene whose transfers are drawn: those of all would hide each other.
+const DRAWN: usize = 6;
+
 /// The estimated share of each transfer against the true one.
 pub(super) fn estimate(ring: &Ring) -> Chart {
-    let large = ring.transfers().filter(|transfer| transfer.waiting >= MANY);
+    let transfers = ring.shared.iter().flat_map(|runs| runs.iter().take(DRAWN)).flat_map(|shared| &shared.transfers);
+    let large = transfers.filter(|transfer| transfer.waiting >= MANY);
     let points: Vec<(f64, f64)> = large.map(|transfer| (transfer.truth, transfer.estimate)).collect();
     let note = format!("{} transfers where at least {MANY} atoms wait", points.len());
     let right = vec![(0.0, 0.0), (1.0, 1.0)];
@@ -86,10 +85,16 @@ pub(super) fn estimate(ring: &Ring) -> Chart {
         x: side("share with which both would end together"),
         y: side("share by the counts of traced atoms (R7)"),
         series: vec![
-            Series { name: "transfers".into(), hue: series_hue(0), points, style: Style::Dots },
+            Series { name: "transfers".into(), hue: series_hue(0), points: rightwards(points), style: Style::Dots },
             Series { name: "right".into(), hue: series_hue(1), points: right, style: Style::Dashed },
         ],
     }
+}
+
+/// The last one stands beside the name.
+fn rightwards(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
 }
 
 /// How late runs end, against how wrong their estimates are.
@@ -97,16 +102,15 @@ pub(super) fn lateness(ring: &Ring) -> Chart {
     let series = |(i, runs): (usize, &Vec<_>)| Series {
         name: scene_of(runs),
         hue: series_hue(i),
-        points: Ring::points(runs),
+        points: rightwards(Ring::points(runs)),
         style: Style::Dots,
     };
-    let all: Vec<(f64, f64)> = ring.shared.iter().flat_map(|runs| Ring::points(runs)).collect();
-    let related = correlation(&all).map_or(String::new(), |r| format!("; correlation {r:.2}"));
+    let related = log_correlation(&ring.all_points()).map_or(String::new(), |r| format!("; correlation {r:.2}"));
     Chart {
         title: "Wrong estimates and late ends".into(),
         note: format!("A dot is a run of the ring on eight machines of random speeds{related}"),
-        x: Axis { label: "mean error of the estimated share, by the work that waits".into(), ..Axis::default() },
-        y: Axis { label: "makespan / ideal − 1".into(), ..Axis::default() },
+        x: logarithmic("mean error of the estimated share, by the work that waits"),
+        y: logarithmic("makespan / ideal − 1"),
         series: ring.shared.iter().enumerate().map(series).collect(),
     }
 }
@@ -132,8 +136,8 @@ pub(super) fn atoms(ring: &Ring) -> Chart {
     Chart {
         title: "What finer atoms cost and save".into(),
         note: "From atoms of 5,000 pixels (left) to 5; means over rings of random speeds".into(),
-        x: Axis { label: "messages a run".into(), scale: Scale::Log10, range: None },
-        y: Axis { label: "makespan / ideal − 1".into(), scale: Scale::Log10, range: None },
+        x: logarithmic("messages a run"),
+        y: logarithmic("makespan / ideal − 1"),
         series: LATENCIES.into_iter().enumerate().map(line).collect(),
     }
 }

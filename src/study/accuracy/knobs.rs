@@ -60,10 +60,10 @@ impl Knob {
 
 /// Sensible combinations of all knobs.
 pub(super) fn combinations() -> Vec<Quality> {
-    const LIMITS: [(u32, f64); 4] = [(3, 0.1), (6, 0.02), (10, 1.0 / 255.0), (20, 1e-3)];
+    const LIMITS: [(u32, f64); 3] = [(4, 0.03), (10, 1.0 / 255.0), (20, 1e-3)];
     // With so few samples at most, a threshold would only add some.
     let even = [1, 2].map(|samples| (samples, 0.0));
-    let adaptive = [4, MOST].into_iter().flat_map(|samples| [0.05, 0.02, 0.005, 0.0].map(|error| (samples, error)));
+    let adaptive = [4, MOST].into_iter().flat_map(|samples| [0.03, 0.01, 0.0].map(|error| (samples, error)));
     let samplings = even.into_iter().chain(adaptive);
     let combined = samplings.flat_map(|(samples, threshold)| {
         let quality = Quality { samples, threshold, ..Quality::default() };
@@ -79,7 +79,7 @@ pub(super) fn combinations() -> Vec<Quality> {
 /// A sentence, if there is no such size.
 pub(super) fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
     /// Rays of all kinds in a picture of one sample a pixel.
-    const RAYS: f64 = 120_000.0;
+    const RAYS: f64 = 80_000.0;
     let small = Size::new(most.width().min(64), most.height().min(48))?;
     let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
     Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);

@@ -30,7 +30,7 @@ impl Point {
 const TURNS: usize = 3;
 
 /// Noise does not matter in what takes longer than this, in seconds.
-const LONG: f64 = 0.4;
+const LONG: f64 = 0.2;
 
 /// Measures these qualities on this thread: all of them in turn, so that what disturbs the computer disturbs all alike.
 /// `each` is told the place of each point and its picture as soon as it is measured, and again when its time is known

@@ -13,6 +13,7 @@ pub(super) mod measure;
 mod reference;
 mod report;
 mod ring;
+mod ring_report;
 mod scene;
 mod sharing;
 

@@ -1,9 +1,229 @@
 //! What the study of accuracy says.
 
-use super::ring::Ring;
-use super::scene::Found;
+use std::fmt::Write;
 
+use super::check::Landing;
+use super::choice::front;
+use super::fit::{log_crossing, log_slope};
+use super::knobs::{Knob, MOST};
+use super::measure::median;
+use super::ring::Ring;
+use super::ring_report;
+use super::scene::{Entry, Found};
+use super::{Point, Reference};
+use crate::output::as_file_name;
+use crate::picture::{Difference, Quality};
+
+/// Writing to a string cannot fail.
+macro_rules! say {
+    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
+}
+pub(super) use say;
+
+/// The report, in Markdown.
 pub(super) fn report(found: &[Found], ring: &Ring) -> String {
-    let _ = (found, ring);
-    String::new()
+    let mut text = String::from("# Speed against accuracy\n\n");
+    head(&mut text, found);
+    slopes(&mut text, found);
+    which_pays(&mut text, found);
+    choice(&mut text, found);
+    for found in found {
+        scene(&mut text, found);
+    }
+    ring_report::ring(&mut text, ring);
+    say!(text, "\nAll that was measured is in `accuracy.csv`, all runs of rings in `accuracy-ring.csv`.");
+    text
+}
+
+fn head(text: &mut String, found: &[Found]) {
+    let usual = Quality::default();
+    say!(
+        text,
+        "Each knob of quality is turned alone, and all are turned together. *Seconds* are CPU time on one core, the median of three \
+         turns where they are few. The *error* is the root of the mean squared error in linear light (RMSE). A pixel is *wrong* if a \
+         channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 pixels; SPEC CPU asks for more than \
+         {SIMILAR} of each block of POV-Ray's pictures. A mean hides speckle, these two do not.\n",
+        Difference::SAME
+    );
+    say!(
+        text,
+        "While depth or cutoff is turned, there are 4 × 4 samples a pixel, and the other is at its default ({} levels, {:.4}); so are both \
+         while samples or threshold are. At the reference's values they would hide in their cost what the knob that is turned saves. A \
+         threshold is tried with {MOST} × {MOST} samples at most.\n",
+        usual.max_depth,
+        usual.cutoff
+    );
+    say!(
+        text,
+        "The *reference* has two patterns of samples, each with {} × {} samples a pixel at the default depth and cutoff, and with what is \
+         beyond these limits, from {few} × {few} samples, down to {} levels and a cutoff of {:e}. A cutoff bounds what all rays that \
+         are left out count together, so that this leaves out less than is seen here; without one, a tree of 50 levels may have 2⁵⁰ rays. \
+         The reference's own error is half of what its two patterns are apart. Scenes with large trees of rays have smaller pictures.\n",
+        3 * MOST,
+        3 * MOST,
+        Reference::DEPTH,
+        Reference::CUTOFF,
+        few = MOST / 2
+    );
+    say!(text, "| scene | picture | the reference's error | beyond the default limits | least error measured |");
+    say!(text, "|---|---:|---:|---:|---:|");
+    for found in found {
+        let least = found.points().iter().map(Point::rmse).fold(f64::INFINITY, f64::min);
+        say!(
+            text,
+            "| {} | {} | {:.5} | {:.5} | {least:.5} |",
+            found.scene,
+            found.size,
+            found.floor,
+            found.beyond_limits
+        );
+    }
+}
+
+/// What SPEC asks of each block.
+const SIMILAR: f64 = 0.996;
+
+/// The slope of the error for the samples alone, by how many samples a pixel has; a single one lies in its middle and is of no
+/// pattern.
+fn slope(found: &Found) -> Option<f64> {
+    let points = found.of_knob(Some(Knob::Samples)).filter(|entry| entry.point.quality.samples > 1);
+    let point = |entry: &Entry| Some((f64::from(entry.point.quality.samples).powi(2), entry.alone?));
+    log_slope(&points.filter_map(point).collect::<Vec<_>>())
+}
+
+fn slopes(text: &mut String, found: &[Found]) {
+    say!(
+        text,
+        "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 × 2 to {MOST} × {MOST} \
+         samples a pixel, against a picture of very many samples at the same depth and cutoff. Theory for samples one in each cell of \
+         a pixel: −0.5 where there is no structure, −0.75 where edges cross pixels, −1 where all is smooth (D. P. Mitchell, \
+         *Consequences of stratified sampling in graphics*, 1996).\n",
+    );
+    say!(text, "| scene | slope |\n|---|---:|");
+    for found in found {
+        say!(text, "| {} | {} |", found.scene, optional(slope(found), 2));
+    }
+}
+
+/// So much more error is as good.
+const NEARLY: f64 = 1.1;
+
+/// The coarsest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
+fn coarsest(found: &Found, knob: Knob) -> Option<(&Entry, f64)> {
+    let best = found.of_knob(Some(knob)).last()?;
+    let coarsest = found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= NEARLY * best.point.rmse())?;
+    Some((coarsest, coarsest.point.cpu_s / best.point.cpu_s))
+}
+
+/// The threshold that saves most, and what part it takes of the time that samples alone need for its error.
+fn saving(found: &Found) -> Option<(&Entry, f64)> {
+    let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
+    let samples: Vec<(f64, f64)> = found.of_knob(Some(Knob::Samples)).map(point).collect();
+    let part = |entry: &Entry| Some(entry.point.cpu_s / log_crossing(&samples, entry.point.rmse())?);
+    let savings = found.of_knob(Some(Knob::Threshold)).filter_map(|entry| Some((entry, part(entry)?)));
+    savings.min_by(|(_, this), (_, other)| this.total_cmp(other))
+}
+
+fn which_pays(text: &mut String, found: &[Found]) {
+    say!(
+        text,
+        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the time which samples alone \
+         need for the same error. Of depth and cutoff, the coarsest value with at most a tenth more error than without a limit, and the \
+         part that it takes of the time without one.\n"
+    );
+    say!(
+        text,
+        "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|"
+    );
+    for found in found {
+        let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
+        let cells = knobs.map(|found| {
+            let value =
+                |(entry, part): (&Entry, f64)| format!("{} | {part:.2}", entry.value.map_or(String::new(), short));
+            found.map_or("– | –".into(), value)
+        });
+        say!(text, "| {} | {} |", found.scene, cells.join(" | "));
+    }
+}
+
+fn choice(text: &mut String, found: &[Found]) {
+    say!(
+        text,
+        "\n## Whether the automatic choice keeps its word\n\nOf all points the fastest within some error is chosen, for limits from the fastest \
+         point's error to the best one's, and measured anew with other samples. And the choice is made from every other point, to be \
+         compared with that from all.\n"
+    );
+    say!(
+        text,
+        "| scene | limits | error over the limit, the worst | kept within 10 % | time anew / time | from half: time / time from all, median | the worst |"
+    );
+    say!(text, "|---|---:|---:|---:|---:|---:|---:|");
+    for found in found {
+        let landings = &found.landings;
+        let worst = landings.iter().map(Landing::overshoot).fold(0.0, f64::max);
+        let kept = landings.iter().filter(|landing| landing.overshoot() <= NEARLY).count();
+        let mut times: Vec<f64> = landings.iter().map(|landing| landing.anew.cpu_s / landing.chosen.cpu_s).collect();
+        let mut halves: Vec<f64> = landings.iter().filter_map(|landing| landing.half_over_all).collect();
+        say!(
+            text,
+            "| {} | {} | {worst:.3} | {kept} | {:.3} | {:.3} | {:.3} |",
+            found.scene,
+            landings.len(),
+            median(&mut times),
+            median(&mut halves),
+            halves.last().copied().unwrap_or_default()
+        );
+    }
+}
+
+fn scene(text: &mut String, found: &Found) {
+    let name = as_file_name(&found.scene);
+    say!(text, "\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene);
+    let points = found.points();
+    let similar = points.iter().filter(|point| point.difference.worst_ssim > SIMILAR);
+    match similar.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s)) {
+        Some(Point { quality, cpu_s, .. }) => {
+            say!(text, "Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality));
+        }
+        None => say!(text, "At no quality tried are all blocks similar enough.\n"),
+    }
+    say!(
+        text,
+        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |"
+    );
+    say!(text, "|---:|---:|---:|---:|---:|---:|---:|---:|");
+    let mut last = f64::INFINITY;
+    for Point { quality, cpu_s, difference, .. } in front(&points) {
+        let Difference { rmse, wrong_pixels, worst_ssim } = *difference;
+        if rmse > 0.95 * last {
+            continue;
+        }
+        last = rmse;
+        say!(
+            text,
+            "| {cpu_s:.4} | {rmse:.5} | {wrong_pixels} | {worst_ssim:.4} | {samples} × {samples} | {} | {} | {} |",
+            short(quality.threshold),
+            quality.max_depth,
+            short(quality.cutoff),
+            samples = quality.samples
+        );
+    }
+}
+
+/// A quality in words.
+fn knobs(quality: &Quality) -> String {
+    let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
+    let threshold =
+        if threshold > 0.0 { format!(" at most, a threshold of {}", short(threshold)) } else { String::new() };
+    format!("{samples} × {samples} samples{threshold}, a depth of {max_depth} and a cutoff of {}", short(cutoff))
+}
+
+/// A number with at most three figures.
+fn short(value: f64) -> String {
+    format!("{value:.2e}").parse::<f64>().map_or_else(|_| value.to_string(), |short| short.to_string())
+}
+
+/// A number that may not be known.
+pub(super) fn optional(value: Option<f64>, places: usize) -> String {
+    value.map_or("–".into(), |value| format!("{value:.places$}"))
 }

@@ -21,14 +21,14 @@ pub(super) const STEPS: usize = LATENCIES.len();
 pub(super) const LATENCIES: [f64; 3] = [0.1, 1.0, 10.0];
 
 /// Pixels in an atom.
-const ATOMS: [u32; 10] = [5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+const ATOMS: [u32; 10] = [5000, 2000, 1000, 500, 200, 100, 50, 20, 10, 5];
 
 /// What is found of the ring.
 pub(super) struct Ring {
     pub size: Size,
     /// Runs of the scenes with atoms of 50 pixels, by scene, and their transfers.
     pub shared: Vec<Vec<Shared>>,
-    /// Runs of the first scene, by latency, then by the size of atoms, then by speeds.
+    /// Runs of the first scene, by latency, then by the size of atoms, the coarsest first, then by speeds.
     pub grained: Vec<Grain>,
 }
 
@@ -83,6 +83,11 @@ impl Ring {
     /// All transfers of runs with usual atoms.
     pub fn transfers(&self) -> impl Iterator<Item = &Transfer> {
         self.shared.iter().flatten().flat_map(|shared| &shared.transfers)
+    }
+
+    /// The points of all runs with usual atoms.
+    pub fn all_points(&self) -> Vec<(f64, f64)> {
+        self.shared.iter().flat_map(|runs| Self::points(runs)).collect()
     }
 
     /// Runs with usual atoms as points: the error of the estimates, and the lateness.
