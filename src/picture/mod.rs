@@ -7,7 +7,7 @@ mod frame;
 mod png;
 mod quality;
 
-pub use compare::Difference;
+pub use compare::{Difference, apart};
 pub use division::{Atom, Division};
 pub use frame::{Colour, Frame, srgb8};
 pub use png::{encode_png, write_png};

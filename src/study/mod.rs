@@ -72,3 +72,26 @@ impl Study {
         self.files.push((format!("{}.md", self.name), text.into_bytes()));
     }
 }
+
+/// Writes a line of a report: writing to a string cannot fail.
+macro_rules! say {
+    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
+}
+use say;
+
+/// The middle one of some values, the greater of two; 0 of none.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_median_is_in_the_middle() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
+        assert_eq!([median(&mut [1.0, 4.0]), median(&mut [])], [4.0, 0.0]);
+    }
+}

@@ -4,10 +4,9 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::accuracy::measure::median;
 use super::looks::Looks;
 use super::progress::Progress;
-use super::{Study, Tell};
+use super::{Study, Tell, median, say};
 use crate::csg::{Reduction, Reductions};
 use crate::driver::Measured;
 use crate::picture::{Quality, Size, srgb8};
@@ -96,7 +95,7 @@ fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
     for (scene, Looks { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
         let same = if *same { "yes" } else { "no" };
         let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
-        _ = writeln!(
+        say!(
             text,
             "| {} | {compiled:.2} | {first:.1} | {whole:.0} | {alone:.0} | {:.3} | {same} |",
             scene.name,
@@ -108,7 +107,7 @@ fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
 
 fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
     let mut text = String::from("# What scenes need\n\n");
-    _ = writeln!(
+    say!(
         text,
         "A scene is compiled to what it needs. What was kept of each, of what its file has, and how many rays of a sample \
          of the pixels end on each level of the tree of rays, beginning with the primary ones:\n"
@@ -121,7 +120,7 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
         let primitives: Vec<_> = kept.primitives.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         let levels: Vec<_> = tracer.levels().iter().map(u64::to_string).collect();
         let yes = |is: bool| if is { "yes" } else { "no" };
-        _ = writeln!(
+        say!(
             text,
             "| {} | {} of {}: {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
             scene.name,
@@ -139,17 +138,13 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
             levels.join(" ")
         );
     }
-    _ = writeln!(
+    say!(
         text,
         "\nWhat each reduction saves: the CPU time of the picture of {size} pixels without it over that with it, medians of {TURNS} \
          turns side by side. In brackets how many pixels differ, by rounding.\n"
     );
-    _ = writeln!(
-        text,
-        "| reduction | {} |",
-        scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | ")
-    );
-    _ = writeln!(text, "|---|{}", "---:|".repeat(scenes.len()));
+    say!(text, "| reduction | {} |", scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | "));
+    say!(text, "|---|{}", "---:|".repeat(scenes.len()));
     for (index, reduction) in Reduction::ALL.into_iter().enumerate() {
         let of_each = rows.iter().skip(index).step_by(Reduction::ALL.len());
         let cells: Vec<_> = of_each
@@ -158,7 +153,7 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
                 differing => format!("{:.3} ({differing})", saving.ratio),
             })
             .collect();
-        _ = writeln!(text, "| {} | {} |", reduction.says(), cells.join(" | "));
+        say!(text, "| {} | {} |", reduction.says(), cells.join(" | "));
     }
     text
 }

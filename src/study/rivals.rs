@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::progress::Progress;
 use super::workbench::{Workbench, cost_of};
-use super::{Study, Tell};
+use super::{Study, Tell, median};
 use crate::balance::Strategy;
 use crate::driver::{cores, perform};
 use crate::picture::Size;
@@ -76,21 +76,17 @@ pub(super) fn compete(bench: &Workbench, progress: &mut Progress<'_>) -> Result<
         turns.push(turn);
     }
     let needs = |rival: usize| {
-        let median = |of: &dyn Fn(&[Sample; 3]) -> f64| {
-            let mut values: Vec<f64> = turns.iter().map(of).collect();
-            values.sort_by(f64::total_cmp);
-            values[values.len() / 2]
-        };
+        let of_turns = |of: &dyn Fn(&[Sample; 3]) -> f64| median(&mut turns.iter().map(of).collect::<Vec<f64>>());
         let switches = turns.iter().all(|turn| turn[rival].switches.is_some());
         Needs {
             scene: bench.scene.name.clone(),
             driver: RIVALS[rival].name(),
             nodes: header.speeds.len(),
-            wall_s: median(&|turn| turn[rival].wall),
-            makespan_s: median(&|turn| turn[rival].makespan),
-            wall_over_ring: median(&|turn| turn[rival].wall / turn[0].wall),
-            makespan_over_ring: median(&|turn| turn[rival].makespan / turn[0].makespan),
-            context_switches: switches.then(|| median(&|turn| turn[rival].switches.unwrap_or(0) as f64) as u64),
+            wall_s: of_turns(&|turn| turn[rival].wall),
+            makespan_s: of_turns(&|turn| turn[rival].makespan),
+            wall_over_ring: of_turns(&|turn| turn[rival].wall / turn[0].wall),
+            makespan_over_ring: of_turns(&|turn| turn[rival].makespan / turn[0].makespan),
+            context_switches: switches.then(|| of_turns(&|turn| turn[rival].switches.unwrap_or(0) as f64) as u64),
         }
     };
     Ok([needs(0), needs(1), needs(2)])

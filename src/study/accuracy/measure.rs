@@ -4,6 +4,7 @@ use super::Reference;
 use crate::driver::Measured;
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Scene;
+use crate::study::median;
 use crate::tracer::Tracer;
 
 /// What a quality costs, and how good it is.
@@ -63,12 +64,6 @@ pub fn measure(
     Some(points)
 }
 
-/// The middle one of some values, the greater of two; 0 of none.
-pub(in crate::study) fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
@@ -105,11 +100,5 @@ mod tests {
         let points =
             measure(&scene, &reference, &qualities, &|| told.get() == 2, &mut |_, _, _| told.set(told.get() + 1));
         assert!(points.is_none() && told.get() == 2);
-    }
-
-    #[test]
-    fn a_median_is_in_the_middle() {
-        assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
-        assert_eq!([median(&mut [1.0, 4.0]), median(&mut [])], [4.0, 0.0]);
     }
 }

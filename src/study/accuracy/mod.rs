@@ -9,7 +9,7 @@ mod check;
 mod choice;
 mod fit;
 mod knobs;
-pub(super) mod measure;
+mod measure;
 mod reference;
 mod report;
 mod ring;

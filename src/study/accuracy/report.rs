@@ -6,19 +6,13 @@ use super::check::Landing;
 use super::choice::front;
 use super::fit::{log_crossing, log_slope};
 use super::knobs::{Knob, MOST};
-use super::measure::median;
 use super::ring::Ring;
 use super::ring_report;
 use super::scene::{Entry, Found};
 use super::{Point, Reference};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality};
-
-/// Writing to a string cannot fail.
-macro_rules! say {
-    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
-}
-pub(super) use say;
+use crate::study::{median, say};
 
 /// The report, in Markdown.
 pub(super) fn report(found: &[Found], ring: &Ring) -> String {

@@ -12,6 +12,7 @@ use super::division::Division;
 use super::measure::RUNS;
 use super::rows::Row;
 use crate::balance::Strategy;
+use crate::study::say;
 
 /// The report, in Markdown.
 pub(super) fn report(found: &Found<'_>) -> String {
@@ -29,11 +30,6 @@ pub(super) fn report(found: &Found<'_>) -> String {
         "\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n\nAll runs are in `paper.csv`.\n",
     );
     text
-}
-
-/// Writing to a string cannot fail.
-macro_rules! say {
-    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
 }
 
 fn head(text: &mut String, Found { bench, pace, .. }: &Found<'_>) {

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::{SAME, apart};
 use crate::geometry::rotation;
-use crate::picture::{Quality, Size, srgb8};
+use crate::picture::{Difference, Quality, Size, apart, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{RayKind, Scratch, Tracer};
 
@@ -65,6 +64,6 @@ impl Bore {
     /// How many of them do not show the background in `picture`.
     pub fn wrong(&self, picture: &[[u8; 3]]) -> u32 {
         let through = self.through.iter().zip(picture).filter(|&(&through, _)| through);
-        through.filter(|(_, pixel)| apart(**pixel, self.background) > SAME).count() as u32
+        through.filter(|(_, pixel)| apart(**pixel, self.background) > Difference::SAME).count() as u32
     }
 }

@@ -14,15 +14,12 @@ use serde::Serialize;
 use super::progress::Progress;
 use super::{Study, Tell};
 use crate::output::as_file_name;
-use crate::picture::{Quality, Size, encode_png, srgb8};
+use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
 use bored::Bore;
 use povray::PovRay;
 use step::Step;
-
-/// How far apart two 8-bit sRGB values are taken for the same.
-const SAME: u8 = 2;
 
 /// A scene after some of the steps, as both programs see it.
 #[derive(Clone, Debug, Serialize)]
@@ -31,7 +28,7 @@ struct Row {
     /// The last step that was taken.
     step: &'static str,
     pixels: u32,
-    /// Pixels with a channel that is more than [`SAME`] apart.
+    /// Pixels with a channel that is more than [`Difference::SAME`] apart.
     differing: u32,
     /// Of all pixels.
     share: f64,
@@ -103,7 +100,7 @@ impl Pictures {
     }
 
     fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> Row {
-        let differing = self.differences().filter(|&difference| difference > SAME).count() as u32;
+        let differing = self.differences().filter(|&difference| difference > Difference::SAME).count() as u32;
         Row {
             scene: scene.to_owned(),
             step: step.name(),
@@ -119,10 +116,9 @@ impl Pictures {
 
     /// Adds both pictures to the study's files, and one that shows where they differ.
     fn keep(&self, study: &mut Study, scene: &str) -> Result<(), String> {
-        let where_they_differ =
-            self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
-                if difference > SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
-            });
+        let where_they_differ = self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
+            if difference > Difference::SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
+        });
         let pictures =
             [(OURS, self.ours.clone()), (THEIRS, self.theirs.clone()), (DIFFERENCE, where_they_differ.collect())];
         for (which, pixels) in pictures {
@@ -141,9 +137,4 @@ const DIFFERENCE: &str = "difference";
 /// The name of a picture's file.
 fn picture_name(scene: &str, which: &str) -> String {
     format!("peer-{}-{which}.png", as_file_name(scene))
-}
-
-/// The greatest difference of a channel.
-fn apart(a: [u8; 3], b: [u8; 3]) -> u8 {
-    a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }

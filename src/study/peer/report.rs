@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use super::povray::PovRay;
 use super::step::Step;
-use super::{DIFFERENCE, OURS, Row, SAME, THEIRS, picture_name};
-use crate::picture::Size;
+use super::{DIFFERENCE, OURS, Row, THEIRS, picture_name};
+use crate::picture::{Difference, Size};
+use crate::study::say;
 
 /// The report, in Markdown. `rows` are by scene, then by step; the last scene is the bored cylinder.
 pub(super) fn report(povray: &PovRay, size: Size, rows: &[Row]) -> String {
@@ -24,18 +25,14 @@ pub(super) fn report(povray: &PovRay, size: Size, rows: &[Row]) -> String {
     text
 }
 
-/// Writing to a string cannot fail.
-macro_rules! say {
-    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
-}
-
 fn head(text: &mut String, povray: &PovRay, size: Size) {
     say!(
         text,
         "{} and anel trace the same scenes, as `anel export` writes them: {size} pixels, one ray a pixel through its middle, the \
-         same limit of the tree of rays, pictures in 8-bit sRGB. A pixel *differs* if a channel is more than {SAME}/255 apart. No \
+         same limit of the tree of rays, pictures in 8-bit sRGB. A pixel *differs* if a channel is more than {}/255 apart. No \
          pixel is left out, not even where edges cross it, since both send their rays through the same points.\n",
-        povray.version
+        povray.version,
+        Difference::SAME
     );
     say!(
         text,

@@ -3,12 +3,8 @@
 use std::fmt::Write;
 
 use super::{Case, Row, protocol};
+use crate::study::say;
 use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
-
-/// Writing to a string cannot fail.
-macro_rules! say {
-    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
-}
 
 /// The report, in Markdown.
 pub(super) fn report(found: &[Found<'_>]) -> String {
