@@ -14,6 +14,26 @@ const REACH: f64 = 1e6;
 /// How far rounding moves a face, as a part of the numbers that the ray's tolerance follows too; with a margin.
 const ROUNDING: f64 = 4e-15;
 
+/// The events of a composition but for slivers of it and in it, whose two ends are one place.
+#[inline(always)]
+pub(super) fn without_slivers(
+    mut events: &[Event],
+    are_one: impl Fn(Event, Event) -> bool,
+) -> impl Iterator<Item = Event> {
+    std::iter::from_fn(move || {
+        loop {
+            match events {
+                [earlier, later, rest @ ..] if are_one(*earlier, *later) => events = rest,
+                [event, rest @ ..] => {
+                    events = rest;
+                    return Some(*event);
+                }
+                [] => return None,
+            }
+        }
+    })
+}
+
 /// Whether `later` lies no more than the tolerance after `earlier`, or than rounding explains.
 #[inline(always)]
 pub(super) fn coincide(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray) -> bool {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::coincidence::coincide;
+use super::coincidence::{coincide, without_slivers};
 use super::merge::{Operation, merge};
 use super::span::Span;
 use super::{Event, Leaf, Reductions, Surface};
@@ -93,13 +93,18 @@ impl Tree {
         self.dropped
     }
 
-    /// How many boolean operations the solid `root` is made by.
+    /// How many boolean operations the solid `root` is made by; unions of unions count as one.
     pub fn operations_of(&self, root: u32) -> usize {
         match &self.nodes[root as usize].kind {
             Kind::Leaf(_) => 0,
             Kind::Convex(_) => 1,
-            Kind::Composition { children, .. } => {
-                1 + children.iter().map(|&child| self.operations_of(child)).sum::<usize>()
+            Kind::Composition { operation, children } => {
+                let is_union = |node: u32| match self.nodes[node as usize].kind {
+                    Kind::Composition { operation, .. } => operation == Operation::Union,
+                    _ => false,
+                };
+                let counted = |child| *operation == Operation::Union && is_union(child);
+                1 + children.iter().map(|&child| self.operations_of(child) - usize::from(counted(child))).sum::<usize>()
             }
         }
     }
@@ -192,17 +197,12 @@ impl Tree {
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
                 self.composition_events(*operation, children, ray, start, window, stack);
-                let (mut events, mut enters) = (stack.as_slice(), true);
-                while let [event, rest @ ..] = events {
-                    events = match rest {
-                        // Of a sliver both ends go.
-                        [next, rest @ ..] if are_one(*event, *next) => rest,
-                        _ if meet(*event, enters) => {
-                            enters = !enters;
-                            rest
-                        }
-                        _ => return,
-                    };
+                let mut enters = true;
+                for event in without_slivers(stack, are_one) {
+                    if !meet(event, enters) {
+                        return;
+                    }
+                    enters = !enters;
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! A ray's stays in a solid and in all that it is made of (the article's Figure 2).
 
-use super::coincidence::coincide;
+use super::coincidence::{coincide, without_slivers};
 use super::compiled::Kind;
 use super::{Event, Operation, Start, Surface, Tree};
 use crate::geometry::Ray;
@@ -35,26 +35,14 @@ impl Tree {
     /// ray starts, if it starts on a solid.
     pub fn figure(&self, root: u32, ray: &Ray, start: Option<Start>) -> Figure {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
-        let mut figure = self.figure_of_node(root, ray, start);
-        if start.is_none() && !figure.operands.is_empty() {
-            figure.stays = stays(&self.without_slivers(&self.node_events(root, ray, start), ray));
+        let mut events = self.node_events(root, ray, start);
+        // As a ray meets them.
+        let is_leaf = matches!(self.nodes[root as usize].kind, Kind::Leaf(_));
+        if start.is_none() && !is_leaf {
+            let are_one = |earlier, later| coincide(&self.leaves, earlier, later, ray);
+            events = without_slivers(&events, are_one).collect();
         }
-        figure
-    }
-
-    /// What a ray that starts elsewhere meets (see [`super::coincidence`]).
-    fn without_slivers(&self, mut events: &[Event], ray: &Ray) -> Vec<Event> {
-        let mut kept = Vec::new();
-        while let [event, rest @ ..] = events {
-            events = match rest {
-                [next, rest @ ..] if coincide(&self.leaves, *event, *next, ray) => rest,
-                _ => {
-                    kept.push(*event);
-                    rest
-                }
-            };
-        }
-        kept
+        self.figure_of(root, &events, ray, start)
     }
 
     fn node_events(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Vec<Event> {
@@ -64,8 +52,8 @@ impl Tree {
         events
     }
 
-    fn figure_of_node(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Figure {
-        let events = self.node_events(node, ray, start);
+    /// The figure of a node with these events.
+    fn figure_of(&self, node: u32, events: &[Event], ray: &Ray, start: Option<Surface>) -> Figure {
         let (what, operands) = match &self.nodes[node as usize].kind {
             Kind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
             Kind::Convex(leaves) => {
@@ -76,11 +64,11 @@ impl Tree {
                 (What::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
             }
             Kind::Composition { operation, children } => {
-                let operands = children.iter().map(|&child| self.figure_of_node(child, ray, start)).collect();
-                (What::Composition(*operation), operands)
+                let operand = |&child: &u32| self.figure_of(child, &self.node_events(child, ray, start), ray, start);
+                (What::Composition(*operation), children.iter().map(operand).collect())
             }
         };
-        Figure { what, stays: stays(&events), operands }
+        Figure { what, stays: stays(events), operands }
     }
 
     fn primitive(&self, leaf: u32) -> What {

@@ -125,12 +125,13 @@ impl Tracer {
     fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
         let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
-        let Quality { samples, threshold, pattern, .. } = self.quality;
-        let pattern = Pattern::new(x, y, pattern);
+        let Quality { samples, threshold, .. } = self.quality;
+        let pattern = || Pattern::new(x, y, self.quality.pattern);
         let (colour, corners_count) = match samples {
             1 => (at([0.5; 2]), true),
-            _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern, at),
+            _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern(), at),
             _ => {
+                let pattern = pattern();
                 let all = (0..samples.pow(2)).map(|index| at(pattern.sample(index)));
                 (all.sum::<DVec3>() / f64::from(samples.pow(2)), true)
             }

@@ -168,22 +168,20 @@ impl Tracer {
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
         let mut follow = |kind, coefficient: f64, direction, start, media| {
-            let weight = branch.weight * coefficient;
-            let onward = Branch {
+            scratch.branches.add(Branch {
                 kind,
-                weight,
+                weight: branch.weight * coefficient,
                 level: branch.level + 1,
                 number: 0,
                 from: Some(branch.number),
                 ray: ray.onward(place.t, direction),
                 start: Some(start),
                 media,
-            };
-            if weight > 0.0 {
-                scratch.branches.add(onward);
-            }
+            });
         };
-        follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.turned(), place.media);
+        if reflection > 0.0 {
+            follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.turned(), place.media);
+        }
         if let Some(direction) = refracted {
             let media = scratch.media.beyond(place.media, place.medium(), place.enters);
             follow(RayKind::Refracted, finish.kt, direction, place.start, media);
