@@ -8,7 +8,8 @@ pub const MAX_UNBALANCED: u32 = 32;
 
 /// Orders numbered boxes so that those before the place that is returned are one part, and the others another: where
 /// the surface area heuristic expects least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using
-/// space subdivision*, 1990). Returns nothing, if no split pays. `depth` is 0 for all boxes, 1 for the parts of the first split, and so on.
+/// space subdivision*, 1990). Returns nothing, if no split pays. `depth` is 0 for all boxes, 1 for the parts of the
+/// first split, and so on.
 pub fn split(boxes: &mut [(u32, Aabb)], depth: u32) -> Option<usize> {
     /// Work of meeting a box, as a part of that of meeting what is in it.
     const BOX: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! How often rays would change hands.
 
 use super::{Deal, Octree, deal};
-use crate::tracer::{Path, RayKind, Scratch, Tracer};
+use crate::tracer::{Path, RayKind, Tracer, step_for};
 
 /// What a ray weighs on a wire, in bytes, at least: an envelope of 16 (as every message has, see
 /// [`Message::bytes`](crate::balance::Message::bytes)), origin and direction as six 64-bit floats, 8 for its weight,
@@ -65,7 +65,7 @@ pub fn traffic(tracer: &Tracer, owners: u32, how: Deal, every: u32) -> Traffic {
     let octree = Octree::new(&tracer.boxes());
     let owner_of = deal(how, &work(tracer, &octree), owners);
     let mut count = Count::new(&octree, &owner_of, owners);
-    each_path(tracer, every, |path| count.add(&path));
+    tracer.paths_of_some(every, |path| count.add(&path));
     count.scaled(tracer.size().pixels().into(), tracer.size().pixels().div_ceil(every).into())
 }
 
@@ -75,20 +75,12 @@ fn work(tracer: &Tracer, octree: &Octree) -> Vec<u64> {
     /// Pixels looked at, about: few, but thousands of rays.
     const PIXELS: u32 = 2000;
     let mut work = vec![0; octree.leaves().len()];
-    // An odd step seldom divides a width, so that the pixels are in many columns.
-    each_path(tracer, (tracer.size().pixels() / PIXELS) | 1, |path| {
+    tracer.paths_of_some(step_for(tracer.size(), PIXELS), |path| {
         octree.walk(&path.ray, path.to, |leaf| {
             work[leaf as usize] += u64::from(octree.leaves()[leaf as usize].boxes);
         });
     });
     work
-}
-
-fn each_path(tracer: &Tracer, every: u32, mut each: impl FnMut(Path)) {
-    let mut scratch = Scratch::default();
-    for pixel in (0..tracer.size().pixels()).step_by(every as usize) {
-        tracer.paths(pixel..pixel + 1, &mut scratch, &mut each);
-    }
 }
 
 /// Follows rays from owner to owner.

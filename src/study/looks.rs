@@ -2,7 +2,8 @@
 
 use cpu_time::ThreadTime;
 
-use crate::tracer::{Scratch, Tracer};
+use crate::driver::Measured;
+use crate::tracer::Tracer;
 
 /// How long looking at a scene takes, in seconds of CPU time on this thread.
 #[derive(Clone, Copy, Debug)]
@@ -26,15 +27,14 @@ impl Looks {
         let compiled = begun.elapsed().as_secs_f64();
         tracer.refine();
         let first = begun.elapsed().as_secs_f64();
-        let picture = |tracer: &Tracer| {
-            let mut pixels = Vec::new();
-            tracer.trace(0..tracer.size().pixels(), &mut Scratch::default(), &mut pixels);
-            pixels
-        };
-        let with = picture(&tracer);
-        let exact = begun.elapsed().as_secs_f64();
-        let begun = ThreadTime::now();
-        let without = picture(&compile());
-        Self { compiled, first, exact, plain: begun.elapsed().as_secs_f64(), same: with == without }
+        let (with, without) = (picture(&tracer), picture(&compile()));
+        let [exact, plain] = [first + with.cpu.as_secs_f64(), compiled + without.cpu.as_secs_f64()];
+        Self { compiled, first, exact, plain, same: with.frame.pixels() == without.frame.pixels() }
     }
+}
+
+/// A picture that is traced on this thread, and what that takes.
+pub(super) fn picture(tracer: &Tracer) -> Measured {
+    // Nobody ends it before.
+    Measured::of(tracer, &|| false).expect("a whole picture")
 }

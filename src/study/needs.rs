@@ -4,11 +4,10 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::looks::Looks;
+use super::looks::{Looks, picture};
 use super::progress::Progress;
 use super::{Study, Tell, median, say};
 use crate::csg::{Reduction, Reductions};
-use crate::driver::Measured;
 use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
@@ -50,9 +49,7 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
             progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
             for (index, without) in without.iter().enumerate() {
                 // Side by side, so that what disturbs the computer disturbs both.
-                let [Some(with), Some(without)] = [&all, without].map(|tracer| Measured::of(tracer, &|| false)) else {
-                    continue;
-                };
+                let [with, without] = [&all, without].map(picture);
                 ratios[index].push(without.cpu.as_secs_f64() / with.cpu.as_secs_f64());
                 seconds.push(with.cpu.as_secs_f64());
                 let pairs = with.frame.pixels().iter().zip(without.frame.pixels());

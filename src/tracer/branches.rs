@@ -36,9 +36,9 @@ const LEFT_OUT: f64 = 1e-3;
 
 /// The rays of a sample that wait to be traced.
 ///
-/// The ray that counts most is traced first, until all that wait together count no more than the cutoff. So a limit of
-/// what is lost costs as few rays as it can: to end each branch where it is weak (Hall and Greenberg, *A Testbed for
-/// Realistic Image Synthesis*, 1983) says nothing of what many weak branches add up to.
+/// The ray that counts most is traced first, until all that wait together count no more than the cutoff. So what is lost
+/// has a limit: to end each branch where it is weak (Hall and Greenberg, *A Testbed for Realistic Image Synthesis*, 1983)
+/// says nothing of what many weak branches add up to.
 #[derive(Debug, Default)]
 pub(super) struct Branches {
     waiting: BinaryHeap<Waiting>,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Scratch, Tracer};
+use super::{RayKind, Tracer, step_for};
 use crate::csg::{Dropped, Solid};
 
 /// What a compiled scene kept and dropped.
@@ -88,23 +88,19 @@ impl Tracer {
         }
     }
 
-    /// The deepest level of the trees of rays that any pixel of a sample needs, and how many rays were traced on each:
-    /// of primary, reflected and refracted rays.
+    /// How many primary, reflected and refracted rays a sample of the pixels needs on each level of their trees, as far as
+    /// the deepest that any of them reaches.
     pub fn levels(&self) -> Vec<u64> {
         /// About so many pixels are looked at.
         const PIXELS: u32 = 3000;
         let mut levels = Vec::new();
-        let mut scratch = Scratch::default();
-        // An odd step seldom divides a width, so that the pixels are in many columns.
-        for pixel in (0..self.size.pixels()).step_by(((self.size.pixels() / PIXELS) | 1) as usize) {
-            self.paths(pixel..pixel + 1, &mut scratch, |path| {
-                if path.kind != super::RayKind::Shadow {
-                    let level = path.level as usize;
-                    levels.resize(levels.len().max(level), 0);
-                    levels[level - 1] += 1;
-                }
-            });
-        }
+        self.paths_of_some(step_for(self.size, PIXELS), |path| {
+            if path.kind != RayKind::Shadow {
+                let level = path.level as usize;
+                levels.resize(levels.len().max(level), 0);
+                levels[level - 1] += 1;
+            }
+        });
         levels
     }
 }

@@ -15,7 +15,7 @@ mod world;
 
 pub use compiled::Compiled;
 pub use explain::{Explained, Lit, Met, RayNotes};
-pub use path::{Path, RayKind};
+pub use path::{Path, RayKind, step_for};
 pub use preview::Preview;
 pub use shade::Scratch;
 

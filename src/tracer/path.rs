@@ -6,6 +6,7 @@ use super::explain::Note;
 use super::{Scratch, Tracer};
 use crate::csg::Start;
 use crate::geometry::Ray;
+use crate::picture::Size;
 
 /// A ray's way, from where it starts to where it ends.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +51,21 @@ impl Tracer {
             self.pixel(pixel, scratch, &mut each);
         }
     }
+
+    /// As [`Tracer::paths`], of each `every`-th pixel in scan order; not 0.
+    pub fn paths_of_some(&self, every: u32, mut each: impl FnMut(Path)) {
+        let mut scratch = Scratch::default();
+        for pixel in (0..self.size.pixels()).step_by(every as usize) {
+            self.pixel(pixel, &mut scratch, &mut each);
+        }
+    }
+}
+
+/// A step in scan order at which about so many pixels of a picture are looked at.
+///
+/// An odd one seldom divides a width, so that the pixels are in many columns.
+pub fn step_for(size: Size, looked_at: u32) -> u32 {
+    (size.pixels() / looked_at) | 1
 }
 
 /// Whoever looks on while rays are traced. It is compiled in, so that nobody costs nothing.

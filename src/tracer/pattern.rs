@@ -1,8 +1,8 @@
 //! Where the samples of a pixel lie.
 //!
 //! They are points of Sobol's (0, 2)-sequence, scrambled as Owen proposed: of its first 4ᵏ points one lies in each cell
-//! of a 2ᵏ × 2ᵏ grid, and in each other division of the square into as many equal boxes by halving. So samples that are added are as well spread as if all had been chosen
-//! together, and no pixel has the pattern of its neighbour.
+//! of a 2ᵏ × 2ᵏ grid, and in each other division of the square into as many equal boxes by halving. So samples that are
+//! added are as well spread as if all had been chosen together, and no pixel has the pattern of its neighbour.
 
 /// A pixel's samples, each with its place in the pixel: two numbers from 0 to 1.
 #[derive(Clone, Copy, Debug)]
