@@ -2,8 +2,8 @@
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Button, ComboBox, Label, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextWrapMode, Ui, WidgetInfo,
-    vec2,
+    Button, ComboBox, Frame, Label, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, Stroke, TextWrapMode,
+    Ui, WidgetInfo, vec2,
 };
 
 use super::history::Gesture;
@@ -248,14 +248,16 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
             draft.size = size;
         }
     });
-    line(ui, "Samples a pixel", look, |ui| {
+    line(ui, "Samples", look, |ui| {
         let samples = &mut draft.quality.samples;
         let suffix = format!(" × {samples}");
-        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, VALUE, "Samples");
+        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, "Samples");
         let more =
             button(ui, None, "Quality…", true, Weight::Quiet).on_hover_text("What else makes a picture good or fast");
-        Popup::menu(&more).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
-            ui.set_width(WIDTH);
+        let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
+        let popup = Popup::from_toggle_button_response(&more).frame(frame.inner_margin(1.5 * GRID));
+        popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+            ui.set_width(44.0 * GRID);
             quality(ui, &mut draft.quality, look);
         });
     });
@@ -270,7 +272,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look) {
     if quality.samples > 1 {
         let until =
             |error: f64| if error > 0.0 { format!("until the error is {error}") } else { "for every pixel".into() };
-        line(ui, "Samples", look, |ui| {
+        line(ui, "All samples", look, |ui| {
             one_of(ui, &mut quality.threshold, &THRESHOLDS, "When a pixel has enough samples", until)
         });
     }
@@ -283,7 +285,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look) {
 
 /// One value of a list, or what it is if it is not in the list.
 fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f64) -> String) {
-    let combo = ComboBox::from_id_salt(name).selected_text(text(*value)).width(20.0 * GRID);
+    let combo = ComboBox::from_id_salt(name).selected_text(text(*value)).width(26.0 * GRID);
     let combo = combo.show_ui(ui, |ui| {
         for &one in all {
             ui.selectable_value(value, one, text(one));
