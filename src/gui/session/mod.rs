@@ -3,6 +3,7 @@
 
 mod files;
 pub mod jobs;
+mod measuring;
 mod performer;
 mod stage;
 
@@ -17,13 +18,15 @@ use super::settings::Settings;
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::palette::Rgb;
+use crate::picture::Quality;
 use crate::runlog::Header;
 use crate::scene::Opened;
 use crate::time::Time;
 use crate::tracer::Tracer;
 
-pub use jobs::{Done, Purpose};
-use jobs::{Jobs, Prepared, Ready, Recorded};
+pub use jobs::{Done, Prepared, Purpose};
+use jobs::{Jobs, Ready, Recorded};
+pub use measuring::Finding;
 use performer::Performer;
 pub use stage::{Phase, Stage};
 
@@ -92,7 +95,7 @@ impl Session {
     }
 
     /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
-    /// the system's dialogs, and small pictures.
+    /// the system's dialogs, small pictures, and what was measured.
     pub fn tick(&mut self, clock: f64) -> Vec<Done> {
         self.clock = clock;
         if self.stage.tick() {
@@ -118,7 +121,7 @@ impl Session {
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
-                done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
+                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Found(..)) => others.push(done),
             }
         }
         others
@@ -200,6 +203,11 @@ impl Session {
         &self.stage.log.header
     }
 
+    /// The scene that live runs trace, compiled.
+    pub fn prepared(&self) -> Option<&Prepared> {
+        self.prepared.as_ref()
+    }
+
     /// The scene that live runs trace.
     pub fn opened(&self) -> Option<&Opened> {
         self.prepared.as_ref().map(|prepared| &*prepared.opened)
@@ -240,6 +248,16 @@ impl Session {
     /// Jobs, for dialogs and small pictures.
     pub fn jobs(&self) -> &Jobs {
         &self.jobs
+    }
+
+    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        self.jobs.measure(prepared, qualities)
+    }
+
+    /// Gives up what is being measured, if something is.
+    pub fn stop_measuring(&mut self) {
+        self.jobs.stop_measuring();
     }
 
     /// What is being read and compiled, and for how many seconds.
