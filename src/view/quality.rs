@@ -20,7 +20,7 @@ pub fn quality_lines(quality: &Quality) -> Vec<(&'static str, String)> {
         _ => format!("up to {samples} × {samples} samples a pixel, until the error is {threshold}"),
     };
     let left_out = if cutoff > 0.0 {
-        format!("weak rays left out up to {:.2} % of a pixel", 100.0 * cutoff)
+        format!("weak rays left out up to {} % of a pixel", error_words(100.0 * cutoff))
     } else {
         "no weak rays left out".into()
     };
@@ -37,7 +37,7 @@ pub fn measured_lines(
 ) -> Vec<(&'static str, String)> {
     let wrong = 100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels());
     vec![
-        ("Time", format!("{} of one core for {size} pixels", duration(time))),
+        ("Time", format!("{} of one core for {} × {} pixels", duration(time), size.width(), size.height())),
         ("Error", error_words(difference.rmse)),
         ("Wrong", format!("{wrong:.1} % of the pixels, so much that it can be seen")),
         ("Worst", format!("{:.3} is how similar the worst block is; 1 is the same (SSIM)", difference.worst_ssim)),
@@ -110,7 +110,7 @@ mod tests {
         let size = |width, height| Size::new(width, height).unwrap();
         let said = measured_lines(Duration::from_millis(1234), size(640, 480), &difference, size(20, 15));
         let said: Vec<String> = said.into_iter().map(|(what, words)| format!("{what}: {words}")).collect();
-        assert_eq!(said[0], "Time: 1.2 s of one core for 640x480 pixels");
+        assert_eq!(said[0], "Time: 1.2 s of one core for 640 × 480 pixels");
         assert!(said[2].starts_with("Wrong: 10.0 % of the pixels") && said[3].contains("0.500"), "{said:?}");
     }
 }

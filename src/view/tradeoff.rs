@@ -89,7 +89,7 @@ fn above([x, y]: Point) -> Mark {
 /// What the point of the present settings is called, on the side where there is room.
 fn beside([x, y]: Point, sheet: &Sheet) -> Mark {
     let (anchor, side) = if sheet.room_from(x) > 110.0 { (Anchor::Left, 1.0) } else { (Anchor::Right, -1.0) };
-    let at = [x + side * (RING[1] + 6.0), y - RING[1]];
+    let at = [x + side * (RING[1] + 6.0), y - 1.6 * RING[1]];
     Mark::Label { at, anchor, text: "set now".into(), size: TextSize::Body(1.0), ink: Hue::Text.full() }
 }
 

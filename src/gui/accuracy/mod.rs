@@ -248,21 +248,23 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
 
 /// A quiet column: what the scene at hand needs.
 fn needs(ui: &mut Ui, findings: &Findings, look: Look) {
+    const WHAT: f32 = 12.0 * GRID;
     let Some((compiled, levels)) = &findings.needs else { return };
     ui.label(RichText::new("What this scene needs").font(theme::strong(theme::BODY)).color(look.text));
-    ui.spacing_mut().interact_size.y = 0.0;
     let small = |text: &str, colour| RichText::new(text).font(theme::regular(theme::SMALL)).color(colour);
-    egui::Grid::new("needs").num_columns(2).spacing([2.0 * GRID, 0.25 * GRID]).show(ui, |ui| {
-        let width = ui.available_width() - 12.0 * GRID;
-        for (what, words) in needs_lines(compiled, levels) {
-            ui.vertical(|ui| ui.label(small(what, look.quiet)));
-            ui.scope(|ui| {
-                ui.set_max_width(width);
-                ui.add(Label::new(small(&words, look.text)).wrap());
-            });
-            ui.end_row();
-        }
-    });
+    ui.spacing_mut().item_spacing.y = 0.5 * GRID;
+    for (what, words) in needs_lines(compiled, levels) {
+        let galley =
+            |text: String, colour, width| ui.painter().layout(text, theme::regular(theme::SMALL), colour, width);
+        let words = galley(words, look.text, ui.available_width() - WHAT);
+        let what = galley(what.to_owned(), look.quiet, WHAT);
+        let size = vec2(ui.available_width(), words.size().y);
+        let said = format!("{}: {}", what.text(), words.text());
+        let (line, response) = ui.allocate_exact_size(size, Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &said));
+        ui.painter().galley(line.min, what, look.quiet);
+        ui.painter().galley(line.min + vec2(WHAT, 0.0), words, look.text);
+    }
     for warning in needs_warnings(compiled) {
         ui.add(Label::new(small(&warning, look.trouble)).wrap());
     }

@@ -192,13 +192,17 @@ impl Jobs {
 
     /// Makes small pictures of these scenes, one after the other.
     pub fn thumbnails(&self, scenes: Vec<String>) {
-        self.start_many("thumbnails", move |tell| {
-            for scene in scenes {
-                let made =
-                    Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
-                tell(Done::Thumbnail(scene, made));
-            }
-        });
+        self.start_many(
+            "thumbnails",
+            |why| Done::Saved(Err(why)),
+            move |tell| {
+                for scene in scenes {
+                    let made =
+                        Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
+                    tell(Done::Thumbnail(scene, made));
+                }
+            },
+        );
     }
 
     /// Watches this file instead of the one before.
@@ -207,17 +211,21 @@ impl Jobs {
         let Some(path) = path else { return };
         let (stop, stopped) = bounded(0);
         self.watch = Some(stop);
-        self.start_many("watch", move |tell| {
-            let mut known = stamp(&path);
-            while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                let now = stamp(&path);
-                if now != known {
-                    known = now;
-                    let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
-                    tell(Done::FileChanged(path.clone(), change));
+        self.start_many(
+            "watch",
+            |why| Done::Saved(Err(why)),
+            move |tell| {
+                let mut known = stamp(&path);
+                while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                    let now = stamp(&path);
+                    if now != known {
+                        known = now;
+                        let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
+                        tell(Done::FileChanged(path.clone(), change));
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// A number that no job had before.
@@ -227,10 +235,16 @@ impl Jobs {
     }
 
     fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
-        self.start_many(name, move |tell| tell(job()));
+        self.start_many(name, |why| Done::Saved(Err(why)), move |tell| tell(job()));
     }
 
-    pub(super) fn start_many(&self, name: &str, job: impl FnOnce(&dyn Fn(Done)) + Send + 'static) {
+    /// Starts a thread for a job that tells several things, or tells what it `failed` with.
+    pub(super) fn start_many(
+        &self,
+        name: &str,
+        failed: impl FnOnce(String) -> Done,
+        job: impl FnOnce(&dyn Fn(Done)) + Send + 'static,
+    ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {
             // The window may have closed meanwhile.
@@ -238,7 +252,7 @@ impl Jobs {
             ctx.request_repaint();
         };
         if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
-            let _ = self.sender.send(Done::Saved(Err(format!("No thread could be started: {error}"))));
+            let _ = self.sender.send(failed(format!("No thread could be started: {error}")));
         }
     }
 }

@@ -31,7 +31,8 @@ impl Jobs {
         let (stop, stopped) = bounded::<()>(0);
         self.measuring = Some(stop);
         let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
-        self.start_many("measure", move |tell| {
+        let failed = move |why| Done::Found(number, Finding::Over(Err(why)));
+        self.start_many("measure", failed, move |tell| {
             let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
             let tell = |finding| tell(Done::Found(number, finding));
             tell(Finding::Needs(tracer.compiled(), tracer.levels()));

@@ -43,6 +43,8 @@ pub struct Session {
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
+    /// Measurements that have not ended, although they may have been asked to.
+    measurements: usize,
     notice: Option<Notice>,
     /// Where each run's records are written when it ends.
     log_path: Option<PathBuf>,
@@ -73,6 +75,7 @@ impl Session {
             loading: None,
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
+            measurements: 0,
             notice: None,
             log_path,
             recent: Vec::new(),
@@ -121,7 +124,11 @@ impl Session {
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
-                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Found(..)) => others.push(done),
+                Done::Found(job, finding) => {
+                    self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
+                    others.push(Done::Found(job, finding));
+                }
+                done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
         others
@@ -252,6 +259,7 @@ impl Session {
 
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        self.measurements += 1;
         self.jobs.measure(prepared, qualities)
     }
 
@@ -298,6 +306,11 @@ impl Session {
     /// How many runs were asked to end and have not, for tests.
     pub fn runs_ending(&self) -> usize {
         self.ending.len()
+    }
+
+    /// How many measurements have not ended, although they may have been asked to, for tests.
+    pub fn measurements(&self) -> usize {
+        self.measurements
     }
 
     /// Sets everything that differs, and returns what was set before.
