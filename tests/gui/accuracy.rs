@@ -109,7 +109,8 @@ fn whoever_closes_the_page_gives_the_measurement_up() {
     // This scene takes longer.
     let mut window = open(SIZE);
     key(&mut window, Key::A);
-    window.get_by_label_contains("First a picture is traced");
+    let said = window.get_by_label("Chart of time and error").value();
+    assert!(said.is_some_and(|said| said.starts_with("First a picture is traced")));
     assert!(session(&window).stage().paused);
     press(&mut window, "Close accuracy");
     assert!(!session(&window).stage().paused && points(&window) == 0);

@@ -50,14 +50,14 @@ impl Findings {
     pub const PRESENT: usize = 0;
 
     /// Nothing yet; a job is to be started for [`Findings::qualities`].
-    pub fn new(prepared: &Prepared) -> Self {
+    pub fn new(opened: &Arc<Opened>, whole: Size, present: Quality) -> Self {
         let mut qualities = combinations();
-        qualities.retain(|quality| *quality != prepared.quality);
-        qualities.insert(Self::PRESENT, prepared.quality);
+        qualities.retain(|quality| *quality != present);
+        qualities.insert(Self::PRESENT, present);
         Self {
             job: 0,
-            opened: Arc::clone(&prepared.opened),
-            whole: prepared.size,
+            opened: Arc::clone(opened),
+            whole,
             qualities,
             needs: None,
             begun: 0,
@@ -172,5 +172,68 @@ impl Findings {
     fn scale(&self) -> f64 {
         let measured = self.reference.as_ref().map_or(self.whole, |reference| reference.picture.size());
         f64::from(self.whole.pixels()) / f64::from(measured.pixels())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Difference;
+
+    fn size(width: u32, height: u32) -> Size {
+        Size::new(width, height).unwrap()
+    }
+
+    /// Qualities of a picture of 64 × 48 pixels, of which the first took these seconds and have these errors in a quarter
+    /// of it.
+    fn findings(points: &[(f64, f64)]) -> Findings {
+        let opened = Arc::new(Opened::new("csg-primer").unwrap());
+        let mut findings = Findings::new(&opened, size(64, 48), Quality { samples: 7, ..Quality::default() });
+        let frame = Frame::new(size(32, 24));
+        findings.take(Finding::Reference(Reference { picture: frame.clone(), sampled: frame.clone(), floor: 0.001 }));
+        for (place, &(cpu_s, rmse)) in points.iter().enumerate() {
+            let difference = Difference { rmse, wrong_pixels: 0, worst_ssim: 1.0 };
+            let point = Point { quality: findings.qualities[place], cpu_s, rays: 1, difference };
+            findings.take(Finding::Point(place, point, Some(frame.clone())));
+        }
+        findings
+    }
+
+    #[test]
+    fn what_is_set_is_measured_first_and_once() {
+        let found = findings(&[]);
+        assert_eq!(found.qualities[Findings::PRESENT].samples, 7);
+        for (place, quality) in found.qualities.iter().enumerate() {
+            assert!(!found.qualities[..place].contains(quality), "{quality:?}");
+        }
+    }
+
+    #[test]
+    fn times_are_those_of_the_whole_picture_and_limits_too() {
+        let found = findings(&[(1.0, 0.1), (2.0, 0.05), (3.0, 0.2)]);
+        assert_eq!(found.time(1), Duration::from_secs(8));
+        assert_eq!(found.tradeoff(None).points, [(4.0, 0.1), (8.0, 0.05), (12.0, 0.2)]);
+        assert_eq!(found.tradeoff(None).front, [0, 1]);
+        let chosen = [Choice::Time(3.9), Choice::Time(4.1), Choice::Time(100.0)].map(|choice| found.chosen(choice));
+        assert_eq!(chosen, [None, Some(0), Some(1)]);
+        let chosen = [Choice::Error(0.04), Choice::Error(0.06), Choice::Error(0.3)].map(|choice| found.chosen(choice));
+        assert_eq!(chosen, [None, Some(1), Some(0)]);
+        assert_eq!([Choice::Place(2), Choice::Place(3)].map(|choice| found.chosen(choice)), [Some(2), None]);
+    }
+
+    #[test]
+    fn how_far_it_is_only_grows_and_is_told() {
+        let opened = Arc::new(Opened::new("csg-primer").unwrap());
+        let mut found = Findings::new(&opened, size(64, 48), Quality::default());
+        found.take(Finding::Begun(2));
+        assert_eq!(found.progress(), "What pictures are compared with: 2 of 6");
+        let mut found = findings(&[(1.0, 0.1)]);
+        assert_eq!(found.progress(), "1 of 41 points");
+        let before = found.share();
+        let known = found.point(0).unwrap();
+        found.take(Finding::Point(0, Point { cpu_s: 0.5, ..known }, None));
+        assert!(before >= 0.5 && found.share() > before && found.time(0) == Duration::from_secs(2));
+        found.take(Finding::Over(Err("no memory".into())));
+        assert_eq!((found.progress(), found.share()), ("This could not be measured: no memory".into(), 1.0));
     }
 }

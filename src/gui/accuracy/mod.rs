@@ -89,7 +89,7 @@ impl Accuracy {
     fn keep_up(&mut self, session: &mut Session) -> bool {
         let Some(prepared) = session.prepared().cloned() else { return false };
         if self.findings.as_ref().is_none_or(|findings| !findings.are_of(&prepared)) {
-            let mut findings = Findings::new(&prepared);
+            let mut findings = Findings::new(&prepared.opened, prepared.size, prepared.quality);
             findings.job = session.measure(&prepared, findings.qualities.clone());
             (self.findings, self.choice) = (Some(findings), None);
             if session.stage().phase == Phase::Running && !session.stage().paused {
@@ -202,10 +202,10 @@ impl Accuracy {
 
 /// The chart; returns the place of the point that was clicked.
 fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Vec2, look: Look) -> Option<usize> {
+    const CHART: &str = "Chart of time and error";
     /// Whoever points so near to a point means it.
     const NEAR: f32 = 2.0 * GRID;
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    widgets::describe(&response, "Speed against accuracy", || findings.progress());
     if findings.count() == 0 {
         let words = "First a picture is traced that is as good as true. Then points appear here, one for each quality: \
                      the farther to the left the faster, the lower the better. The run stands still meanwhile, since one \
@@ -214,8 +214,10 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
             ui.painter().layout(words.into(), theme::regular(theme::BODY), look.quiet, (0.7 * size.x).min(60.0 * GRID));
         let corner = rect.center() - galley.size() / 2.0;
         ui.painter().galley(corner, galley, look.quiet);
+        widgets::describe(&response, CHART, || words.into());
         return None;
     }
+    widgets::describe(&response, CHART, || findings.progress());
     let drawn = findings.tradeoff(chosen).drawn(rect.size().into());
     paint(&ui.painter_at(rect), rect.min, &drawn.marks, &Inks { look, nodes: &[] });
     let mut clicked = None;
