@@ -15,6 +15,8 @@ pub enum Command {
     Save,
     /// The scenes, and what else can be opened.
     Scenes,
+    /// Speed against accuracy.
+    Accuracy,
     /// The scene's file once more.
     Reload,
     /// What can be set.
@@ -68,6 +70,11 @@ pub const TABLE: &[Line] = &[
         shown: "O",
         what: "Scenes: open one, or a recorded run",
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
+    },
+    Line {
+        shown: "A",
+        what: "Accuracy: what other qualities cost, to choose one",
+        keys: &[(NONE, Key::A, Command::Accuracy)],
     },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
     Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },

@@ -1,5 +1,6 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
 
+mod accuracy;
 mod app;
 mod frames;
 mod gallery;

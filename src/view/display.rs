@@ -140,6 +140,8 @@ pub enum Hue {
     Text,
     /// Text that explains.
     Quiet,
+    /// What was chosen.
+    Accent,
     /// Lines that order.
     Hairline,
     /// What everything lies on.

@@ -1,6 +1,7 @@
 //! The window without a window: drives the app by the accessible names of its widgets, and checks what comes of it in the
 //! state and the records of the run.
 
+mod accuracy;
 mod driving;
 mod files;
 mod layout;

@@ -3,6 +3,7 @@
 
 mod files;
 pub mod jobs;
+mod measuring;
 mod performer;
 mod stage;
 
@@ -17,13 +18,15 @@ use super::settings::Settings;
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::palette::Rgb;
+use crate::picture::Quality;
 use crate::runlog::Header;
 use crate::scene::Opened;
 use crate::time::Time;
 use crate::tracer::Tracer;
 
-pub use jobs::{Done, Purpose};
-use jobs::{Jobs, Prepared, Ready, Recorded};
+pub use jobs::{Done, Prepared, Purpose};
+use jobs::{Jobs, Ready, Recorded};
+pub use measuring::Finding;
 use performer::Performer;
 pub use stage::{Phase, Stage};
 
@@ -40,6 +43,8 @@ pub struct Session {
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
+    /// Measurements that have not ended, although they may have been asked to.
+    measurements: usize,
     notice: Option<Notice>,
     /// Where each run's records are written when it ends.
     log_path: Option<PathBuf>,
@@ -70,6 +75,7 @@ impl Session {
             loading: None,
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
+            measurements: 0,
             notice: None,
             log_path,
             recent: Vec::new(),
@@ -92,7 +98,7 @@ impl Session {
     }
 
     /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
-    /// the system's dialogs, and small pictures.
+    /// the system's dialogs, small pictures, and what was measured.
     pub fn tick(&mut self, clock: f64) -> Vec<Done> {
         self.clock = clock;
         if self.stage.tick() {
@@ -118,6 +124,10 @@ impl Session {
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
+                Done::Found(job, finding) => {
+                    self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
+                    others.push(Done::Found(job, finding));
+                }
                 done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
@@ -200,6 +210,11 @@ impl Session {
         &self.stage.log.header
     }
 
+    /// The scene that live runs trace, compiled.
+    pub fn prepared(&self) -> Option<&Prepared> {
+        self.prepared.as_ref()
+    }
+
     /// The scene that live runs trace.
     pub fn opened(&self) -> Option<&Opened> {
         self.prepared.as_ref().map(|prepared| &*prepared.opened)
@@ -242,6 +257,17 @@ impl Session {
         &self.jobs
     }
 
+    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        self.measurements += 1;
+        self.jobs.measure(prepared, qualities)
+    }
+
+    /// Gives up what is being measured, if something is.
+    pub fn stop_measuring(&mut self) {
+        self.jobs.stop_measuring();
+    }
+
     /// What is being read and compiled, and for how many seconds.
     pub fn loading(&self) -> Option<(&str, f64)> {
         self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.since))
@@ -280,6 +306,11 @@ impl Session {
     /// How many runs were asked to end and have not, for tests.
     pub fn runs_ending(&self) -> usize {
         self.ending.len()
+    }
+
+    /// How many measurements have not ended, although they may have been asked to, for tests.
+    pub fn measurements(&self) -> usize {
+        self.measurements
     }
 
     /// Sets everything that differs, and returns what was set before.
