@@ -72,14 +72,15 @@ pub fn combinations() -> Vec<Quality> {
     combined.collect()
 }
 
+/// Rays of all kinds in a picture of one sample a pixel.
+const RAYS: f64 = 80_000.0;
+
 /// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about [`RAYS`] rays at most, so
 /// that scenes whose trees of rays are large do not take much longer than others.
 ///
 /// # Errors
 /// A sentence, if there is no such size.
 pub fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
-    /// Rays of all kinds in a picture of one sample a pixel.
-    const RAYS: f64 = 80_000.0;
     let small = Size::new(most.width().min(64), most.height().min(48))?;
     let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
     Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);
