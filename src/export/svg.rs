@@ -102,6 +102,7 @@ impl Svg {
             Hue::Quiet => PRINT.quiet,
             Hue::Hairline => PRINT.hairline,
             Hue::Ground => PRINT.ground,
+            Hue::Told(colour) => colour,
         }
     }
 

@@ -26,6 +26,7 @@ impl Inks<'_> {
             Hue::Quiet => self.look.quiet,
             Hue::Hairline => self.look.hairline,
             Hue::Ground => self.look.ground,
+            Hue::Told(colour) => theme::colour(colour),
         };
         full.gamma_multiply(ink.alpha)
     }

@@ -17,6 +17,8 @@ pub struct Explained {
     pub share: f64,
     /// What the rays that were left out would have counted together: no more than the cutoff.
     pub left_out: f64,
+    /// How many they were.
+    pub rays_left_out: u64,
 }
 
 /// A ray, and all that it brings but for what comes by the rays that start at its end.
@@ -75,8 +77,8 @@ pub(super) enum Note {
     },
     Lit(Lit),
     TooDeep(f64),
-    /// Of the whole sample.
-    LeftOut(f64),
+    /// What was left out of the whole sample, and how many rays these were.
+    LeftOut(f64, u64),
     /// Of all samples: the part of the pixel that each of the first four is, and each of the others.
     Shares([f64; 2]),
 }
@@ -172,7 +174,7 @@ impl Watch for Notes {
             }
             Note::Lit(lit) => ray.lights.push(lit),
             Note::TooDeep(weight) => ray.too_deep = weight,
-            Note::LeftOut(weight) => sample.left_out = weight,
+            Note::LeftOut(weight, rays) => (sample.left_out, sample.rays_left_out) = (weight, rays),
             Note::Shares(_) => {}
         }
     }

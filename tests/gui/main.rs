@@ -3,6 +3,7 @@
 
 mod driving;
 mod files;
+mod inspector;
 mod layout;
 mod nodes;
 mod remembering;

@@ -2,6 +2,7 @@
 //! those of runs behind [`Performer`], those of everything else in [`jobs`].
 
 mod files;
+mod inspecting;
 pub mod jobs;
 mod performer;
 mod stage;
@@ -22,6 +23,7 @@ use crate::scene::Opened;
 use crate::time::Time;
 use crate::tracer::Tracer;
 
+use inspecting::Inspecting;
 pub use jobs::{Done, Purpose};
 use jobs::{Jobs, Prepared, Ready, Recorded};
 use performer::Performer;
@@ -37,6 +39,7 @@ pub struct Session {
     /// The run that is played again, if that is what is shown.
     recorded: Option<Recorded>,
     loading: Option<Loading>,
+    inspecting: Inspecting,
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
@@ -68,6 +71,7 @@ impl Session {
             prepared: None,
             recorded: None,
             loading: None,
+            inspecting: Inspecting::default(),
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
             notice: None,
@@ -118,6 +122,7 @@ impl Session {
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
+                Done::Inspected(inspected) => self.take_inspected(inspected),
                 done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
@@ -314,6 +319,7 @@ impl Session {
         self.retire();
         self.stage = Stage::new(performer, header, self.ground);
         self.stage.show_preview(tracer);
+        self.look_again();
     }
 
     /// Lets whoever performs end in their own time.
