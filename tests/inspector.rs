@@ -52,6 +52,8 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
             assert_eq!(lit as u64, rays.shadow, "{name}");
             assert!(sample.rays.iter().all(|ray| ray.lights.len() == ray.shadows.len()), "{name}");
             assert!(sample.left_out <= Quality::default().cutoff, "{name}");
+            // What is left of sums that were added and taken away counts nothing.
+            assert_eq!(sample.rays_left_out > 0, sample.left_out > 1e-12, "{name}: {}", sample.left_out);
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
                 let material = &scene.materials[from.met.expect("it starts somewhere").tag as usize];
