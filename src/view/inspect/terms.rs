@@ -57,7 +57,7 @@ impl Inspected {
         vec![
             term("Ka Ia", "ambient", ray.ambient),
             term("Kd Σ Il (N·L)", "diffuse", diffuse),
-            term("Ks Σ Il (S·R)ⁿ", "highlights", specular),
+            term("Ks Σ Il (S·R)^n", "highlights", specular),
             term("Ks Is", "reflected", reflected),
             term("Kt It", "transmitted", refracted),
             term("Cp", "the sum", ray.ambient + diffuse + specular + reflected + refracted),
