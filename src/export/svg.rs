@@ -103,6 +103,7 @@ impl Svg {
             Hue::Accent => PRINT.accent,
             Hue::Hairline => PRINT.hairline,
             Hue::Ground => PRINT.ground,
+            Hue::Told(colour) => colour,
         }
     }
 

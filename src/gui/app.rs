@@ -14,7 +14,7 @@ use super::session::{Done, Purpose, Session};
 use super::settings::Settings;
 use super::setup_panel::{self, SetupPanel};
 use super::theme::{self, GRID, Look};
-use super::{Launch, frames, help, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
+use super::{Launch, frames, help, inspector, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
 use crate::balance::NodeId;
 
 /// The window's content.
@@ -110,6 +110,7 @@ impl App {
             }
             Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
             Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
+            Command::Inspect(by) => session.inspect_beside(by),
             Command::Theme => {
                 ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
             }
@@ -149,6 +150,8 @@ impl App {
             self.save_bar.close();
         } else if self.session.notice().is_some() {
             self.session.close_notice();
+        } else if self.session.inspected_place().is_some() {
+            self.session.stop_inspecting();
         } else {
             self.selected = None;
         }
@@ -227,7 +230,10 @@ impl App {
         let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session));
-        ui.scope_builder(within(right), |ui| ring_panel::show(ui, &self.session, &mut self.selected));
+        ui.scope_builder(within(right), |ui| match self.session.inspected_place() {
+            Some(place) => inspector::show(ui, place, &mut self.session),
+            None => ring_panel::show(ui, &self.session, &mut self.selected),
+        });
     }
 }
 

@@ -7,6 +7,7 @@ mod gallery;
 mod help;
 mod history;
 mod icons;
+mod inspector;
 mod keys;
 mod nodes_panel;
 mod notice;

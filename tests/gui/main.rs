@@ -4,6 +4,7 @@
 mod accuracy;
 mod driving;
 mod files;
+mod inspector;
 mod layout;
 mod nodes;
 mod remembering;

@@ -18,6 +18,7 @@ use crate::picture::{Frame, Quality, Size, write_png};
 use crate::runlog::{Driver, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
+use crate::view::Inspected;
 
 /// What a job has come to.
 pub enum Done {
@@ -31,6 +32,8 @@ pub enum Done {
     Thumbnail(String, Result<Thumbnail, String>),
     /// The job of this number has found out something about speed and accuracy.
     Found(u64, Finding),
+    /// A pixel, with all that is known of it; nothing if there is no such pixel.
+    Inspected(Option<Box<Inspected>>),
     /// The file that is open has changed, or is gone.
     FileChanged(PathBuf, FileChange),
 }
@@ -83,6 +86,8 @@ pub struct Prepared {
 pub struct Recorded {
     /// Its records.
     pub log: Arc<RunLog>,
+    /// Its scene.
+    pub opened: Arc<Opened>,
     /// What traces its picture again.
     pub tracer: Arc<Tracer>,
 }
@@ -150,11 +155,11 @@ impl Jobs {
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size)?;
-                    let scene = Scene::parse(&log.header.scene_text);
-                    let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
-                    let tracer = Tracer::new(&scene, log.header.size, log.header.quality);
+                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
+                    let opened = opened.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
+                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
                     let tracer = Arc::new(with_preview(tracer));
-                    Ok(Ready::Run(Recorded { log, tracer }))
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer }))
                 }
             });
             Done::Ready(number, ready)
@@ -203,6 +208,11 @@ impl Jobs {
                 }
             },
         );
+    }
+
+    /// Traces a pixel once more, to be looked at.
+    pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static) {
+        self.start("inspect", move || Done::Inspected(look().map(Box::new)));
     }
 
     /// Watches this file instead of the one before.

@@ -2,6 +2,7 @@
 //! those of runs behind [`Performer`], those of everything else in [`jobs`].
 
 mod files;
+mod inspecting;
 pub mod jobs;
 mod measuring;
 mod performer;
@@ -24,6 +25,7 @@ use crate::scene::Opened;
 use crate::time::Time;
 use crate::tracer::Tracer;
 
+use inspecting::Inspecting;
 pub use jobs::{Done, Prepared, Purpose};
 use jobs::{Jobs, Ready, Recorded};
 pub use measuring::Finding;
@@ -40,6 +42,7 @@ pub struct Session {
     /// The run that is played again, if that is what is shown.
     recorded: Option<Recorded>,
     loading: Option<Loading>,
+    inspecting: Inspecting,
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
@@ -73,6 +76,7 @@ impl Session {
             prepared: None,
             recorded: None,
             loading: None,
+            inspecting: Inspecting::default(),
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
             measurements: 0,
@@ -128,6 +132,7 @@ impl Session {
                     self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
                     others.push(Done::Found(job, finding));
                 }
+                Done::Inspected(inspected) => self.take_inspected(inspected),
                 done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
@@ -345,6 +350,7 @@ impl Session {
         self.retire();
         self.stage = Stage::new(performer, header, self.ground);
         self.stage.show_preview(tracer);
+        self.look_again();
     }
 
     /// Lets whoever performs end in their own time.
