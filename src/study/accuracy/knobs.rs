@@ -75,7 +75,7 @@ pub fn combinations() -> Vec<Quality> {
 /// Rays of all kinds in a picture of one sample a pixel.
 const RAYS: f64 = 80_000.0;
 
-/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about [`RAYS`] rays at most, so
+/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about 80,000 rays at most, so
 /// that scenes whose trees of rays are large do not take much longer than others.
 ///
 /// # Errors
