@@ -73,11 +73,7 @@ pub const TABLE: &[Line] = &[
         what: "Scenes: open one, or a recorded run",
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
-    Line {
-        shown: "A",
-        what: "Accuracy: what other qualities cost, to choose one",
-        keys: &[(NONE, Key::A, Command::Accuracy)],
-    },
+    Line { shown: "A", what: "Accuracy: what other qualities cost", keys: &[(NONE, Key::A, Command::Accuracy)] },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
     Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
     Line {

@@ -26,7 +26,7 @@ pub struct Open {
 /// Shows the bar and returns what was pressed.
 pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
-    let wide = ui.available_width() > 900.0;
+    let wide = ui.available_width() > 1040.0;
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);

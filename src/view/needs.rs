@@ -12,14 +12,7 @@ pub fn needs_lines(compiled: &Compiled, levels: &[u64]) -> Vec<(&'static str, St
         ("Solids", several(compiled.solids, "solid")),
         ("Made of", if kinds.is_empty() { "nothing".into() } else { listed(&kinds) }),
         ("Kept", format!("{} of {} shapes that are written", number(kept), number(compiled.given.primitives))),
-        (
-            "Operations",
-            format!(
-                "{} of {} unions, intersections and differences",
-                number(compiled.operations),
-                number(compiled.given.operations)
-            ),
-        ),
+        ("Operations", operations_words(compiled)),
         ("Lights", several(compiled.lights, "light")),
         ("Surfaces", surfaces(compiled).into()),
         ("Rays", levels_words(levels)),
@@ -45,6 +38,15 @@ pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// How many operations are left. A union of many becomes a tree of unions, so that there may be more than are written.
+fn operations_words(compiled: &Compiled) -> String {
+    let (kept, given) = (compiled.operations, compiled.given.operations);
+    if kept > given {
+        return format!("{}, from {} that are written: a union of many becomes a tree", number(kept), number(given));
+    }
+    format!("{} of {} unions, intersections and differences", number(kept), number(given))
 }
 
 fn surfaces(compiled: &Compiled) -> &'static str {
@@ -128,6 +130,19 @@ mod tests {
             assert!(more.contains(line), "{line} is not in {more}");
         }
         assert!(more.contains("levels are used"), "{more}");
+    }
+
+    #[test]
+    fn a_union_of_many_has_more_operations_than_are_written() {
+        let balls: Vec<String> = (0..40)
+            .map(|i| {
+                format!("Sphere(radius: 0.2, centre: ({}, {}, 0))", 0.3 * f64::from(i % 7), 0.3 * f64::from(i / 7))
+            })
+            .collect();
+        let glass =
+            format!("Intersection(of: [Box(min: (-5, -5, -5), max: (5, 5, 5)), Union(of: [{}])])", balls.join(", "));
+        let told = told(&tracer(&glass));
+        assert!(told.contains(", from 2 that are written: a union of many becomes a tree"), "{told}");
     }
 
     #[test]

@@ -49,7 +49,9 @@ impl Tradeoff {
         let legend = [("a quality", Hue::Quiet), ("the best for its time", Hue::Text), ("chosen", Hue::Accent)];
         let words = Words { title: "", note: "", legend: &legend, below: 2 };
         let floor = Some(self.floor).filter(|floor| *floor > LEAST_ERROR && !shown.is_empty());
-        let heights = shown.iter().map(|(_, error)| *error).chain(floor);
+        // Above the highest point there is room for its name.
+        let above_all = shown.iter().map(|(_, error)| *error).reduce(f64::max).map(|error| 1.5 * error);
+        let heights = shown.iter().map(|(_, error)| *error).chain(floor).chain(above_all);
         let error = axis("error of the picture (RMSE, linear light)");
         let (mut sheet, y) = Sheet::new(size, &words, &error, heights, 0.0);
         let x = sheet.columns(&axis(&self.time), shown.iter().map(|(time, _)| *time));

@@ -132,3 +132,32 @@ fn another_scene_is_measured_anew() {
     until(&mut window, "all points", is_measured);
     assert!(!session(&window).stage().paused);
 }
+
+#[test]
+fn everything_has_its_place_in_a_small_window_too() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open_small(&directory);
+    key(&mut window, Key::A);
+    until(&mut window, "all points", is_measured);
+    for size in [[1280.0, 800.0], [1000.0, 700.0]] {
+        window.set_size(size.into());
+        window.run_steps(3);
+        let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        let rect = |name: &str| window.get_by_label(name).rect();
+        let chart = rect("Chart of time and error");
+        for name in ["Point 1", "Point 40"] {
+            assert!(chart.contains_rect(rect(name).shrink(8.0)), "{name} at {size:?}");
+        }
+        for name in [
+            "Chart of time and error",
+            "Divider of the pictures",
+            "Largest error",
+            "Take these settings",
+            "What this scene needs",
+        ] {
+            assert!(whole.contains_rect(rect(name)), "{name} at {size:?}: {:?}", rect(name));
+        }
+        assert!(chart.right() < rect("Divider of the pictures").left());
+        assert!(chart.bottom() < rect("Largest error").top());
+    }
+}
