@@ -131,7 +131,12 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
             asked = Some(Asked::Choose(Chosen { ray: spot.ray, ..chosen }));
         }
     }
-    quiet(ui, "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.");
+    if inspected.sample().rays.len() > 1 {
+        quiet(
+            ui,
+            "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
+        );
+    }
     asked
 }
 

@@ -43,7 +43,7 @@ impl Inspected {
             let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, "It passes no solid.", Hue::Quiet)];
             return Spans { marks, height: ROW };
         }
-        let left = (0.36 * width).min(210.0);
+        let left = (0.42 * width).min(210.0);
         let axis = Axis { range: Some(range.into()), ..Axis::default() };
         let text_width = |text: &str| super::SMALL.width(text.chars().count()) + 8.0;
         let plot = width - left - RIGHT;
