@@ -19,7 +19,7 @@ enum Asked {
     Close,
 }
 
-/// In less width the terms stand below the tree of rays.
+/// In less width the chosen ray stands below the tree of rays.
 const WIDE: f32 = 560.0;
 /// Of longer lists of solids only the beginning is shown.
 const MOST_ROWS: usize = 16;
@@ -90,27 +90,19 @@ fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
         }
     }
     ui.add_space(GRID);
-    let asked = if ui.available_width() >= WIDE {
-        let gap = 3.0 * GRID;
-        let whole = ui.available_rect_before_wrap();
-        let split = whole.left() + (0.42 * whole.width()).round();
-        let [left, right] = [whole.with_max_x(split), whole.with_min_x(split + gap)];
-        let left = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| rays(ui, inspected, inks));
-        let right = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| terms(ui, inspected, inks));
-        let used = left.response.rect.union(right.response.rect);
-        ui.advance_cursor_after_rect(used);
-        left.inner
-    } else {
+    if ui.available_width() < WIDE {
         let asked = rays(ui, inspected, inks);
         ui.add_space(GRID);
-        terms(ui, inspected, inks);
-        asked
-    };
-    ui.add_space(GRID);
-    title(ui, "What it passes", look);
-    let spans = inspected.spans(ui.available_width(), MOST_ROWS);
-    drawing(ui, "Spans along the ray", &inspected.span_words(), (&spans.marks, spans.height), inks);
-    asked
+        ray(ui, inspected, inks);
+        return asked;
+    }
+    let whole = ui.available_rect_before_wrap();
+    let split = whole.left() + (0.4 * whole.width()).round();
+    let [left, right] = [whole.with_max_x(split), whole.with_min_x(split + 3.0 * GRID)];
+    let left = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| rays(ui, inspected, inks));
+    let right = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| ray(ui, inspected, inks));
+    ui.advance_cursor_after_rect(left.response.rect.union(right.response.rect));
+    left.inner
 }
 
 /// The tree of rays, of which one can be chosen.
@@ -139,7 +131,12 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
             asked = Some(Asked::Choose(Chosen { ray: spot.ray, ..chosen }));
         }
     }
-    quiet(ui, "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.");
+    if inspected.sample().rays.len() > 1 {
+        quiet(
+            ui,
+            "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
+        );
+    }
     asked
 }
 
@@ -163,12 +160,15 @@ fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Opt
     asked
 }
 
-/// What the chosen ray is, and the terms of its equation.
-fn terms(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) {
-    title(ui, &format!("Ray {}", inspected.chosen.ray + 1), inks.look);
+/// The chosen ray: the terms of its equation, and what it passes.
+fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) {
+    ui.horizontal(|ui| title(ui, &format!("Ray {}", inspected.chosen.ray + 1), inks.look));
     quiet(ui, &inspected.ray_sentences().join(" "));
     let terms = inspected.draw_terms(ui.available_width());
     drawing(ui, "Terms of the equation", &inspected.term_words(), (&terms.marks, terms.height), inks);
+    ui.add_space(GRID);
+    let spans = inspected.spans(ui.available_width(), MOST_ROWS);
+    drawing(ui, "Spans along the ray", &inspected.span_words(), (&spans.marks, spans.height), inks);
 }
 
 /// A display list as high as it is; returns its place.

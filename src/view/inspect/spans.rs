@@ -26,6 +26,8 @@ pub(super) struct Row<'a> {
 }
 
 const ROW: f32 = 20.0;
+/// What is measured to the right.
+const ALONG: &str = "along the ray";
 const INDENT: f32 = 12.0;
 /// No row is further to the right.
 const MOST_INDENTS: usize = 5;
@@ -36,13 +38,13 @@ impl Inspected {
     /// The stays of the chosen ray in each solid that it passes and in what it is made of, `most` rows at most. Distances are
     /// to the right.
     pub fn spans(&self, width: f32, most: usize) -> Spans {
-        let (rows, far) = (self.rows(), self.far());
+        let (rows, range) = (self.rows(), self.range());
         if rows.is_empty() {
             let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, "It passes no solid.", Hue::Quiet)];
             return Spans { marks, height: ROW };
         }
-        let left = (0.36 * width).min(210.0);
-        let axis = Axis { range: Some((0.0, far)), ..Axis::default() };
+        let left = (0.42 * width).min(210.0);
+        let axis = Axis { range: Some(range.into()), ..Axis::default() };
         let text_width = |text: &str| super::SMALL.width(text.chars().count()) + 8.0;
         let plot = width - left - RIGHT;
         let ruler = Ruler::new(&axis, std::iter::empty(), plot, text_width);
@@ -59,14 +61,16 @@ impl Inspected {
         }
         for (row, y) in rows.iter().take(shown).zip((0..).map(|index| top + (index as f32 + 0.5) * ROW)) {
             self.row(row, y, left, &mut marks);
-            self.bars(row.figure, y, &x, far, &mut marks);
+            self.bars(row.figure, y, &x, range, &mut marks);
         }
+        marks.push(label([0.0, top / 2.0 - 2.0], Anchor::Left, ALONG, Hue::Quiet));
         let to = self.ray().path.to;
         if to.is_finite() {
             let at = x(to);
             marks.push(line([[at, top - 3.0], [at, bottom]], 2.0, Hue::Text.full()));
             let text = format!("ends at {}", number(to));
-            marks.push(label([middle(&text, at), top / 2.0 - 2.0], Anchor::Centre, text, Hue::Text));
+            let beside = super::SMALL.width(ALONG.len() + 1 + text.chars().count() / 2);
+            marks.push(label([middle(&text, at).max(beside), top / 2.0 - 2.0], Anchor::Centre, text, Hue::Text));
         }
         if shown < rows.len() {
             let text = format!("and {} more", count((rows.len() - shown) as u32));
@@ -78,13 +82,13 @@ impl Inspected {
     /// All that the ray passes, each solid before what it is made of.
     pub(super) fn rows(&self) -> Vec<Row<'_>> {
         let met = self.ray().met.map(|met| met.start.root);
-        let (far, mut rows) = (self.far(), Vec::new());
-        for (root, figure) in self.figures.iter().filter(|(_, figure)| seen(figure, far).next().is_some()) {
+        let (range, mut rows) = (self.range(), Vec::new());
+        for (root, figure) in self.figures.iter().filter(|(_, figure)| seen(figure, range).next().is_some()) {
             let mut waiting = vec![(figure, 0)];
             while let Some((figure, depth)) = waiting.pop() {
                 rows.push(Row { figure, depth, is_met: met == Some(*root) });
                 // What the ray does not pass says nothing.
-                let passed = figure.operands.iter().rev().filter(|operand| seen(operand, far).next().is_some());
+                let passed = figure.operands.iter().rev().filter(|operand| seen(operand, range).next().is_some());
                 waiting.extend(passed.map(|operand| (operand, depth + 1)));
             }
         }
@@ -104,13 +108,26 @@ impl Inspected {
         }
     }
 
-    /// The distance that is drawn last: a little beyond where the ray ends, or where it leaves the last solid.
-    pub(super) fn far(&self) -> f64 {
+    /// The distances that are drawn: those at which the ray enters or leaves anything, and some more. From 0 on if most of the
+    /// way would be seen anyway.
+    fn range(&self) -> [f64; 2] {
         let to = self.ray().path.to;
-        let ends = self.figures.iter().flat_map(|(_, figure)| figure.stays.iter().flatten());
-        let last = ends.copied().filter(|t| t.is_finite()).fold(0.0, f64::max);
-        let far = if to.is_finite() { (1.05 * last).clamp(1.08 * to, (1.0 + BEYOND) * to) } else { 1.05 * last };
-        if far.is_finite() && far > NOTHING { far } else { 1.0 }
+        let most = if to.is_finite() { (1.0 + BEYOND) * to } else { f64::MAX };
+        let (mut first, mut last) = if to.is_finite() { (to, to) } else { (f64::MAX, 0.0) };
+        let mut waiting: Vec<&Figure> = self.figures.iter().map(|(_, figure)| figure).collect();
+        while let Some(figure) = waiting.pop() {
+            for &t in figure.stays.iter().flatten().filter(|t| (NOTHING..=most).contains(*t)) {
+                (first, last) = (first.min(t), last.max(t));
+            }
+            waiting.extend(&figure.operands);
+        }
+        let more = (0.08 * (last - first)).max(0.02 * last);
+        let (near, far) = (first - more, last + more);
+        match far.is_finite() && far > NOTHING {
+            true if near > 0.35 * far => [near, far],
+            true => [0.0, far],
+            false => [0.0, 1.0],
+        }
     }
 
     fn row(&self, row: &Row<'_>, y: f32, left: f32, marks: &mut Vec<Mark>) {
@@ -120,7 +137,7 @@ impl Inspected {
         marks.push(label([x, y], Anchor::Left, text, hue));
     }
 
-    fn bars(&self, figure: &Figure, y: f32, x: &impl Fn(f64) -> f32, far: f64, marks: &mut Vec<Mark>) {
+    fn bars(&self, figure: &Figure, y: f32, x: &impl Fn(f64) -> f32, range: [f64; 2], marks: &mut Vec<Mark>) {
         let inks = match figure.what {
             What::Composition(_) => [Hue::Quiet, Hue::Quiet],
             What::Primitive { tag, .. } => {
@@ -129,7 +146,7 @@ impl Inspected {
             }
         };
         let high = if matches!(figure.what, What::Composition(_)) { 3.0 } else { 6.0 };
-        for [enter, leave] in seen(figure, far) {
+        for [enter, leave] in seen(figure, range) {
             let (from, to) = (x(enter), x(leave));
             // A stay that is too short to be seen is seen.
             let half = ((to - from) / 2.0).max(1.0);
@@ -141,15 +158,16 @@ impl Inspected {
     }
 }
 
-/// A stay that ends nearer to where the ray starts, in parts of what is drawn, only touches that place.
+/// A stay that ends nearer to where the drawing begins, in parts of its distances, only touches that place.
 const NOTHING: f64 = 1e-9;
 /// To the right of the plot, for the half of its last number.
 const RIGHT: f32 = 24.0;
 
 /// The stays that are drawn, cut to what is drawn of them.
-fn seen(figure: &Figure, far: f64) -> impl Iterator<Item = [f64; 2]> {
-    let stays = figure.stays.iter().filter(move |[enter, leave]| *leave > NOTHING * far && *enter < far);
-    stays.map(move |[enter, leave]| [enter.max(0.0), leave.min(far)])
+fn seen(figure: &Figure, [near, far]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    let first = near + NOTHING * far;
+    let stays = figure.stays.iter().filter(move |[enter, leave]| *leave > first && *enter < far);
+    stays.map(move |[enter, leave]| [enter.max(near), leave.min(far)])
 }
 
 #[cfg(test)]

@@ -54,12 +54,17 @@ impl Inspected {
     pub fn ray_sentences(&self) -> Vec<String> {
         let ray = self.ray();
         let path = &ray.path;
-        let which = format!("Ray {}, {} on level {}", self.chosen.ray + 1, kind_word(path.kind), path.level);
-        let counts = format!("counts {} of its sample", share_words(path.weight));
-        let Some(met) = ray.met else { return vec![format!("{which}, {counts} and meets nothing.")] };
+        let kind = match path.kind {
+            RayKind::Primary => "From the eye",
+            RayKind::Shadow => "To a light",
+            RayKind::Reflected => "Reflected",
+            RayKind::Refracted => "Through a surface",
+        };
+        let which = format!("{kind}, on level {}, it counts {} of its sample", path.level, share_words(path.weight));
+        let Some(met) = ray.met else { return vec![format!("{which} and meets nothing.")] };
         let does = if met.enters { "enters" } else { "meets from within" };
-        let mut said =
-            vec![format!("{which}, {counts} and {does} {} at a distance of {}.", self.what(ray), number(path.to))];
+        let what = self.what(ray);
+        let mut said = vec![format!("{which} and {does} {what} at a distance of {}.", number(path.to))];
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light)).collect();
             said.push(format!("Lights: {}.", lights.join(", ")));
@@ -93,7 +98,7 @@ impl Inspected {
         }
         text.push('\n');
         self.put_rays(&mut text);
-        text.push('\n');
+        let _ = writeln!(text, "\nRay {}", self.chosen.ray + 1);
         self.ray_sentences().iter().for_each(|sentence| put(&mut text, 0, sentence));
         put(&mut text, 0, "\nIts colour: term, red, green, blue, part of the pixel");
         self.term_words().lines().for_each(|line| put(&mut text, 1, line));
@@ -189,7 +194,7 @@ pub(super) fn share_words(part: f64) -> String {
     let percent = 100.0 * part;
     match percent.abs() {
         0.0 => "0 %".into(),
-        0.0..0.005 => "under 0.01 %".into(),
+        0.0..0.005 => "< 0.01 %".into(),
         0.005..0.095 => format!("{percent:.2} %"),
         0.095..9.95 => format!("{percent:.1} %"),
         _ => format!("{percent:.0} %"),
@@ -219,7 +224,7 @@ mod tests {
     #[test]
     fn parts_and_distances_are_short() {
         let said = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(share_words);
-        assert_eq!(said, ["0 %", "under 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
+        assert_eq!(said, ["0 %", "< 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
         let said = [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY].map(number);
         assert_eq!(said, ["0", "1.000", "12.35", "−3.500", "1.00e9", "1.00e−7", "−∞"]);
     }
