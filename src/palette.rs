@@ -20,6 +20,8 @@ pub const CHART: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
 pub struct Neutral {
     /// What everything lies on.
     pub ground: Rgb,
+    /// What to press first, and what was chosen.
+    pub accent: Rgb,
     /// Lines that order.
     pub hairline: Rgb,
     /// Text.
@@ -31,6 +33,7 @@ pub struct Neutral {
 /// On a light screen.
 pub const LIGHT: Neutral = Neutral {
     ground: [0xfa, 0xfb, 0xfc],
+    accent: [0x5a, 0x46, 0xd6],
     hairline: [0xd5, 0xda, 0xe1],
     text: [0x16, 0x1b, 0x22],
     quiet: [0x5b, 0x66, 0x75],

@@ -217,6 +217,31 @@ fn bad_arguments_are_refused_before_anything_is_traced() {
 }
 
 #[test]
+fn a_pixel_that_is_not_there_is_refused() {
+    let directory = TempDir::new().expect("a temporary directory");
+    let cases: &[(&[&str], &str)] = &[
+        (&["--pixel", "640,0"], "there is no pixel 640,0 in a picture of 640x480"),
+        (&["--pixel", "0,480"], "is 639,479"),
+        (&["--pixel", "4,3", "--size", "4x3"], "is 3,2"),
+        (&["--pixel", "-1,0"], "for example 320,240"),
+        (&["--pixel", "5"], "for example 320,240"),
+        (&["--pixel", "1,2,3"], "for example 320,240"),
+        (&["--pixel", "1.5,2"], "for example 320,240"),
+        (&["--pixel", "99999999999,2"], "for example 320,240"),
+        (&[], "--pixel"),
+        (&["--pixel", "1,1", "--samples", "0"], "0 is not in 1..=64"),
+        (&["--pixel", "1,1", "--depth", "101"], "101 is not in 1..=100"),
+        (&["--pixel", "1,1", "--out", "out.png"], "--out"),
+    ];
+    for (arguments, names) in cases {
+        let error = refused(directory.path(), &[&["inspect", "glass"], *arguments].concat());
+        assert_eq!(error.trim_end().lines().count(), 1, "more than a sentence: {error}");
+        assert!(error.contains(names) && !error.contains("render --help"), "{arguments:?}: {error}");
+    }
+    assert!(refused(directory.path(), &["inspect", "nowhere.ron", "--pixel", "1,1"]).contains("no such file"));
+}
+
+#[test]
 fn what_is_no_run_file_is_refused() {
     let directory = TempDir::new().expect("a temporary directory");
     let at = directory.path();

@@ -4,6 +4,7 @@ use anel::csg::{Figure, Operation, What};
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
 use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
+use anel::view::Inspected;
 
 fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
     BUILT_IN.iter().map(|(name, text)| (*name, Scene::parse(text).expect("a built-in scene")))
@@ -52,6 +53,8 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
             assert_eq!(lit as u64, rays.shadow, "{name}");
             assert!(sample.rays.iter().all(|ray| ray.lights.len() == ray.shadows.len()), "{name}");
             assert!(sample.left_out <= Quality::default().cutoff, "{name}");
+            // What is left of sums that were added and taken away counts nothing.
+            assert_eq!(sample.rays_left_out > 0, sample.left_out > 1e-12, "{name}: {}", sample.left_out);
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
                 let material = &scene.materials[from.met.expect("it starts somewhere").tag as usize];
@@ -92,6 +95,32 @@ fn assert_made_of_its_operands(figure: &Figure, name: &str) {
         }
     }
     figure.operands.iter().for_each(|operand| assert_made_of_its_operands(operand, name));
+}
+
+#[test]
+fn the_command_tells_a_pixel_in_words_and_as_one_object() {
+    let tell = |rest: &[&str]| {
+        let arguments = [&["inspect", "glass", "--pixel", "31,22", "--size", "64x48", "--samples", "2"], rest].concat();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_anel")).args(arguments).output();
+        let output = output.expect("the program can be started");
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let (scene, size) = (Scene::parse(BUILT_IN[2].1).expect("glass"), Size::new(64, 48).expect("a small picture"));
+    let tracer = Tracer::new(&scene, size, Quality { samples: 2, ..Quality::default() });
+    let inspected = Inspected::new(&tracer, &scene, [31, 22]).expect("a pixel of the picture");
+    assert_eq!(tell(&[]).trim_end(), inspected.text().trim_end());
+
+    let text = tell(&["--json"]);
+    assert_eq!(text.trim_end().lines().count(), 1);
+    let object: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(object["colour"], serde_json::json!(inspected.colour().to_array()));
+    let samples = object["samples"].as_array().expect("a list");
+    let rays: usize = samples.iter().map(|sample| sample["rays"].as_array().expect("a list").len()).sum();
+    let counted = ["primary", "reflected", "refracted"].map(|kind| object["rays"][kind].as_u64().expect("a number"));
+    assert_eq!((samples.len(), rays as u64), (4, counted.iter().sum()));
+    assert_eq!(object["terms"].as_array().map(Vec::len), Some(inspected.terms().len()));
+    assert_eq!(object["spans"].as_array().map(Vec::len), Some(inspected.figures.len()));
 }
 
 #[test]

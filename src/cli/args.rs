@@ -25,6 +25,8 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// Trace a scene without a window and save the picture
     Render(RenderArgs),
+    /// Tell why a pixel has its colour, and why it takes so long
+    Inspect(InspectArgs),
     /// Write a scene for another renderer
     Export {
         /// A scene file, or the name of a built-in scene
@@ -85,20 +87,8 @@ pub(super) struct RenderArgs {
     /// Pixels across and down
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", allow_hyphen_values = true)]
     pub size: Size,
-    /// Samples a pixel, n × n
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_SAMPLES)))]
-    pub samples: u32,
-    /// Take no more samples of a pixel once the error of its colour is estimated as no more than this: for example 0.01
-    /// [default: take them all]
-    #[arg(long, value_name = "ERROR", default_value = "0", value_parser = part_of_1, hide_default_value = true)]
-    pub threshold: f64,
-    /// Levels of the tree of rays: 1 shows neither reflections nor what is behind glass
-    #[arg(long, value_name = "LEVELS", default_value_t = Quality::default().max_depth,
-        value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_DEPTH)))]
-    pub depth: u32,
-    /// Leave out the weakest rays of the tree, as many as count no more than this together [default: 1/255]
-    #[arg(long, value_name = "WEIGHT", default_value_t = Quality::default().cutoff, value_parser = part_of_1, hide_default_value = true)]
-    pub cutoff: f64,
+    #[command(flatten)]
+    pub quality: QualityArgs,
     /// Nodes [default: as many as speeds, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
@@ -147,8 +137,45 @@ pub(super) struct RenderArgs {
     pub json: bool,
 }
 
-impl RenderArgs {
-    /// How good the picture is to be.
+#[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
+pub(super) struct InspectArgs {
+    /// A scene file, or the name of a built-in scene
+    pub scene: String,
+    /// The pixel's column and row, from 0,0 in the upper left corner
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub pixel: [u32; 2],
+    /// Pixels across and down
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", allow_hyphen_values = true)]
+    pub size: Size,
+    #[command(flatten)]
+    pub quality: QualityArgs,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How good the picture is to be.
+#[derive(Debug, clap::Args)]
+pub(super) struct QualityArgs {
+    /// Samples a pixel, n × n
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_SAMPLES)))]
+    pub samples: u32,
+    /// Take no more samples of a pixel once the error of its colour is estimated as no more than this: for example 0.01
+    /// [default: take them all]
+    #[arg(long, value_name = "ERROR", default_value = "0", value_parser = part_of_1, hide_default_value = true)]
+    pub threshold: f64,
+    /// Levels of the tree of rays: 1 shows neither reflections nor what is behind glass
+    #[arg(long, value_name = "LEVELS", default_value_t = Quality::default().max_depth,
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_DEPTH)))]
+    pub depth: u32,
+    /// Leave out the weakest rays of the tree, as many as count no more than this together [default: 1/255]
+    #[arg(long, value_name = "WEIGHT", default_value_t = Quality::default().cutoff, value_parser = part_of_1, hide_default_value = true)]
+    pub cutoff: f64,
+}
+
+impl QualityArgs {
+    /// The same as the tracer takes it.
     pub fn quality(&self) -> Quality {
         let Self { samples, threshold, depth, cutoff, .. } = *self;
         Quality { samples, threshold, max_depth: depth, cutoff, ..Quality::default() }
@@ -168,6 +195,14 @@ fn driver(text: &str) -> Result<Driver, String> {
         let known = known.map(Driver::name).join(", ");
         format!("there is no driver `{text}`; there are: {known}")
     })
+}
+
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let places = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+    match places {
+        Some((Ok(x), Ok(y))) => Ok([x, y]),
+        _ => Err("a pixel is its column and its row, for example 320,240".into()),
+    }
 }
 
 fn speed(text: &str) -> Result<f64, String> {

@@ -1,6 +1,7 @@
 //! The command line: a window, or a headless command.
 
 mod args;
+mod inspect;
 mod render;
 mod report;
 mod sharing;
@@ -38,6 +39,7 @@ enum Failure {
 pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
+        Some(Command::Inspect(inspect)) => inspect::inspect(&inspect),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
         Some(Command::Study { kind, scene, out, json }) => study::study(kind, scene.as_deref(), &out, json),
         Some(Command::Replay { log }) => replay(&log),
@@ -92,7 +94,7 @@ fn usage(error: clap::Error) -> Failure {
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
     let command = std::env::args_os().nth(1).and_then(|first| first.into_string().ok());
-    let command = command.filter(|first| ["render", "export", "study", "replay"].contains(&&**first));
+    let command = command.filter(|first| ["render", "inspect", "export", "study", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
     Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
 }

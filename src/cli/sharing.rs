@@ -79,7 +79,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         scene: opened.name.clone(),
         scene_text: opened.text.clone(),
         size: args.size,
-        quality: args.quality(),
+        quality: args.quality.quality(),
         division,
         driver,
         rules,

@@ -100,8 +100,10 @@ impl Svg {
             Hue::OnNode(i) => text_on(node(i)),
             Hue::Text => PRINT.text,
             Hue::Quiet => PRINT.quiet,
+            Hue::Accent => PRINT.accent,
             Hue::Hairline => PRINT.hairline,
             Hue::Ground => PRINT.ground,
+            Hue::Told(colour) => colour,
         }
     }
 
@@ -179,7 +181,7 @@ mod tests {
         let hues = prop_oneof![
             (0..40u16).prop_map(Hue::Node),
             (0..40u16).prop_map(Hue::OnNode),
-            prop::sample::select(vec![Hue::Text, Hue::Quiet, Hue::Hairline, Hue::Ground]),
+            prop::sample::select(vec![Hue::Text, Hue::Quiet, Hue::Accent, Hue::Hairline, Hue::Ground]),
         ];
         (hues, 0.0..1.0f32).prop_map(|(hue, alpha)| Ink { hue, alpha })
     }

@@ -4,6 +4,7 @@ use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Theme, Ui, UiBuilder, ViewportCommand};
 use serde::{Deserialize, Serialize};
 
+use super::accuracy::Accuracy;
 use super::gallery::Gallery;
 use super::history::Gesture;
 use super::keys::{self, Command};
@@ -13,7 +14,7 @@ use super::session::{Done, Purpose, Session};
 use super::settings::Settings;
 use super::setup_panel::{self, SetupPanel};
 use super::theme::{self, GRID, Look};
-use super::{Launch, frames, help, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
+use super::{Launch, frames, help, inspector, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
 use crate::balance::NodeId;
 
 /// The window's content.
@@ -23,6 +24,7 @@ pub struct App {
     save_bar: SaveBar,
     setup: SetupPanel,
     gallery: Gallery,
+    accuracy: Accuracy,
     help: bool,
     selected: Option<NodeId>,
 }
@@ -64,6 +66,7 @@ impl App {
             save_bar: SaveBar::default(),
             setup: SetupPanel::new(remembered.setup),
             gallery: Gallery::default(),
+            accuracy: Accuracy::default(),
             help: false,
             selected: None,
         }
@@ -72,6 +75,11 @@ impl App {
     /// What is shown, for tests.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// Of how many qualities it is known what they cost, for tests.
+    pub fn points_measured(&self) -> usize {
+        self.accuracy.points()
     }
 
     /// The selected machine, for tests.
@@ -85,7 +93,14 @@ impl App {
             Command::Pause => session.toggle_pause(),
             Command::Restart => session.restart(),
             Command::Save => self.save_bar.toggle(session),
-            Command::Scenes => self.gallery.toggle(session),
+            Command::Scenes => {
+                self.accuracy.close(session);
+                self.gallery.toggle(session);
+            }
+            Command::Accuracy => {
+                self.gallery.close();
+                self.accuracy.toggle(session);
+            }
             Command::Reload => session.reload(),
             Command::Setup => self.setup.open = !self.setup.open,
             Command::Undo => session.undo(),
@@ -95,6 +110,7 @@ impl App {
             }
             Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
             Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
+            Command::Inspect(by) => session.inspect_beside(by),
             Command::Theme => {
                 ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
             }
@@ -128,10 +144,14 @@ impl App {
             self.help = false;
         } else if self.gallery.is_open() {
             self.gallery.close();
+        } else if self.accuracy.is_open() {
+            self.accuracy.close(&mut self.session);
         } else if self.save_bar.is_open() {
             self.save_bar.close();
         } else if self.session.notice().is_some() {
             self.session.close_notice();
+        } else if self.session.inspected_place().is_some() {
+            self.session.stop_inspecting();
         } else {
             self.selected = None;
         }
@@ -151,8 +171,12 @@ impl App {
     fn panels(&mut self, ui: &mut Ui) {
         let side = 2 * GRID as i8;
         let panel = |top: i8, bottom: i8| Frame::NONE.inner_margin(Margin { left: side, right: side, top, bottom });
-        let open =
-            top_bar::Open { scenes: self.gallery.is_open(), setup: self.setup.open, save: self.save_bar.is_open() };
+        let open = top_bar::Open {
+            scenes: self.gallery.is_open(),
+            accuracy: self.accuracy.is_open(),
+            setup: self.setup.open,
+            save: self.save_bar.is_open(),
+        };
         let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
         if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
             self.obey(command, ui.ctx());
@@ -162,9 +186,15 @@ impl App {
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, blend);
             Panel::top("save bar").frame(panel(8, 8)).show(ui, bar);
         }
-        if self.gallery.is_open() {
+        if self.gallery.is_open() || self.accuracy.is_open() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
-            ui.scope_builder(UiBuilder::new().max_rect(area), |ui| self.gallery.show(ui, &mut self.session));
+            ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
+                if self.gallery.is_open() {
+                    self.gallery.show(ui, &mut self.session);
+                } else {
+                    self.accuracy.show(ui, &mut self.session);
+                }
+            });
             return;
         }
         if self.setup.open {
@@ -200,7 +230,10 @@ impl App {
         let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session));
-        ui.scope_builder(within(right), |ui| ring_panel::show(ui, &self.session, &mut self.selected));
+        ui.scope_builder(within(right), |ui| match self.session.inspected_place() {
+            Some(place) => inspector::show(ui, place, &mut self.session),
+            None => ring_panel::show(ui, &self.session, &mut self.selected),
+        });
     }
 }
 
@@ -211,6 +244,7 @@ impl eframe::App for App {
             match done {
                 Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
                 Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
+                Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
                 Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }

@@ -21,6 +21,8 @@ pub enum Icon {
     Scenes,
     /// What can be set.
     Sliders,
+    /// What was measured.
+    Chart,
     /// Take back.
     Undo,
     /// Questions.
@@ -86,6 +88,12 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             for (y, knob) in [(0.2, 0.7), (0.5, 0.3), (0.8, 0.6)] {
                 line(&[(0.06, y), (0.94, y)]);
                 painter.circle_filled(at(knob, y), rect.width() * 0.13, colour);
+            }
+        }
+        Icon::Chart => {
+            line(&[(0.1, 0.08), (0.1, 0.9), (0.94, 0.9)]);
+            for (x, y) in [(0.3, 0.22), (0.46, 0.52), (0.82, 0.68)] {
+                painter.circle_filled(at(x, y), rect.width() * 0.1, colour);
             }
         }
         Icon::Help => {

@@ -15,6 +15,8 @@ pub enum Command {
     Save,
     /// The scenes, and what else can be opened.
     Scenes,
+    /// Speed against accuracy.
+    Accuracy,
     /// The scene's file once more.
     Reload,
     /// What can be set.
@@ -31,6 +33,8 @@ pub enum Command {
     Slower,
     /// The selected machine stands still, or goes on.
     PauseNode,
+    /// The pixel so far to the right and below, instead of the one that is inspected.
+    Inspect([i32; 2]),
     /// Dark or light.
     Theme,
     /// The whole screen, or a window.
@@ -69,6 +73,7 @@ pub const TABLE: &[Line] = &[
         what: "Scenes: open one, or a recorded run",
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
+    Line { shown: "A", what: "Accuracy: what other qualities cost", keys: &[(NONE, Key::A, Command::Accuracy)] },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
     Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
     Line {
@@ -100,6 +105,17 @@ pub const TABLE: &[Line] = &[
         what: "Pause the selected machine, or let it go on",
         keys: &[(NONE, Key::P, Command::PauseNode)],
     },
+    Line { shown: "Click", what: "Inspect a pixel of the picture", keys: &[] },
+    Line {
+        shown: "Arrows",
+        what: "Inspect the pixel beside it",
+        keys: &[
+            (NONE, Key::ArrowLeft, Command::Inspect([-1, 0])),
+            (NONE, Key::ArrowRight, Command::Inspect([1, 0])),
+            (NONE, Key::ArrowUp, Command::Inspect([0, -1])),
+            (NONE, Key::ArrowDown, Command::Inspect([0, 1])),
+        ],
+    },
     Line {
         shown: "Ctrl Z",
         what: "Undo the last change of a speed or a setting",
@@ -121,7 +137,7 @@ pub const TABLE: &[Line] = &[
 
 /// What the keys ask for. While somebody `types`, letters and digits are what is typed.
 pub fn pressed(ctx: &Context, types: bool) -> Vec<Command> {
-    // Space and Enter press what has the focus.
+    // Space and Enter press what has the focus, and arrows move it.
     let has_focus = ctx.memory(|memory| memory.focused().is_some());
     let mut commands = Vec::new();
     // The more modifiers, the sooner: Ctrl Shift Z is not Ctrl Z.
@@ -131,7 +147,8 @@ pub fn pressed(ctx: &Context, types: bool) -> Vec<Command> {
         let plain = modifiers == NONE;
         let typed = plain && !matches!(key, Key::F1 | Key::F5 | Key::F11 | Key::Escape);
         let edits = matches!(command, Command::Undo | Command::Redo);
-        if types && (typed || edits) || key == Key::Space && has_focus {
+        let is_of_focus = key == Key::Space || matches!(command, Command::Inspect(_));
+        if types && (typed || edits) || is_of_focus && has_focus {
             continue;
         }
         let happens = ctx.input_mut(|input| {

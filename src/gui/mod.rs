@@ -1,11 +1,13 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
 
+mod accuracy;
 mod app;
 mod frames;
 mod gallery;
 mod help;
 mod history;
 mod icons;
+mod inspector;
 mod keys;
 mod nodes_panel;
 mod notice;

@@ -24,8 +24,10 @@ impl Inks<'_> {
             Hue::OnNode(i) => theme::colour(text_on(node(i))),
             Hue::Text => self.look.text,
             Hue::Quiet => self.look.quiet,
+            Hue::Accent => self.look.accent,
             Hue::Hairline => self.look.hairline,
             Hue::Ground => self.look.ground,
+            Hue::Told(colour) => theme::colour(colour),
         };
         full.gamma_multiply(ink.alpha)
     }

@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
-use egui::{Align2, Color32, ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
+use egui::{
+    Align2, Color32, ColorImage, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2,
+    vec2,
+};
 
 use super::session::Session;
 use super::theme::{self, GRID, Look};
 use super::widgets;
-use crate::picture::Atom;
 use crate::view::{Canvas, atom_words, percent};
 
 /// What the panel needs below the picture, in points.
@@ -36,18 +38,29 @@ impl PicturePanel {
         let size = vec2(canvas.size().width() as f32, canvas.size().height() as f32);
         let room = vec2(ui.available_width(), (ui.available_height() - BELOW).max(GRID));
         let scale = (room.x / size.x).min(room.y / size.y);
-        let slack = (room - size * scale).max(egui::Vec2::ZERO);
+        let slack = (room - size * scale).max(Vec2::ZERO);
         let place = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * scale);
-        let response = ui.allocate_rect(place, Sense::hover());
+        let response = ui.allocate_rect(place, Sense::click());
         let state = &session.stage().state;
         widgets::describe(&response, "Picture", || format!("{} done", percent(state.done(), state.atoms())));
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture.id(), place, whole, Color32::WHITE);
         }
+        if response.clicked() {
+            // Whoever has no pointer begins in the middle, and goes on with the arrows.
+            let at = response.interact_pointer_pos().unwrap_or(place.center());
+            session.inspect(pixel_at(session, (at - place.min) / scale));
+            response.surrender_focus();
+        }
+        if let Some([x, y]) = session.inspected_place() {
+            cross_hair(ui.painter(), place.min + (vec2(x as f32, y as f32) + Vec2::splat(0.5)) * scale, scale);
+        }
         if let Some(at) = response.hover_pos() {
-            let atom = atom_at(session, (at - place.min) / scale);
-            response.on_hover_text_at_pointer(atom_words(state, atom, session.now()));
+            let [x, y] = pixel_at(session, (at - place.min) / scale);
+            let atom = (y * session.header().size.width() + x) / session.header().division.atom_pixels();
+            let words = atom_words(&session.stage().state, atom, session.now());
+            response.on_hover_text_at_pointer(format!("{words}\nClick to inspect pixel {x}, {y}"));
         }
         let below = Rect::from_min_size(place.left_bottom(), vec2(place.width(), BELOW));
         self.blend_slider(ui, below, look);
@@ -116,11 +129,19 @@ fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
     (!pixels.is_empty()).then(|| ColorImage::new(size, pixels))
 }
 
-/// The atom that a place in the picture, in pixels, belongs to.
-fn atom_at(session: &Session, place: egui::Vec2) -> Atom {
-    let header = session.header();
-    let (width, height) = (header.size.width(), header.size.height());
-    let column = (place.x.max(0.0) as u32).min(width - 1);
-    let row = (place.y.max(0.0) as u32).min(height - 1);
-    (row * width + column) / header.division.atom_pixels()
+/// The pixel at a place in the picture, in pixels.
+fn pixel_at(session: &Session, place: Vec2) -> [u32; 2] {
+    let size = session.header().size;
+    [(place.x.max(0.0) as u32).min(size.width() - 1), (place.y.max(0.0) as u32).min(size.height() - 1)]
+}
+
+/// Marks a pixel of so many points, and leaves it free.
+fn cross_hair(painter: &Painter, centre: Pos2, side: f32) {
+    let (inner, outer) = (side / 2.0 + 3.0, side / 2.0 + 12.0);
+    // Seen on every picture.
+    for stroke in [Stroke::new(4.0, Color32::BLACK), Stroke::new(1.75, Color32::WHITE)] {
+        for way in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+            painter.line_segment([centre + way * inner, centre + way * outer], stroke);
+        }
+    }
 }

@@ -1,10 +1,10 @@
 //! The ring.
 
-use egui::{Painter, Rect, RichText, Sense, Ui};
+use egui::{Painter, Rect, Sense, Ui};
 
 use super::paint::{Inks, paint};
 use super::session::Session;
-use super::theme::{self, GRID, Look};
+use super::theme::{self, Look};
 use super::widgets;
 use crate::balance::NodeId;
 use crate::view::{
@@ -45,24 +45,11 @@ pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
         (None, None) => None,
     };
     if let Some((title, lines)) = more {
-        response.on_hover_ui_at_pointer(|ui| more_words(ui, &title, &lines, look));
+        response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
     }
     if state.finished().is_none() {
         corner(&painter, rect, small_print(state), look);
     }
-}
-
-/// A title, and below it what there is to say.
-fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: Look) {
-    ui.spacing_mut().interact_size.y = 0.0;
-    ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
-    egui::Grid::new("more").spacing([2.0 * GRID, 0.25 * GRID]).show(ui, |ui| {
-        for (what, how_much) in lines {
-            ui.label(RichText::new(*what).font(theme::regular(theme::SMALL)).color(look.quiet));
-            ui.label(RichText::new(how_much).font(theme::regular(theme::SMALL)).color(look.text));
-            ui.end_row();
-        }
-    });
 }
 
 /// What there is to know of the drawing itself, in its lower right corner.

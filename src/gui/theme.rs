@@ -56,7 +56,7 @@ const LIGHT: Look = Look {
     hairline: colour(palette::LIGHT.hairline),
     text: colour(palette::LIGHT.text),
     quiet: colour(palette::LIGHT.quiet),
-    accent: Color32::from_rgb(0x5a, 0x46, 0xd6),
+    accent: colour(palette::LIGHT.accent),
     on_accent: Color32::WHITE,
     trouble: Color32::from_rgb(0xb4, 0x23, 0x18),
 };

@@ -15,6 +15,8 @@ use crate::view::{Sharing, count};
 pub struct Open {
     /// The scenes.
     pub scenes: bool,
+    /// Speed against accuracy.
+    pub accuracy: bool,
     /// What can be set.
     pub setup: bool,
     /// Saving.
@@ -24,7 +26,7 @@ pub struct Open {
 /// Shows the bar and returns what was pressed.
 pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
-    let wide = ui.available_width() > 900.0;
+    let wide = ui.available_width() > 1040.0;
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
@@ -72,6 +74,7 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     press(Icon::Help, "Help", false, Weight::Quiet, Command::Help, "Which key does what (F1)");
     press(Icon::Contrast, "Dark or light", false, Weight::Quiet, Command::Theme, "Dark or light (D)");
     press(Icon::Save, "Save…", words, shown(open.save), Command::Save, "Save a picture, or the run (S)");
+    press(Icon::Chart, "Accuracy", words, shown(open.accuracy), Command::Accuracy, "What other qualities cost (A)");
     press(Icon::Sliders, "Set up", words, shown(open.setup), Command::Setup, "Machines, picture, strategy (E)");
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
         let button = button(ui, Some(Icon::Undo), "Undo", false, Weight::Quiet);

@@ -190,6 +190,19 @@ pub fn number<N: egui::emath::Numeric>(
     .inner
 }
 
+/// A title, and below it what there is to say.
+pub fn more_words(ui: &mut Ui, title: &str, lines: &[(&'static str, String)], look: Look) {
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
+    egui::Grid::new("more").spacing([2.0 * GRID, 0.25 * GRID]).show(ui, |ui| {
+        for (what, how_much) in lines {
+            ui.label(RichText::new(*what).font(theme::regular(theme::SMALL)).color(look.quiet));
+            ui.label(RichText::new(how_much).font(theme::regular(theme::SMALL)).color(look.text));
+            ui.end_row();
+        }
+    });
+}
+
 fn focus_ring(ui: &Ui, response: &Response, rect: Rect, look: Look) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, look.accent);

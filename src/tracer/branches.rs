@@ -51,6 +51,8 @@ pub(super) struct Branches {
     weight: f64,
     /// What was left out of those to be traced at once: at most half of the cutoff.
     left_out: f64,
+    /// How many rays these are.
+    dropped: u64,
     /// How many were traced.
     traced: u64,
 }
@@ -83,6 +85,7 @@ impl Branches {
         self.at_once.clear();
         self.weight = 0.0;
         self.left_out = 0.0;
+        self.dropped = 0;
         self.traced = 1;
     }
 
@@ -123,6 +126,11 @@ impl Branches {
         self.weight
     }
 
+    /// How many of them were not traced.
+    pub fn rays(&self) -> u64 {
+        (self.waiting.len() + self.at_once.len()) as u64 + self.dropped
+    }
+
     #[inline(always)]
     fn next_at_once(&mut self, cutoff: f64) -> Option<Branch> {
         while let Some(next) = self.at_once.pop() {
@@ -130,6 +138,7 @@ impl Branches {
                 return Some(next);
             }
             self.left_out += next.weight;
+            self.dropped += 1;
         }
         None
     }

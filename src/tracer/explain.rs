@@ -17,6 +17,8 @@ pub struct Explained {
     pub counts: bool,
     /// What the rays that were left out would have counted together: no more than the cutoff.
     pub left_out: f64,
+    /// How many they were.
+    pub rays_left_out: u64,
 }
 
 /// A ray, and all that it brings but for what comes by the rays that start at its end.
@@ -77,8 +79,8 @@ pub(super) enum Note {
     },
     Lit(Lit),
     TooDeep(f64),
-    /// Of the whole sample.
-    LeftOut(f64),
+    /// What was left out of the whole sample, and how many rays these were.
+    LeftOut(f64, u64),
     /// Of all samples: whether the pixel is the mean of all of them, or of all but the first four.
     FirstCount(bool),
 }
@@ -87,6 +89,18 @@ impl RayNotes {
     /// What it brings, but for what comes by rays that start at its end.
     pub fn colour(&self) -> DVec3 {
         self.lights.iter().fold(self.ambient, |sum, lit| sum + lit.coming * (lit.diffuse + lit.specular))
+    }
+}
+
+impl Lit {
+    /// Kd Il (N·L)
+    pub fn diffuse(&self) -> DVec3 {
+        self.coming * self.diffuse
+    }
+
+    /// Ks Il (S·R)ⁿ
+    pub fn specular(&self) -> DVec3 {
+        self.coming * self.specular
     }
 }
 
@@ -100,6 +114,12 @@ impl Explained {
     pub fn mean(samples: &[Self]) -> DVec3 {
         let counting = || samples.iter().filter(|sample| sample.counts);
         counting().map(Self::colour).sum::<DVec3>() / counting().count() as f64
+    }
+
+    /// What part of the pixel it is, that has all these samples.
+    pub fn share(&self, samples: &[Self]) -> f64 {
+        let counting = samples.iter().filter(|sample| sample.counts).count();
+        if self.counts { 1.0 / counting as f64 } else { 0.0 }
     }
 
     /// What comes by the ray of this number (its place in [`Explained::rays`]) and all that follow from it, times what the
@@ -186,7 +206,7 @@ impl Watch for Notes {
             Note::Lit(lit) => ray.lights.push(lit),
             Note::TooDeep(weight) => ray.too_deep = weight,
             // What is left of a sum may be less than nothing by rounding.
-            Note::LeftOut(weight) => sample.left_out = weight.max(0.0),
+            Note::LeftOut(weight, rays) => (sample.left_out, sample.rays_left_out) = (weight.max(0.0), rays),
             Note::FirstCount(_) => {}
         }
     }

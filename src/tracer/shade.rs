@@ -72,7 +72,7 @@ impl Tracer {
             scratch.rays.count(branch.kind);
             colour += self.colour(&branch, scratch, watch) * branch.weight;
         }
-        watch.note(|| Note::LeftOut(scratch.branches.weight()));
+        watch.note(|| Note::LeftOut(scratch.branches.weight(), scratch.branches.rays()));
         colour
     }
 

@@ -1,6 +1,7 @@
 //! A display list: what is to be drawn, without a word on how.
 
 use crate::balance::NodeId;
+use crate::palette::Rgb;
 
 /// A place in the picture: x to the right, y down, in the units of the size that the list was made for.
 pub type Point = [f32; 2];
@@ -140,10 +141,14 @@ pub enum Hue {
     Text,
     /// Text that explains.
     Quiet,
+    /// What was chosen.
+    Accent,
     /// Lines that order.
     Hairline,
     /// What everything lies on.
     Ground,
+    /// A colour that is itself what is told: a material's, or that of light.
+    Told(Rgb),
 }
 
 impl Hue {

@@ -30,7 +30,7 @@ pub fn open_with(size: [f32; 2], argument: &str) -> Window {
 
 /// Lets the app go on until `come` is true; a run that hangs fails here instead of for ever.
 pub fn until(window: &mut Window, what: &str, come: impl Fn(&Window) -> bool) {
-    for _ in 0..3000 {
+    for _ in 0..12_000 {
         window.step();
         if come(window) {
             return;

@@ -1,8 +1,10 @@
 //! The window without a window: drives the app by the accessible names of its widgets, and checks what comes of it in the
 //! state and the records of the run.
 
+mod accuracy;
 mod driving;
 mod files;
+mod inspector;
 mod layout;
 mod nodes;
 mod remembering;

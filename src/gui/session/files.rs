@@ -91,8 +91,8 @@ impl Session {
     pub(super) fn play(&mut self, recorded: Recorded) {
         self.jobs.watch(None);
         let replay = Replay::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
+        self.recorded = Some(recorded.clone());
         self.set_stage(Performer::Recorded(replay), recorded.log.header.clone(), &recorded.tracer);
-        self.recorded = Some(recorded);
     }
 
     /// Writes the records in the background to where the user asked for them, if so.

@@ -11,12 +11,14 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::super::opening::Opening;
 use super::super::settings::Settings;
+use super::measuring::Finding;
 use crate::driver::{RAY, probe};
 use crate::output::OutputError;
 use crate::picture::{Frame, Quality, Size, write_png};
 use crate::runlog::{Driver, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
+use crate::view::Inspected;
 
 /// What a job has come to.
 pub enum Done {
@@ -28,6 +30,10 @@ pub enum Done {
     Chosen(Purpose, Option<PathBuf>),
     /// A small picture of a scene, by the scene's name or path; or why there is none.
     Thumbnail(String, Result<Thumbnail, String>),
+    /// The job of this number has found out something about speed and accuracy.
+    Found(u64, Finding),
+    /// A pixel, with all that is known of it; nothing if there is no such pixel.
+    Inspected(Option<Box<Inspected>>),
     /// The file that is open has changed, or is gone.
     FileChanged(PathBuf, FileChange),
 }
@@ -80,6 +86,8 @@ pub struct Prepared {
 pub struct Recorded {
     /// Its records.
     pub log: Arc<RunLog>,
+    /// Its scene.
+    pub opened: Arc<Opened>,
     /// What traces its picture again.
     pub tracer: Arc<Tracer>,
 }
@@ -112,13 +120,15 @@ pub struct Jobs {
     next: u64,
     /// Dropping it ends the watch.
     watch: Option<Sender<()>>,
+    /// Dropping it ends the measurement.
+    pub(super) measuring: Option<Sender<()>>,
 }
 
 impl Jobs {
     /// No job yet; `ctx` is woken by those that end.
     pub fn new(ctx: egui::Context) -> Self {
         let (sender, receiver) = unbounded();
-        Self { ctx, sender, receiver, next: 0, watch: None }
+        Self { ctx, sender, receiver, next: 0, watch: None, measuring: None }
     }
 
     /// What jobs have come to since.
@@ -132,8 +142,8 @@ impl Jobs {
         read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
         settings: &Settings,
     ) -> u64 {
-        self.next += 1;
-        let (number, size, quality, division) = (self.next, settings.size, settings.quality, settings.division());
+        let number = self.number();
+        let (size, quality, division) = (settings.size, settings.quality, settings.division());
         self.start("prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
@@ -145,11 +155,11 @@ impl Jobs {
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size)?;
-                    let scene = Scene::parse(&log.header.scene_text);
-                    let scene = scene.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
-                    let tracer = Tracer::new(&scene, log.header.size, log.header.quality);
+                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
+                    let opened = opened.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
+                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
                     let tracer = Arc::new(with_preview(tracer));
-                    Ok(Ready::Run(Recorded { log, tracer }))
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer }))
                 }
             });
             Done::Ready(number, ready)
@@ -187,13 +197,22 @@ impl Jobs {
 
     /// Makes small pictures of these scenes, one after the other.
     pub fn thumbnails(&self, scenes: Vec<String>) {
-        self.start_many("thumbnails", move |tell| {
-            for scene in scenes {
-                let made =
-                    Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
-                tell(Done::Thumbnail(scene, made));
-            }
-        });
+        self.start_many(
+            "thumbnails",
+            |why| Done::Saved(Err(why)),
+            move |tell| {
+                for scene in scenes {
+                    let made =
+                        Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
+                    tell(Done::Thumbnail(scene, made));
+                }
+            },
+        );
+    }
+
+    /// Traces a pixel once more, to be looked at.
+    pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static) {
+        self.start("inspect", move || Done::Inspected(look().map(Box::new)));
     }
 
     /// Watches this file instead of the one before.
@@ -202,24 +221,40 @@ impl Jobs {
         let Some(path) = path else { return };
         let (stop, stopped) = bounded(0);
         self.watch = Some(stop);
-        self.start_many("watch", move |tell| {
-            let mut known = stamp(&path);
-            while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
-                let now = stamp(&path);
-                if now != known {
-                    known = now;
-                    let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
-                    tell(Done::FileChanged(path.clone(), change));
+        self.start_many(
+            "watch",
+            |why| Done::Saved(Err(why)),
+            move |tell| {
+                let mut known = stamp(&path);
+                while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                    let now = stamp(&path);
+                    if now != known {
+                        known = now;
+                        let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
+                        tell(Done::FileChanged(path.clone(), change));
+                    }
                 }
-            }
-        });
+            },
+        );
+    }
+
+    /// A number that no job had before.
+    pub(super) fn number(&mut self) -> u64 {
+        self.next += 1;
+        self.next
     }
 
     fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
-        self.start_many(name, move |tell| tell(job()));
+        self.start_many(name, |why| Done::Saved(Err(why)), move |tell| tell(job()));
     }
 
-    fn start_many(&self, name: &str, job: impl FnOnce(&dyn Fn(Done)) + Send + 'static) {
+    /// Starts a thread for a job that tells several things, or tells what it `failed` with.
+    pub(super) fn start_many(
+        &self,
+        name: &str,
+        failed: impl FnOnce(String) -> Done,
+        job: impl FnOnce(&dyn Fn(Done)) + Send + 'static,
+    ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {
             // The window may have closed meanwhile.
@@ -227,7 +262,7 @@ impl Jobs {
             ctx.request_repaint();
         };
         if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
-            let _ = self.sender.send(Done::Saved(Err(format!("No thread could be started: {error}"))));
+            let _ = self.sender.send(failed(format!("No thread could be started: {error}")));
         }
     }
 }

@@ -2,7 +2,9 @@
 //! those of runs behind [`Performer`], those of everything else in [`jobs`].
 
 mod files;
+mod inspecting;
 pub mod jobs;
+mod measuring;
 mod performer;
 mod stage;
 
@@ -17,13 +19,16 @@ use super::settings::Settings;
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::palette::Rgb;
+use crate::picture::Quality;
 use crate::runlog::Header;
 use crate::scene::Opened;
 use crate::time::Time;
 use crate::tracer::Tracer;
 
-pub use jobs::{Done, Purpose};
-use jobs::{Jobs, Prepared, Ready, Recorded};
+use inspecting::Inspecting;
+pub use jobs::{Done, Prepared, Purpose};
+use jobs::{Jobs, Ready, Recorded};
+pub use measuring::Finding;
 use performer::Performer;
 pub use stage::{Phase, Stage};
 
@@ -37,9 +42,12 @@ pub struct Session {
     /// The run that is played again, if that is what is shown.
     recorded: Option<Recorded>,
     loading: Option<Loading>,
+    inspecting: Inspecting,
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
+    /// Measurements that have not ended, although they may have been asked to.
+    measurements: usize,
     notice: Option<Notice>,
     /// Where each run's records are written when it ends.
     log_path: Option<PathBuf>,
@@ -68,8 +76,10 @@ impl Session {
             prepared: None,
             recorded: None,
             loading: None,
+            inspecting: Inspecting::default(),
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
+            measurements: 0,
             notice: None,
             log_path,
             recent: Vec::new(),
@@ -92,7 +102,7 @@ impl Session {
     }
 
     /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
-    /// the system's dialogs, and small pictures.
+    /// the system's dialogs, small pictures, and what was measured.
     pub fn tick(&mut self, clock: f64) -> Vec<Done> {
         self.clock = clock;
         if self.stage.tick() {
@@ -118,6 +128,11 @@ impl Session {
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
+                Done::Found(job, finding) => {
+                    self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
+                    others.push(Done::Found(job, finding));
+                }
+                Done::Inspected(inspected) => self.take_inspected(inspected),
                 done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
@@ -200,6 +215,11 @@ impl Session {
         &self.stage.log.header
     }
 
+    /// The scene that live runs trace, compiled.
+    pub fn prepared(&self) -> Option<&Prepared> {
+        self.prepared.as_ref()
+    }
+
     /// The scene that live runs trace.
     pub fn opened(&self) -> Option<&Opened> {
         self.prepared.as_ref().map(|prepared| &*prepared.opened)
@@ -242,6 +262,17 @@ impl Session {
         &self.jobs
     }
 
+    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        self.measurements += 1;
+        self.jobs.measure(prepared, qualities)
+    }
+
+    /// Gives up what is being measured, if something is.
+    pub fn stop_measuring(&mut self) {
+        self.jobs.stop_measuring();
+    }
+
     /// What is being read and compiled, and for how many seconds.
     pub fn loading(&self) -> Option<(&str, f64)> {
         self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.since))
@@ -282,6 +313,11 @@ impl Session {
         self.ending.len()
     }
 
+    /// How many measurements have not ended, although they may have been asked to, for tests.
+    pub fn measurements(&self) -> usize {
+        self.measurements
+    }
+
     /// Sets everything that differs, and returns what was set before.
     fn apply(&mut self, settings: Settings) -> Settings {
         let before = std::mem::replace(&mut self.settings, settings);
@@ -314,6 +350,7 @@ impl Session {
         self.retire();
         self.stage = Stage::new(performer, header, self.ground);
         self.stage.show_preview(tracer);
+        self.look_again();
     }
 
     /// Lets whoever performs end in their own time.

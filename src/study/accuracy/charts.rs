@@ -5,6 +5,7 @@ use super::fit::log_correlation;
 use super::knobs::Knob;
 use super::ring::{LATENCIES, Ring};
 use super::scene::{Entry, Found};
+use super::sharing::Shared;
 use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
 
 /// Seconds against the error, with the front and the floor.
@@ -50,7 +51,7 @@ pub(super) fn alone(found: &Found) -> Chart {
     };
     Chart {
         title: format!("What each knob alone leaves out: {}", found.scene),
-        note: "Against the same picture with this knob at its best".into(),
+        note: "Samples, threshold: against very many samples; depth, cutoff: against no limit".into(),
         x: seconds(),
         y: logarithmic("error for this knob alone (RMSE, linear light)"),
         series: Knob::ALL.into_iter().enumerate().map(line).collect(),
@@ -99,8 +100,8 @@ fn rightwards(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 
 /// How late runs end, against how wrong their estimates are.
 pub(super) fn lateness(ring: &Ring) -> Chart {
-    let series = |(i, runs): (usize, &Vec<_>)| Series {
-        name: scene_of(runs),
+    let series = |(i, runs): (usize, &Vec<Shared>)| Series {
+        name: runs.first().map_or_else(String::new, |shared| shared.run.scene.clone()),
         hue: series_hue(i),
         points: rightwards(Ring::points(runs)),
         style: Style::Dots,
@@ -113,11 +114,6 @@ pub(super) fn lateness(ring: &Ring) -> Chart {
         y: logarithmic("makespan / ideal − 1"),
         series: ring.shared.iter().enumerate().map(series).collect(),
     }
-}
-
-/// The scene of some runs.
-pub(super) fn scene_of(runs: &[super::sharing::Shared]) -> String {
-    runs.first().map_or_else(String::new, |shared| shared.run.scene.clone())
 }
 
 /// How late runs end, against what they say, as atoms are coarser or finer.

@@ -14,7 +14,7 @@ pub(super) enum Knob {
 }
 
 /// The most samples of what is measured, a side.
-pub(super) const MOST: u32 = 8;
+pub const MOST: u32 = 8;
 
 /// The samples a side at which depth and cutoff are turned: many enough that what these do is seen.
 const USUAL: u32 = 4;
@@ -58,8 +58,8 @@ impl Knob {
     }
 }
 
-/// Sensible combinations of all knobs.
-pub(super) fn combinations() -> Vec<Quality> {
+/// Sensible combinations of all knobs, with up to [`MOST`] × [`MOST`] samples a pixel.
+pub fn combinations() -> Vec<Quality> {
     const LIMITS: [(u32, f64); 3] = [(4, 0.03), (10, 1.0 / 255.0), (20, 1e-3)];
     // With so few samples at most, a threshold would only add some.
     let even = [1, 2].map(|samples| (samples, 0.0));
@@ -72,14 +72,15 @@ pub(super) fn combinations() -> Vec<Quality> {
     combined.collect()
 }
 
-/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about [`RAYS`] rays at most, so
+/// Rays of all kinds in a picture of one sample a pixel.
+const RAYS: f64 = 80_000.0;
+
+/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about 80,000 rays at most, so
 /// that scenes whose trees of rays are large do not take much longer than others.
 ///
 /// # Errors
 /// A sentence, if there is no such size.
-pub(super) fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
-    /// Rays of all kinds in a picture of one sample a pixel.
-    const RAYS: f64 = 80_000.0;
+pub fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
     let small = Size::new(most.width().min(64), most.height().min(48))?;
     let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
     Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);

@@ -18,6 +18,7 @@ mod scene;
 mod sharing;
 
 pub use choice::{best_within, fastest_within, front};
+pub use knobs::{MOST, combinations, size_for};
 pub use measure::{Point, measure};
 pub use reference::Reference;
 

@@ -1,0 +1,117 @@
+//! How to choose among what was measured: by a limit of the error or of the time.
+
+use egui::{Label, RichText, Ui, vec2};
+
+use super::super::theme::{self, GRID, Look};
+use super::super::widgets::{Weight, button, slider};
+use super::findings::{Choice, Findings};
+use crate::picture::Quality;
+use crate::study::accuracy::Point;
+use crate::view::{duration, error_words, quality_words, times_words};
+
+/// What was done.
+pub enum Chosen {
+    /// Another point is to be shown.
+    Choice(Choice),
+    /// This is to be set.
+    Take(Quality),
+}
+
+/// What all of it needs, in points.
+pub const HEIGHT: f32 = 24.0 * GRID;
+
+/// Shows both limits and what is chosen.
+pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usize>, look: Look) -> Option<Chosen> {
+    let front = findings.front();
+    let (Some(fastest), Some(best)) = (front.first(), front.last()) else { return None };
+    let chosen = place.and_then(|place| findings.point(place));
+    let shown = chosen.unwrap_or(*fastest);
+    let (error, time) = match choice {
+        Choice::Place(_) => (shown.rmse(), shown.cpu_s),
+        Choice::Error(error) => (error, shown.cpu_s),
+        Choice::Time(time) => (shown.rmse(), time),
+    };
+    let mut done = None;
+    ui.spacing_mut().item_spacing.y = 0.5 * GRID;
+    let said = error_words(error);
+    let limits = (best.rmse(), fastest.rmse());
+    if let Some(error) = limit(ui, ("The fastest within an error of", &said, "Largest error"), error, limits, look) {
+        done = Some(Chosen::Choice(Choice::Error(error)));
+    }
+    let said = duration(std::time::Duration::try_from_secs_f64(time).unwrap_or_default());
+    let limits = (fastest.cpu_s, best.cpu_s);
+    if let Some(time) = limit(ui, ("The best within a time of", &said, "Longest time"), time, limits, look) {
+        done = Some(Chosen::Choice(Choice::Time(time)));
+    }
+    ui.add_space(0.5 * GRID);
+    let Some((place, point)) = place.zip(chosen) else { return done };
+    ui.add(
+        Label::new(RichText::new(sentence(findings, place, &point)).font(theme::regular(theme::BODY)).color(look.text))
+            .wrap(),
+    );
+    ui.add_space(0.5 * GRID);
+    let is_set = place == Findings::PRESENT;
+    let weight = if is_set { Weight::Quiet } else { Weight::Primary };
+    ui.add_enabled_ui(!is_set, |ui| {
+        let take = button(ui, None, "Take these settings", true, weight);
+        if take.on_hover_text("Starts the run anew with this quality; Ctrl Z takes it back").clicked() {
+            done = Some(Chosen::Take(point.quality));
+        }
+    });
+    done
+}
+
+/// What is chosen, and what it costs.
+fn sentence(findings: &Findings, place: usize, point: &Point) -> String {
+    let (size, quality) = (findings.whole, quality_words(&point.quality));
+    let costs = format!(
+        "{} of one core for {} × {} pixels, with an error of {}",
+        duration(findings.time(place)),
+        size.width(),
+        size.height(),
+        error_words(point.rmse())
+    );
+    let present = findings.point(Findings::PRESENT).filter(|_| place != Findings::PRESENT);
+    match present {
+        Some(present) => {
+            format!("{quality}. That takes {costs}: {}.", times_words(point.cpu_s, present.cpu_s))
+        }
+        None => format!("Set now: {quality}. That takes {costs}."),
+    }
+}
+
+/// A slider of what is wanted at most, on a logarithmic scale; returns what it was dragged to.
+fn limit(
+    ui: &mut Ui,
+    (words, said, name): (&str, &str, &str),
+    value: f64,
+    (least, most): (f64, f64),
+    look: Look,
+) -> Option<f64> {
+    const WORDS: f32 = 28.0 * GRID;
+    const VALUE: f32 = 9.0 * GRID;
+    /// A logarithm knows no 0.
+    const LEAST: f64 = 1e-9;
+    let [from, to] = [least, most].map(|end| end.max(LEAST).log10());
+    let mut dragged = None;
+    ui.horizontal(|ui| {
+        ui.set_min_height(3.0 * GRID);
+        let (row, _) = ui.allocate_exact_size(vec2(WORDS, 3.0 * GRID), egui::Sense::hover());
+        let font = theme::regular(theme::BODY);
+        ui.painter().text(row.left_center(), egui::Align2::LEFT_CENTER, words, font, look.quiet);
+        let width = (ui.available_width() - VALUE - GRID).max(8.0 * GRID);
+        ui.add_enabled_ui(from < to, |ui| {
+            let mut place = value.max(LEAST).log10().clamp(from, to.max(from));
+            let range = (from..=to.max(from + 1e-3), false);
+            let response = slider(ui, &mut place, range, width, look.accent, name);
+            if response.changed() {
+                // The ends themselves, not what rounding makes of them.
+                let exact = if place >= to { most } else { 10f64.powf(place) };
+                dragged = Some(exact.max(least));
+            }
+        });
+        let text = RichText::new(said).font(theme::strong(theme::BODY)).color(look.text);
+        ui.label(text);
+    });
+    dragged
+}

@@ -1,0 +1,98 @@
+//! The job that measures speed against accuracy.
+
+use std::sync::Arc;
+
+use crossbeam_channel::{TryRecvError, bounded};
+
+use super::jobs::{Done, Jobs, Prepared};
+use crate::picture::{Frame, Quality, Size};
+use crate::scene::Scene;
+use crate::study::accuracy::{MOST, Point, Reference, measure, size_for};
+use crate::tracer::Compiled;
+
+/// What has been found out about speed and accuracy.
+pub enum Finding {
+    /// What the scene needs, and how many rays there are on each level of its trees of rays.
+    Needs(Compiled, Vec<u64>),
+    /// So many of the [`Reference::STEPS`] pictures of the reference have been begun.
+    Begun(usize),
+    /// What pictures are compared with.
+    Reference(Reference),
+    /// The quality at this place is measured; its picture comes only the first time.
+    Point(usize, Point, Option<Frame>),
+    /// Nothing more comes; a sentence says why, if that is too soon.
+    Over(Result<(), String>),
+}
+
+impl Jobs {
+    /// Measures these qualities in a small picture, in place of what was measured before; returns the job's number.
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        let number = self.number();
+        let (stop, stopped) = bounded::<()>(0);
+        self.measuring = Some(stop);
+        let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
+        let failed = move |why| Done::Found(number, Finding::Over(Err(why)));
+        self.start_many("measure", failed, move |tell| {
+            let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
+            let tell = |finding| tell(Done::Found(number, finding));
+            tell(Finding::Needs(tracer.compiled(), tracer.levels()));
+            tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
+        });
+        number
+    }
+
+    /// Gives up what is being measured, if something is.
+    pub fn stop_measuring(&mut self) {
+        self.measuring = None;
+    }
+}
+
+/// Measures and tells until all is measured or it `is_over`.
+fn found(
+    scene: &Scene,
+    whole: Size,
+    qualities: &[Quality],
+    is_over: &(dyn Fn() -> bool + Sync),
+    tell: &dyn Fn(Finding),
+) -> Result<(), String> {
+    let size = size_for(scene, small(whole)?)?;
+    let mut begun = 0;
+    let mut begin = || {
+        begun += 1;
+        tell(Finding::Begun(begun));
+    };
+    let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, is_over)? else { return Ok(()) };
+    tell(Finding::Reference(reference.clone()));
+    let mut known = 0;
+    measure(scene, &reference, qualities, is_over, &mut |place, point, frame| {
+        // Each comes for the first time in its turn.
+        let is_new = place == known;
+        known += usize::from(is_new);
+        tell(Finding::Point(place, *point, is_new.then(|| frame.clone())));
+    });
+    Ok(())
+}
+
+/// A picture as high and broad as this one is to the other, but with few pixels, so that nobody waits for long.
+fn small(whole: Size) -> Result<Size, String> {
+    const PIXELS: f64 = 160.0 * 120.0;
+    let part = (PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
+    let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
+    Size::new(side(whole.width()), side(whole.height()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_picture_has_the_shape_of_the_whole_and_is_never_larger() {
+        for (width, height) in [(640, 480), (2048, 64), (16, 16), (160, 120), (1920, 1080)] {
+            let whole = Size::new(width, height).unwrap();
+            let small = small(whole).unwrap();
+            assert!(small.width() <= width && small.height() <= height && small.pixels() < 20_000, "{small}");
+            let shape = |size: Size| f64::from(size.width()) / f64::from(size.height());
+            assert!((shape(small) / shape(whole) - 1.0).abs() < 0.05, "{small} of {whole}");
+        }
+    }
+}

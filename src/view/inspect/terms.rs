@@ -1,0 +1,159 @@
+//! The equation with its numbers.
+//!
+//! Cp = Ka Ia + Kd Σ Il (N·L) + Ks Σ Il (S·R)ⁿ + Ks Is + Kt It (§3).
+
+use glam::DVec3;
+
+use super::super::display::{Anchor, Hue, Mark, Point};
+use super::words::share_words;
+use super::{Inspected, brightness, label, line, shown, swatch};
+use crate::tracer::RayKind;
+
+/// A term of the equation of one ray.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// As the article writes it.
+    pub formula: &'static str,
+    /// What it is, in a word.
+    pub meaning: &'static str,
+    /// What it adds to the ray's colour, in linear light.
+    pub colour: DVec3,
+    /// What part of the pixel's brightness comes by it; nothing if the pixel is black.
+    pub part: Option<f64>,
+}
+
+/// The terms as they are drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Terms {
+    /// What is to be drawn.
+    pub marks: Vec<Mark>,
+    /// How high it is.
+    pub height: f32,
+}
+
+impl Inspected {
+    /// The terms of the chosen ray, and at last their sum; of a ray that met nothing, only the background.
+    pub fn terms(&self) -> Vec<Term> {
+        let (sample, ray) = (self.sample(), self.ray());
+        let whole = brightness(self.colour());
+        let term = |formula, meaning, colour: DVec3| {
+            let counts = brightness(colour) * ray.path.weight * sample.share(&self.samples);
+            Term { formula, meaning, colour, part: (whole > 0.0).then(|| counts / whole) }
+        };
+        if ray.met.is_none() {
+            return vec![term("Cp", "background", ray.ambient)];
+        }
+        let follows = |kind| {
+            let own = |place: &usize| {
+                let path = &sample.rays[*place].path;
+                path.kind == kind && path.from == Some(self.chosen.ray as u64)
+            };
+            let brings = (0..sample.rays.len()).filter(own).map(|place| sample.brings(place));
+            brings.sum::<DVec3>() / ray.path.weight
+        };
+        let diffuse = ray.lights.iter().map(|lit| lit.diffuse()).sum();
+        let specular = ray.lights.iter().map(|lit| lit.specular()).sum();
+        let [reflected, refracted] = [RayKind::Reflected, RayKind::Refracted].map(follows);
+        vec![
+            term("Ka Ia", "ambient", ray.ambient),
+            term("Kd Σ Il (N·L)", "diffuse", diffuse),
+            term("Ks Σ Il (S·R)^n", "highlights", specular),
+            term("Ks Is", "reflected", reflected),
+            term("Kt It", "transmitted", refracted),
+            term("Cp", "the sum", ray.ambient + diffuse + specular + reflected + refracted),
+        ]
+    }
+
+    /// The terms as a table: formula, colour, red, green, blue, and part of the pixel.
+    pub fn draw_terms(&self, width: f32) -> Terms {
+        const ROW: f32 = 24.0;
+        let terms = self.terms();
+        // From right to left: the part, three numbers, the colour.
+        let column = ((width - FORMULA - SWATCH - PART) / 3.0).clamp(32.0, 56.0);
+        let decimals = if column < 46.0 { 2 } else { 3 };
+        let blue = width - PART;
+        let places = [blue - 2.0 * column, blue - column, blue];
+        let swatch_at = places[0] - column - SWATCH / 2.0 + 6.0;
+        let mut marks = Vec::new();
+        for (name, x) in ["red", "green", "blue"].into_iter().zip(places).chain([("of pixel", width)]) {
+            marks.push(label([x, ROW / 2.0], Anchor::Right, name, Hue::Quiet));
+        }
+        for (index, term) in terms.iter().enumerate() {
+            let y = ROW * (index as f32 + 1.5);
+            let is_sum = index + 1 == terms.len();
+            let hue = if is_sum || term.colour != DVec3::ZERO { Hue::Text } else { Hue::Quiet };
+            if is_sum {
+                let y = y - ROW / 2.0;
+                marks.push(line([[0.0, y], [width, y]], 1.0, Hue::Hairline.full()));
+            }
+            marks.push(label([0.0, y], Anchor::Left, term.formula, hue));
+            if swatch_at - FORMULA > MEANING {
+                marks.push(label([FORMULA, y], Anchor::Left, term.meaning, Hue::Quiet));
+            }
+            let middle: Point = [swatch_at, y];
+            marks.extend(swatch(middle, [8.0, 7.0], shown(term.colour)));
+            for (value, x) in term.colour.to_array().into_iter().zip(places) {
+                marks.push(label([x, y], Anchor::Right, format!("{value:.decimals$}"), hue));
+            }
+            let part = term.part.map_or_else(|| "–".to_owned(), share_words);
+            marks.push(label([width, y], Anchor::Right, part, hue));
+        }
+        Terms { marks, height: ROW * (terms.len() as f32 + 1.0) }
+    }
+}
+
+/// What the columns take at least.
+const FORMULA: f32 = 116.0;
+const MEANING: f32 = 90.0;
+const SWATCH: f32 = 28.0;
+const PART: f32 = 66.0;
+
+#[cfg(test)]
+mod tests {
+    use super::super::Chosen;
+    use super::super::tests::{assert_within, each};
+    use super::*;
+    use crate::picture::Quality;
+
+    #[test]
+    fn the_terms_of_each_ray_are_what_comes_by_it() {
+        each(Quality::default(), |tracer, inspected| {
+            for ray in 0..inspected.sample().rays.len().min(5) {
+                let one = inspected.choose(tracer, Chosen { sample: 0, ray }).expect("a ray of it");
+                let terms = one.terms();
+                let (sum, others) = terms.split_last().expect("at least the sum");
+                let brings = one.sample().brings(ray);
+                let scale = 1e-12 * (1.0 + brings.length());
+                assert!((sum.colour * one.ray().path.weight).abs_diff_eq(brings, scale), "{terms:?}");
+                if one.ray().met.is_some() {
+                    let added: DVec3 = others.iter().map(|term| term.colour).sum();
+                    assert!(added.abs_diff_eq(sum.colour, 1e-12 * (1.0 + added.length())), "{terms:?}");
+                    assert_eq!(others.len(), 5);
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn the_primary_rays_of_all_samples_are_the_pixel() {
+        let quality = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
+        each(quality, |tracer, inspected| {
+            let part = |sample| {
+                let one = inspected.choose(tracer, Chosen { sample, ray: 0 }).expect("a primary ray");
+                one.terms().last().and_then(|term| term.part).unwrap_or_default()
+            };
+            let all: f64 = (0..inspected.samples.len()).map(part).sum();
+            assert!((all - 1.0).abs() < 1e-9, "{all}");
+        });
+    }
+
+    #[test]
+    fn the_table_stays_within_its_width() {
+        each(Quality::default(), |_, inspected| {
+            for width in [310.0, 380.0, 620.0] {
+                let drawn = inspected.draw_terms(width);
+                assert_within(&drawn.marks, [width, drawn.height]);
+            }
+        });
+    }
+}
