@@ -93,18 +93,24 @@ impl Tree {
         self.dropped
     }
 
-    /// How many boolean operations the solid `root` is made by; unions of unions count as one.
+    /// How many boolean operations the solid `root` is made by: as few as it could be written with, since unions of unions
+    /// are one, and so is a difference with the union that it takes away.
     pub fn operations_of(&self, root: u32) -> usize {
         match &self.nodes[root as usize].kind {
             Kind::Leaf(_) => 0,
             Kind::Convex(_) => 1,
             Kind::Composition { operation, children } => {
-                let is_union = |node: u32| match self.nodes[node as usize].kind {
-                    Kind::Composition { operation, .. } => operation == Operation::Union,
-                    _ => false,
+                let counted = |(index, &child): (usize, &u32)| {
+                    let takes_unions = match operation {
+                        Operation::Union => true,
+                        Operation::Intersection => false,
+                        Operation::Difference => index > 0,
+                    };
+                    let child_kind = &self.nodes[child as usize].kind;
+                    let is_union = matches!(child_kind, Kind::Composition { operation: Operation::Union, .. });
+                    self.operations_of(child) - usize::from(takes_unions && is_union)
                 };
-                let counted = |child| *operation == Operation::Union && is_union(child);
-                1 + children.iter().map(|&child| self.operations_of(child) - usize::from(counted(child))).sum::<usize>()
+                1 + children.iter().enumerate().map(counted).sum::<usize>()
             }
         }
     }

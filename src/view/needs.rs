@@ -12,7 +12,10 @@ pub fn needs_lines(compiled: &Compiled, levels: &[u64]) -> Vec<(&'static str, St
         ("Solids", several(compiled.solids, "solid")),
         ("Made of", if kinds.is_empty() { "nothing".into() } else { listed(&kinds) }),
         ("Kept", format!("{} of {} shapes that are written", number(kept), number(compiled.given.primitives))),
-        ("Operations", operations_words(compiled)),
+        (
+            "Operations",
+            format!("{} of {} that are written", number(compiled.operations), number(compiled.given.operations)),
+        ),
         ("Lights", several(compiled.lights, "light")),
         ("Surfaces", surfaces(compiled).into()),
         ("Rays", levels_words(levels)),
@@ -38,15 +41,6 @@ pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// How many operations are left. A union of many becomes a tree of unions, so that there may be more than are written.
-fn operations_words(compiled: &Compiled) -> String {
-    let (kept, given) = (compiled.operations, compiled.given.operations);
-    if kept > given {
-        return format!("{}, from {} that are written: a union of many becomes a tree", number(kept), number(given));
-    }
-    format!("{} of {} unions, intersections and differences", number(kept), number(given))
 }
 
 fn surfaces(compiled: &Compiled) -> &'static str {
@@ -133,16 +127,20 @@ mod tests {
     }
 
     #[test]
-    fn a_union_of_many_has_more_operations_than_are_written() {
-        let balls: Vec<String> = (0..40)
-            .map(|i| {
-                format!("Sphere(radius: 0.2, centre: ({}, {}, 0))", 0.3 * f64::from(i % 7), 0.3 * f64::from(i / 7))
-            })
-            .collect();
-        let glass =
-            format!("Intersection(of: [Box(min: (-5, -5, -5), max: (5, 5, 5)), Union(of: [{}])])", balls.join(", "));
-        let told = told(&tracer(&glass));
-        assert!(told.contains(", from 2 that are written: a union of many becomes a tree"), "{told}");
+    fn however_unions_are_compiled_there_are_no_more_operations_than_are_written() {
+        let ball = |i: i32| {
+            format!("Sphere(radius: 0.2, centre: ({}, {}, 0))", 0.3 * f64::from(i % 7), 0.3 * f64::from(i / 7))
+        };
+        let balls = (0..40).map(ball).collect::<Vec<_>>().join(", ");
+        let hall = "Box(min: (-5, -5, -5), max: (5, 5, 5))";
+        for (solid, operations) in [
+            (format!("Intersection(of: [{hall}, Union(of: [{balls}])])"), "2 of 2"),
+            (format!("Difference(of: [{hall}, {balls}])"), "1 of 1"),
+            (format!("Difference(of: [{hall}, Union(of: [{balls}])])"), "1 of 2"),
+        ] {
+            let told = told(&tracer(&solid));
+            assert!(told.contains(&format!("Operations: {operations} that are written")), "{told}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Speed against accuracy: what is measured, looked at and chosen.
 
 use anel::picture::Quality;
+use anel::study::accuracy::combinations;
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -33,8 +34,13 @@ fn quality(window: &Window) -> Quality {
     session(window).settings().quality
 }
 
+/// The qualities that are measured; what is set is one of them.
+fn all() -> usize {
+    combinations().len()
+}
+
 fn is_measured(window: &Window) -> bool {
-    window.query_by_label("40 points").is_some()
+    window.query_by_label(&format!("{} points", all())).is_some()
 }
 
 #[test]
@@ -49,7 +55,7 @@ fn the_page_measures_the_scene_while_the_run_stands_still() {
     window.get_by_label("Made of: 1 ball and 1 half-space");
     until(&mut window, "all points", is_measured);
     assert!(!session(&window).stage().paused);
-    window.get_by_role_and_label(Role::Button, "Point 40");
+    window.get_by_role_and_label(Role::Button, &format!("Point {}", all()));
     // What is known is not measured again.
     key(&mut window, Key::Escape);
     assert!(window.query_by_label("Point 1").is_none());
@@ -145,7 +151,7 @@ fn everything_has_its_place_in_a_small_window_too() {
         let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into());
         let rect = |name: &str| window.get_by_label(name).rect();
         let chart = rect("Chart of time and error");
-        for name in ["Point 1", "Point 40"] {
+        for name in ["Point 1", &format!("Point {}", all())] {
             assert!(chart.contains_rect(rect(name).shrink(8.0)), "{name} at {size:?}");
         }
         for name in [
