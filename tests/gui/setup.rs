@@ -17,11 +17,6 @@ fn open_setup() -> Window {
     window
 }
 
-/// Whether the run has started anew since it had traced `before` atoms.
-fn begins(window: &Window) -> bool {
-    session(window).loading().is_none() && done(window) < 100
-}
-
 #[test]
 fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     let mut window = open_setup();
@@ -64,8 +59,9 @@ fn latency_acts_on_the_run_that_goes_on() {
 fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
+    let begun = session(&window).runs_begun();
     type_number(&mut window, "Number of machines", "32");
-    assert!(begins(&window));
+    assert_eq!(session(&window).runs_begun(), begun + 1);
     assert_eq!(notice(&window), "Started anew: 32 machines");
     assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state.nodes().len()), (32, 32));
     window.get_by_label("Node 32");

@@ -46,6 +46,7 @@ pub struct Session {
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
+    begun: usize,
     /// Measurements that have not ended, although they may have been asked to.
     measurements: usize,
     notice: Option<Notice>,
@@ -79,6 +80,7 @@ impl Session {
             inspecting: Inspecting::default(),
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
+            begun: 0,
             measurements: 0,
             notice: None,
             log_path,
@@ -308,6 +310,11 @@ impl Session {
         self.recent = recent;
     }
 
+    /// How many runs have begun, for tests.
+    pub fn runs_begun(&self) -> usize {
+        self.begun
+    }
+
     /// How many runs were asked to end and have not, for tests.
     pub fn runs_ending(&self) -> usize {
         self.ending.len()
@@ -348,6 +355,7 @@ impl Session {
 
     fn set_stage(&mut self, performer: Performer, header: Header, tracer: &Tracer) {
         self.retire();
+        self.begun += 1;
         self.stage = Stage::new(performer, header, self.ground);
         self.stage.show_preview(tracer);
         self.look_again();
