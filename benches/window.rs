@@ -1,5 +1,7 @@
-//! What the window costs: `cargo bench --bench window`. The CPU of one frame, what a run at full speed loses with the
-//! window open, and what the window takes at rest. The last two need Linux and Xvfb.
+//! What the window costs: `cargo bench --bench window`. The CPU of one frame while a run goes on and while one goes through
+//! a long record, what a run at full speed loses with the window open, and what the window takes at rest. The last two need
+//! Linux and Xvfb. `cargo bench --bench window frames` measures only frames; `… memory SECONDS` runs again and again, and
+//! prints what memory the window holds.
 //!
 //! The figures say what this computer does while it does nothing else; none of them is asserted.
 
@@ -9,8 +11,13 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use anel::balance::Strategy;
 use anel::gui::{App, Launch, Opening, Phase};
-use anel::runlog::{RunLog, Tally};
+use anel::picture::Size;
+use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::scene::Opened;
+use anel::sim::Sim;
+use anel::time::Time;
 use cpu_time::ThreadTime;
 use egui::Key;
 use egui_kittest::Harness;
@@ -19,11 +26,16 @@ use tempfile::TempDir;
 const PAIRS: usize = 5;
 
 /// What is set for the runs at full speed: eight equal machines, a picture of some seconds.
-const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), samples: 4, tempo: Full, latency: 0,
+const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), quality: (samples: 4), tempo: Full, latency: 0,
     speeds: [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), scene: Some("ten-objects"))"#;
 
 fn main() {
-    frames();
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["frames"] => return frames_of_all(),
+        ["memory", seconds] => return memory(seconds.parse().expect("a number of seconds")),
+        _ => frames_of_all(),
+    }
     if let Some(display) = Display::open() {
         against_headless(&display);
         at_rest(&display);
@@ -32,25 +44,104 @@ fn main() {
     }
 }
 
-/// Interface and tessellation of one frame while eight nodes run at full speed, at 1280 × 800.
-fn frames() {
-    let storage = Storage(SETTINGS.into());
-    let launch = Launch { opening: Some(Opening::read("ten-objects").expect("a built-in scene")), log: None };
+/// Interface and tessellation of one frame, at 1280 × 800.
+fn frames_of_all() {
+    println!("one frame, interface and tessellation, 1280x800 (ms of CPU):");
+    running("eight nodes at full speed", SETTINGS, false);
+    let many = SETTINGS.replace("[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]", &format!("{:?}", [1.0; 32]));
+    running("32 nodes at full speed", &many, false);
+    running("32 nodes at full speed, timeline", &many, true);
+    let log = long_log();
+    let mut window = harness(SETTINGS, Opening::Run(log));
+    while window.state().session().loading().is_some() || !window.state().session().stage().performer.has_ended() {
+        sleep(Duration::from_millis(20));
+        window.step();
+    }
+    let length = window.state().session().stage().length();
+    let scrub = |window: &mut Harness<'static, App>, times: &mut Vec<f64>| {
+        // To and fro in steps of all sizes, as a hand does.
+        for i in 0..400_u32 {
+            let share = 0.5 + 0.5 * f64::from(i).mul_add(0.043, (f64::from(i) * 0.61).sin() * 0.1).sin();
+            window.state_mut().seek(Time((share * length.0 as f64) as u64));
+            times.push(frame(window));
+        }
+    };
+    let mut times = Vec::new();
+    scrub(&mut window, &mut times);
+    tell("a log of 100,000 atoms, 32 nodes, scrubbed", times);
+    window.key_press(Key::T);
+    let mut times = Vec::new();
+    scrub(&mut window, &mut times);
+    tell("the same with the timeline, all of it", times);
+    for _ in 0..7 {
+        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::ArrowUp);
+        window.step();
+    }
+    let mut times = Vec::new();
+    scrub(&mut window, &mut times);
+    tell("the same, 128 times nearer", times);
+    window.key_press(Key::Home);
+    window.key_press(Key::Space);
+    let times = (0..400).map(|_| frame(&mut window)).collect();
+    tell("the same, played", times);
+}
+
+/// A run of 32 machines in virtual time, on a picture of 100,000 atoms.
+fn long_log() -> std::sync::Arc<RunLog> {
+    let size = Size::new(2500, 2000).expect("a picture");
+    let speeds: Vec<f64> = (0..32).map(|node| if node % 5 == 4 { 0.1 } else { 1.0 }).collect();
+    let plain = Header::plain(size, 50, Strategy::Ring, speeds);
+    let opened = Opened::new("ten-objects").expect("a built-in scene");
+    let link = Link { latency: Duration::from_millis(20), ..plain.link };
+    let names = (opened.name, opened.text);
+    let header = Header { scene: names.0, scene_text: names.1, driver: Driver::Sim, pace: 0.05, link, ..plain };
+    let mut log = RunLog::new(header.clone());
+    let mut records = Vec::new();
+    // Atoms of many costs.
+    let cost = |atom: u32| Duration::from_micros(300 + u64::from(atom.wrapping_mul(2_654_435_761) >> 22));
+    Sim::new(&header, &[], cost).run(&mut |record| records.push(record));
+    log.add(records);
+    std::sync::Arc::new(log)
+}
+
+fn harness(settings: &str, opening: Opening) -> Harness<'static, App> {
+    let storage = Storage(settings.into());
+    let launch = Launch { opening: Some(opening), log: None };
     let build =
         move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, Some(&storage), launch);
-    let mut window = Harness::builder().with_size([1280.0, 800.0]).build_eframe(build);
+    Harness::builder().with_size([1280.0, 800.0]).build_eframe(build)
+}
+
+/// Milliseconds of CPU for one frame.
+fn frame(window: &mut Harness<'static, App>) -> f64 {
+    let before = ThreadTime::now();
+    window.step();
+    let shapes = window.output().shapes.clone();
+    let scale = window.ctx.pixels_per_point();
+    let meshes = window.ctx.tessellate(shapes, scale);
+    let took = before.elapsed();
+    assert!(!meshes.is_empty(), "something is drawn");
+    took.as_secs_f64() * 1e3
+}
+
+fn tell(what: &str, mut times: Vec<f64>) {
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+    let (count, median, most) = (times.len(), at(0.5), at(0.99));
+    println!("  {what}: median {median:.2}, 99th percentile {most:.2} ({count} frames)");
+}
+
+fn running(what: &str, settings: &str, shows_timeline: bool) {
+    let mut window = harness(settings, Opening::read("ten-objects").expect("a built-in scene"));
+    if shows_timeline {
+        window.key_press(Key::T);
+    }
     let (mut times, mut restarts) = (Vec::new(), 0);
     while restarts < 3 {
         sleep(Duration::from_millis(20));
-        let before = ThreadTime::now();
-        window.step();
-        let shapes = window.output().shapes.clone();
-        let scale = window.ctx.pixels_per_point();
-        let meshes = window.ctx.tessellate(shapes, scale);
-        let took = before.elapsed();
-        assert!(!meshes.is_empty(), "something is drawn");
+        let took = frame(&mut window);
         match window.state().session().stage().phase {
-            Phase::Running => times.push(took.as_secs_f64() * 1e3),
+            Phase::Running => times.push(took),
             Phase::Finished => {
                 restarts += 1;
                 window.key_press(Key::R);
@@ -58,11 +149,42 @@ fn frames() {
             Phase::Preparing | Phase::Failed(_) => {}
         }
     }
-    times.sort_by(f64::total_cmp);
-    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
-    let (count, median, most) = (times.len(), at(0.5), at(0.99));
-    println!("one frame, interface and tessellation, 1280x800, eight nodes at full speed, {count} frames:");
-    println!("  median {median:.2} ms, 99th percentile {most:.2} ms of CPU");
+    tell(what, times);
+}
+
+/// Paced runs one after the other for so many seconds; each is scrubbed through before the next begins.
+#[expect(clippy::disallowed_methods, reason = "for how long one waits")]
+fn memory(seconds: u64) {
+    let opening = Opening::read("ten-objects").expect("a built-in scene");
+    let mut window = harness("(settings: (tempo: Lasts(5)))", opening);
+    let began = std::time::Instant::now();
+    let (mut runs, mut next) = (0, 0);
+    while began.elapsed().as_secs() < seconds {
+        sleep(Duration::from_millis(33));
+        window.step();
+        if window.state().session().stage().phase == Phase::Finished {
+            let length = window.state().session().stage().length();
+            for i in 0..50 {
+                window.state_mut().seek(Time(length.0 / 50 * i));
+                window.step();
+            }
+            window.key_press(Key::R);
+            window.run_steps(3);
+            runs += 1;
+        }
+        if began.elapsed().as_secs() >= next {
+            next += (seconds / 20).max(1);
+            let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+            let of =
+                |name: &str| status.lines().find_map(|line| line.strip_prefix(name)).unwrap_or("?").trim().to_owned();
+            println!(
+                "{:5} s, {runs} runs: {} in memory, {} threads",
+                began.elapsed().as_secs(),
+                of("VmRSS:"),
+                of("Threads:")
+            );
+        }
+    }
 }
 
 /// The same run with the window and without it, in turn.

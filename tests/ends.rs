@@ -1,4 +1,4 @@
-//! Runs and replays end when they are told to, whatever they were doing, and leave no thread behind. This is a test program of its
+//! Runs and retraces end when they are told to, whatever they were doing, and leave no thread behind. This is a test program of its
 //! own, so that all its threads but one are theirs.
 
 use std::iter::once;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anel::balance::{Message, NodeId, Party, Strategy};
-use anel::driver::{Replay, Run, Update};
+use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Colour, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Driver, Header, Link, RunLog};
@@ -20,8 +20,8 @@ const NODES: NodeId = 32;
 #[test]
 fn fifty_of_each_in_a_row_leave_nothing_running() {
     let before = threads();
-    let replays: Vec<Replay> = (0..50).map(replay_and_stop).collect();
-    assert!(comes_true(|| replays.iter().all(Replay::has_ended)), "a replay goes on");
+    let retraces: Vec<Retrace> = (0..50).map(retrace_and_stop).collect();
+    assert!(comes_true(|| retraces.iter().all(Retrace::has_ended)), "a retrace goes on");
     let runs: Vec<Run> = (0..50).map(begin_and_stop).collect();
     assert!(comes_true(|| runs.iter().all(Run::has_ended)), "a run goes on");
     for run in &runs {
@@ -64,23 +64,18 @@ fn begin_and_stop(number: u32) -> Run {
     run
 }
 
-/// The parent receives the whole picture now, or after years.
-fn replay_and_stop(number: u32) -> Replay {
+/// The parent has received the whole picture.
+fn retrace_and_stop(number: u32) -> Retrace {
     let mut log = RunLog::new(header(number));
     let (id, from, to) = (0, Party::Node(0), Party::Parent);
     let message = Message::Results(once(0..log.header.division.atoms()).collect());
-    let at = Time([0, u64::MAX][number as usize % 2]);
+    let at = Time(1);
     log.add(vec![Record { at: Time::ZERO, what: What::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
     log.add(vec![Record { at, what: What::Received { id, by: to } }]);
-    let replay = Replay::start_with(trace, Arc::new(log));
+    let retrace = Retrace::start_with(trace, Arc::new(log));
     std::thread::sleep(number % 5 * MS);
-    if number.is_multiple_of(3) {
-        replay.pause();
-    }
-    replay.stop();
-    replay.pause();
-    replay.resume();
-    replay
+    retrace.stop();
+    retrace
 }
 
 /// Whether something comes true before one gives up; on a busy computer that takes a while.

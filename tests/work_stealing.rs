@@ -35,7 +35,7 @@ fn log_of(run: &Run, header: &Header) -> RunLog {
     let mut log = RunLog::new(header.clone());
     for update in run.updates() {
         match update {
-            Update::Records(records) => log.add(records),
+            Update::Records(records) => _ = log.add(records),
             Update::Finished => return log,
             Update::Failed(why) => panic!("{why}"),
             Update::Placed { .. } | Update::Rays(_) => {}

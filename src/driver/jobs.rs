@@ -1,4 +1,4 @@
-//! What a replay has to trace, and in which order.
+//! What is to be traced of a recorded run, and in which order.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -9,26 +9,18 @@ use crate::picture::Atom;
 use crate::record::What;
 use crate::runlog::RunLog;
 
-/// A job is an atom, or consecutive ones of at most so many pixels: else threads would wake each other all the time.
-pub(super) const MOST: u32 = 1024;
+/// A job is an atom, or consecutive ones of at most so many pixels: else threads would get in each other's way.
+const MOST: u32 = 1024;
 
-/// Atoms that are traced and placed together.
-#[derive(Debug, PartialEq)]
-pub(super) struct Job {
-    pub atoms: Range<Atom>,
-    /// The index of the record that says that the parent has received them.
-    pub received: usize,
-}
-
-/// All jobs of a log, in the order in which their atoms are placed; nothing more once the replay `is_over`. No atom is in
+/// The atoms of each job, in the order in which the parent received them; nothing more once it `is_over`. No atom is in
 /// two jobs, though it may be in two messages of a damaged log; one that the parent never received is in none.
-pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Job> {
+pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Range<Atom>> {
     let division = log.header.division;
     let most = (MOST / division.atom_pixels()).max(1) as usize;
     let mut planned = vec![false; division.atoms() as usize];
     let mut on_their_way = BTreeMap::new();
-    let mut jobs: Vec<Job> = Vec::new();
-    for (index, record) in log.records().iter().enumerate() {
+    let mut jobs: Vec<Range<Atom>> = Vec::new();
+    for record in log.records() {
         let results = match &record.what {
             What::Sent { id, to: Party::Parent, message: Message::Results(ranges), .. } => {
                 on_their_way.insert(id, ranges);
@@ -43,10 +35,8 @@ pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Job> {
                     continue;
                 }
                 match jobs.last_mut() {
-                    Some(Job { atoms, received }) if *received == index && atoms.end == atom && atoms.len() < most => {
-                        atoms.end += 1;
-                    }
-                    _ => jobs.push(Job { atoms: atom..atom + 1, received: index }),
+                    Some(job) if job.end == atom && job.len() < most => job.end += 1,
+                    _ => jobs.push(atom..atom + 1),
                 }
             }
         }
@@ -75,7 +65,7 @@ mod tests {
     }
 
     /// The jobs of a log with these records: 20 atoms of `pixels` pixels.
-    fn jobs(pixels: u32, records: Vec<Record>) -> Vec<Job> {
+    fn jobs(pixels: u32, records: Vec<Record>) -> Vec<Range<Atom>> {
         let mut log = RunLog::new(Header { division: Division::new(20 * pixels, pixels), ..header(&[1.0]) });
         log.add(records);
         plan(&log, || false)
@@ -95,15 +85,14 @@ mod tests {
             received(9, parent),
             sent(4, once(19..20)),
         ];
-        let job = |atoms, received| Job { atoms, received };
-        assert_eq!(jobs(5, records), [job(0..3, 3), job(10..11, 3), job(3..6, 5)]);
+        assert_eq!(jobs(5, records), [0..3, 10..11, 3..6]);
     }
 
     #[test]
     fn a_job_is_neither_too_small_nor_too_large() {
         let sizes = |pixels| {
             let records = vec![sent(0, once(0..20)), received(0, Party::Parent)];
-            jobs(pixels, records).iter().map(|job| job.atoms.len()).collect::<Vec<_>>()
+            jobs(pixels, records).iter().map(Range::len).collect::<Vec<_>>()
         };
         assert_eq!([sizes(50), sizes(300)], [vec![20], vec![3, 3, 3, 3, 3, 3, 2]]);
         assert_eq!(sizes(5000), [1; 20]);
@@ -123,8 +112,7 @@ mod tests {
                 if is_sent { sent(id, ranges) } else { received(id, Party::Parent) }
             };
             let jobs = jobs(5, records.into_iter().map(record).collect());
-            prop_assert!(jobs.is_sorted_by_key(|job| job.received));
-            let mut atoms: Vec<Atom> = jobs.into_iter().flat_map(|job| job.atoms).collect();
+            let mut atoms: Vec<Atom> = jobs.into_iter().flatten().collect();
             let count = atoms.len();
             atoms.sort_unstable();
             atoms.dedup();

@@ -11,8 +11,7 @@
 //! Two kinds of runs are there to be compared with this one: that with two threads a node, as the article has it, and
 //! that in which rayon shares the atoms by work stealing. Their workers, their parent and their ports are the same.
 //!
-//! A replay has no parties: one thread tells the records in their time, and as many as the computer has cores trace the
-//! pixels again.
+//! A recorded run has no parties any more: its records are known, and threads trace its picture again.
 
 mod clock;
 mod jobs;
@@ -25,14 +24,13 @@ mod parent_thread;
 mod perform;
 mod port;
 mod probe;
-mod replay;
+mod retrace;
 mod run;
 mod setting;
 mod shared;
 mod sim_thread;
 mod stealing;
 mod supervisor;
-mod teller;
 mod whole;
 mod worker;
 
@@ -40,7 +38,7 @@ pub use measured::Measured;
 pub use pace::{auto_pace, cores};
 pub use perform::perform;
 pub use probe::{Probe, probe};
-pub use replay::Replay;
+pub use retrace::Retrace;
 pub use run::Run;
 pub use whole::{RAY, Whole};
 
@@ -50,12 +48,11 @@ use crate::picture::{Atom, Colour};
 use crate::record::Record;
 use crate::tracer::{RayCounts, Scratch};
 
-/// What a run or a replay tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses
+/// What a run tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses
 /// it once.
 #[derive(Debug)]
 pub enum Update {
-    /// Records of one party, in the order of their times; those of different parties may interleave. In a replay they
-    /// are of all parties, and come in the order of the log.
+    /// Records of one party, in the order of their times; those of different parties may interleave.
     Records(Vec<Record>),
     /// Pixels that the parent has placed.
     Placed {
@@ -66,7 +63,7 @@ pub enum Update {
     },
     /// How many rays a node's worker has traced; its thread has ended.
     Rays(RayCounts),
-    /// All threads have ended, and the picture is complete (or as complete as the log of a replay); the last update.
+    /// All threads have ended, and the picture is complete (or as complete as the log of a recorded run); the last update.
     Finished,
     /// It cannot go on (a sentence says why); the last update.
     Failed(String),

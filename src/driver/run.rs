@@ -111,6 +111,14 @@ impl Run {
         self.command(Command::Latency(latency));
     }
 
+    /// Lets a run in virtual time go so many times as fast as the clock; infinite is as fast as it can. Other runs have
+    /// the pace of their header.
+    pub fn set_rate(&self, rate: f64) {
+        if let Control::Sim(shared) = &self.control {
+            shared.set_rate(rate);
+        }
+    }
+
     /// Stops the run's clock, and with it all machines and all messages.
     pub fn pause(&self) {
         match &self.control {

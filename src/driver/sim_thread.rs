@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
@@ -21,9 +22,27 @@ use crate::time::Time;
 /// What a simulation's thread shares with whoever started it.
 pub(super) struct Shared {
     pub clock: Clock,
-    /// The clock's time at which the run began, in nanoseconds.
-    begun: AtomicU64,
+    going: Mutex<Going>,
     orders: Sender<Order>,
+}
+
+/// How the run's time follows from the clock's.
+#[derive(Clone, Copy)]
+struct Going {
+    /// The clock's time at which the run's was `at`; `None` until all costs are known.
+    since: Option<Time>,
+    at: Time,
+    rate: f64,
+}
+
+/// What counts as infinitely fast, so that no time is infinite.
+const FASTEST: f64 = 1e6;
+
+impl Going {
+    fn at(&self, clock: Time) -> Time {
+        let nanos = |since: Time| (clock.since(since).as_nanos() as f64 * self.rate) as u64;
+        Time(self.at.0.saturating_add(self.since.map_or(0, nanos)))
+    }
 }
 
 /// What a simulation's thread is told.
@@ -38,12 +57,40 @@ impl Shared {
     pub fn new() -> (Self, Receiver<Order>) {
         // Unbounded, but with one order for each thing that the user does.
         let (orders, receiver) = crossbeam_channel::unbounded();
-        (Self { clock: Clock::start(), begun: AtomicU64::new(u64::MAX), orders }, receiver)
+        let going = Mutex::new(Going { since: None, at: Time::ZERO, rate: 1.0 });
+        (Self { clock: Clock::start(), going, orders }, receiver)
     }
 
     /// The run's time: it begins once all costs are known.
     pub fn now(&self) -> Time {
-        Time(self.clock.now().0.saturating_sub(self.begun.load(Ordering::SeqCst)))
+        self.going().at(self.clock.now())
+    }
+
+    /// Lets the run's time go so many times as fast as the clock's.
+    pub fn set_rate(&self, rate: f64) {
+        let mut going = self.going();
+        let now = self.clock.now();
+        *going = Going { since: going.since.map(|_| now), at: going.at(now), rate: rate.clamp(0.0, FASTEST) };
+        drop(going);
+        self.order(Order::Wake);
+    }
+
+    /// The run begins.
+    fn begin(&self) {
+        self.going().since = Some(self.clock.now());
+    }
+
+    /// How long the clock takes until the run's time is `next`.
+    fn until(&self, next: Time) -> Duration {
+        let going = self.going();
+        let left = next.since(going.at(self.clock.now())).as_secs_f64();
+        // Rounded up: who wakes too early would only wait again.
+        Duration::try_from_secs_f64(left / going.rate).unwrap_or(Duration::MAX).saturating_add(Duration::from_nanos(1))
+    }
+
+    /// No panic leaves it half changed.
+    fn going(&self) -> MutexGuard<'_, Going> {
+        self.going.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub fn command(&self, command: Command) {
@@ -83,7 +130,7 @@ pub(super) fn play(
     let costs = whole.costs();
     let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
     let mut news = News { division: header.division, whole, on_their_way: BTreeMap::new(), updates };
-    shared.begun.store(shared.clock.now().0, Ordering::SeqCst);
+    shared.begin();
     loop {
         if is_over() {
             return Err(STOPPED.into());
@@ -101,7 +148,7 @@ pub(super) fn play(
         };
         let order = if records.is_empty() {
             match next {
-                Some(next) => orders.recv_timeout(next.since(now)).ok(),
+                Some(next) => orders.recv_timeout(shared.until(next)).ok(),
                 // Never disconnected: whoever started this thread holds what is shared until it ends.
                 None => orders.recv().ok(),
             }

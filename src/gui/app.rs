@@ -1,32 +1,47 @@
-//! The window's content: which panel goes where, and what happens when something is pressed.
+//! The window's content: which panel goes where.
+
+mod commands;
 
 use eframe::Storage;
-use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Theme, Ui, UiBuilder, ViewportCommand};
+use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
+use super::focus::Focus;
 use super::gallery::Gallery;
-use super::history::Gesture;
-use super::keys::{self, Command};
+use super::keys;
 use super::picture_panel::{self, PicturePanel};
 use super::save_bar::SaveBar;
 use super::session::{Done, Purpose, Session};
 use super::settings::Settings;
 use super::setup_panel::{self, SetupPanel};
 use super::theme::{self, GRID, Look};
+use super::time_panel::{self, TimePanel};
+use super::timeline_panel::{self, TimelinePanel};
 use super::{Launch, frames, help, inspector, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
 use crate::balance::NodeId;
+use crate::time::Time;
+use crate::view::{About, Dossier, Lit};
 
 /// The window's content.
 pub struct App {
     session: Session,
     picture: PicturePanel,
+    time: TimePanel,
     save_bar: SaveBar,
     setup: SetupPanel,
     gallery: Gallery,
     accuracy: Accuracy,
     help: bool,
-    selected: Option<NodeId>,
+    timeline: TimelinePanel,
+    /// The timeline stands in the machines' place.
+    shows_timeline: bool,
+    focus: Focus,
+    /// Of what the pointer is on, and of what is selected.
+    hovered: Option<Dossier>,
+    selected: Option<Dossier>,
+    lit: Lit,
+    begun: usize,
 }
 
 /// What is remembered from one window to the next, beside what egui itself remembers.
@@ -38,6 +53,7 @@ struct Remembered {
     recent: Vec<String>,
     blend: Option<f64>,
     setup: bool,
+    timeline: bool,
 }
 
 const REMEMBERED: &str = "anel";
@@ -63,12 +79,19 @@ impl App {
         Self {
             session,
             picture,
+            time: TimePanel::default(),
             save_bar: SaveBar::default(),
             setup: SetupPanel::new(remembered.setup),
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
             help: false,
+            timeline: TimelinePanel::default(),
+            shows_timeline: remembered.timeline,
+            focus: Focus::default(),
+            hovered: None,
             selected: None,
+            lit: Lit::default(),
+            begun: 0,
         }
     }
 
@@ -84,77 +107,17 @@ impl App {
 
     /// The selected machine, for tests.
     pub fn selected(&self) -> Option<NodeId> {
-        self.selected
+        self.focus.node()
     }
 
-    fn obey(&mut self, command: Command, ctx: &Context) {
-        let session = &mut self.session;
-        match command {
-            Command::Pause => session.toggle_pause(),
-            Command::Restart => session.restart(),
-            Command::Save => self.save_bar.toggle(session),
-            Command::Scenes => {
-                self.accuracy.close(session);
-                self.gallery.toggle(session);
-            }
-            Command::Accuracy => {
-                self.gallery.close();
-                self.accuracy.toggle(session);
-            }
-            Command::Reload => session.reload(),
-            Command::Setup => self.setup.open = !self.setup.open,
-            Command::Undo => session.undo(),
-            Command::Redo => session.redo(),
-            Command::Select(node) if usize::from(node) < session.header().speeds.len() => {
-                self.selected = if self.selected == Some(node) { None } else { Some(node) };
-            }
-            Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
-            Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
-            Command::Inspect(by) => session.inspect_beside(by),
-            Command::Theme => {
-                ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
-            }
-            Command::FullScreen => {
-                let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
-                ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
-            }
-            Command::Help => self.help = !self.help,
-            Command::Back => self.back(),
-            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
-        }
+    /// Shows another moment, for tests.
+    pub fn seek(&mut self, time: Time) {
+        self.session.look_at(time);
     }
 
-    fn obey_for_node(&mut self, command: Command) {
-        let Some(node) = self.selected else {
-            return self.session.note("First select a machine: press its number, or click it");
-        };
-        if command == Command::PauseNode {
-            return self.session.toggle_node_pause(node);
-        }
-        // To the next tenth.
-        let tenths = self.session.speed(node) * 10.0;
-        let next = if command == Command::Faster { (tenths + 1.01).floor() } else { (tenths - 1.01).ceil() };
-        let speed = (next / 10.0).clamp(0.0, 1.0);
-        self.session.change(Gesture::Once, |settings| settings.speeds[usize::from(node)] = speed);
-    }
-
-    /// Whatever was opened last goes away.
-    fn back(&mut self) {
-        if self.help {
-            self.help = false;
-        } else if self.gallery.is_open() {
-            self.gallery.close();
-        } else if self.accuracy.is_open() {
-            self.accuracy.close(&mut self.session);
-        } else if self.save_bar.is_open() {
-            self.save_bar.close();
-        } else if self.session.notice().is_some() {
-            self.session.close_notice();
-        } else if self.session.inspected_place().is_some() {
-            self.session.stop_inspecting();
-        } else {
-            self.selected = None;
-        }
+    /// What is selected, for tests.
+    pub fn focus(&self) -> Option<About> {
+        self.focus.selected
     }
 
     fn take_dropped(&mut self, ctx: &Context) {
@@ -182,8 +145,8 @@ impl App {
             self.obey(command, ui.ctx());
         }
         if self.save_bar.is_open() {
-            let blend = self.picture.blend_share();
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, blend);
+            let shown = self.picture.shown();
+            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown);
             Panel::top("save bar").frame(panel(8, 8)).show(ui, bar);
         }
         if self.gallery.is_open() || self.accuracy.is_open() {
@@ -201,14 +164,58 @@ impl App {
             let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup_panel::WIDTH).resizable(false);
             panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
         }
+        self.light();
         let nodes = self.session.header().speeds.len();
-        self.selected = self.selected.filter(|node| usize::from(*node) < nodes);
-        let height = nodes_panel::height(ui, nodes);
-        let rows = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
-        rows.show(ui, |ui| nodes_panel::show(ui, &mut self.session, &mut self.selected));
+        let height =
+            if self.shows_timeline { timeline_panel::height(ui, nodes) } else { nodes_panel::height(ui, nodes) };
+        let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
+        below.show(ui, |ui| {
+            if self.shows_timeline {
+                self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit);
+            } else {
+                nodes_panel::show(ui, &mut self.session, &mut self.focus, &self.lit);
+            }
+        });
+        let about = self.selected.as_ref();
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(words_panel::height(ui) + 18.0);
-        words.show(ui, |ui| words_panel::show(ui, &self.session));
+        words.show(ui, |ui| words_panel::show(ui, &self.session, about));
+        let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
+        if let Some((command, mark)) =
+            time.show(ui, |ui| self.time.show(ui, &mut self.session, self.shows_timeline)).inner
+        {
+            if let Some(command) = command {
+                self.obey(command, ui.ctx());
+            }
+            if let Some(mark) = mark {
+                self.session.look_after(mark.records);
+                self.focus.selected = Some(mark.about);
+            }
+        }
         self.heroes(ui);
+    }
+
+    /// Finds what stands out in this frame.
+    fn light(&mut self) {
+        let nodes = self.session.header().speeds.len();
+        if self.begun != self.session.runs_begun() {
+            self.begun = self.session.runs_begun();
+            self.timeline.begin();
+            (self.hovered, self.selected) = (None, None);
+            // A machine is the same one in the next run; atoms and messages are others.
+            self.focus.selected = self.focus.node().filter(|node| usize::from(*node) < nodes).map(About::Node);
+        }
+        self.focus.begin();
+        let stage = self.session.stage_mut();
+        let known = [(&mut self.hovered, self.focus.hovered()), (&mut self.selected, self.focus.selected)];
+        for (dossier, about) in known {
+            // What is not over yet is looked up again.
+            let is_known = |dossier: &Dossier| Some(dossier.about) == about && dossier.is_complete();
+            if !dossier.as_ref().is_some_and(is_known) {
+                *dossier = about.map(|about| stage.dossier(about));
+            }
+        }
+        let lit = self.hovered.as_ref().or(self.selected.as_ref());
+        self.lit = lit.map(|dossier| dossier.lit(stage.state())).unwrap_or_default();
     }
 
     /// What floats over the panels.
@@ -229,10 +236,10 @@ impl App {
         let size = self.session.header().size;
         let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
-        ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session));
+        ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session, &mut self.focus, &self.lit));
         ui.scope_builder(within(right), |ui| match self.session.inspected_place() {
             Some(place) => inspector::show(ui, place, &mut self.session),
-            None => ring_panel::show(ui, &self.session, &mut self.selected),
+            None => ring_panel::show(ui, &self.session, &mut self.focus, &self.lit),
         });
     }
 }
@@ -285,6 +292,7 @@ impl eframe::App for App {
             recent: self.session.recent().to_vec(),
             blend: Some(self.picture.blend),
             setup: self.setup.open,
+            timeline: self.shows_timeline,
         };
         eframe::set_value(storage, REMEMBERED, &remembered);
     }

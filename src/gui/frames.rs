@@ -21,19 +21,21 @@ const TOUCHED: f64 = 1.0;
 /// Asks for the next frame; `cpu` is what the last took, in seconds.
 pub fn schedule(ctx: &Context, session: &Session, cpu: Option<f32>) {
     let stage = session.stage();
-    let moves = stage.state.moves(session.now());
+    let moves = stage.goes_on() && (!stage.is_live() || stage.state().moves(session.now()));
+    let works = stage.phase == Phase::Running && !stage.paused;
     let next = match stage.phase {
-        Phase::Running if stage.paused => None,
-        Phase::Running if moves => {
-            let wants_all = session.header().pace >= 1.0 && !session.is_recorded();
-            Some(if wants_all && !is_touched(ctx) { spared(cpu) } else { FRAME })
-        }
-        Phase::Running | Phase::Preparing => Some(LOOK_IN),
-        Phase::Finished if moves => Some(FRAME),
-        Phase::Finished | Phase::Failed(_) => None,
+        // A run that wants every core gets it, also while one looks at what it did before.
+        _ if moves && works && session.header().pace >= 1.0 && !is_touched(ctx) => Some(spared(cpu)),
+        _ if moves => Some(FRAME),
+        Phase::Running if works => Some(LOOK_IN),
+        Phase::Preparing => Some(LOOK_IN),
+        // Its picture is still being traced again.
+        _ if session.is_recorded() && !stage.performer.has_ended() => Some(FRAME),
+        Phase::Running | Phase::Finished | Phase::Failed(_) => None,
     };
     let fades = session.notice().and_then(|notice| notice.remains(ctx.input(|input| input.time)));
-    let others = [fades.map(Duration::from_secs_f64), session.loading().map(|_| LOOK_IN)];
+    let moves = session.is_moving().then_some(FRAME);
+    let others = [fades.map(Duration::from_secs_f64), session.loading().map(|_| LOOK_IN), moves];
     if let Some(next) = next.into_iter().chain(others.into_iter().flatten()).min() {
         ctx.request_repaint_after(next);
     }

@@ -28,15 +28,18 @@ pub fn show(ctx: &egui::Context) -> bool {
         let columns = if ctx.content_rect().width() > 960.0 { 2 } else { 1 };
         let lines = TABLE.len().div_ceil(columns);
         let height = (ctx.content_rect().height() - 20.0 * GRID).max(10.0 * GRID);
-        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| table(ui, columns, lines, look));
+        egui::ScrollArea::vertical()
+            .max_height(height)
+            .min_scrolled_height(height)
+            .show(ui, |ui| table(ui, columns, lines, look));
         closed
     });
     shown.should_close() || shown.inner
 }
 
 fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
-    const WIDTH: f32 = 56.0 * GRID;
-    const LINE: f32 = 3.75 * GRID;
+    const WIDTH: f32 = 58.0 * GRID;
+    const LINE: f32 = 3.5 * GRID;
     let size = vec2(WIDTH * columns as f32, LINE * lines as f32);
     let (area, response) = ui.allocate_exact_size(size, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, "What the keys do"));

@@ -25,6 +25,22 @@ pub enum Icon {
     Chart,
     /// Take back.
     Undo,
+    /// To what happened before.
+    StepBack,
+    /// To what happened next.
+    StepOn,
+    /// Time goes slower.
+    Slower,
+    /// Time goes faster.
+    Faster,
+    /// What happens now.
+    Live,
+    /// The end.
+    End,
+    /// A lane a machine.
+    Lanes,
+    /// The camera.
+    Camera,
     /// Questions.
     Help,
     /// Away with it.
@@ -95,6 +111,45 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             for (x, y) in [(0.3, 0.22), (0.46, 0.52), (0.82, 0.68)] {
                 painter.circle_filled(at(x, y), rect.width() * 0.1, colour);
             }
+        }
+        Icon::StepBack => {
+            line(&[(0.28, 0.2), (0.28, 0.8)]);
+            let corners = vec![at(0.78, 0.2), at(0.78, 0.8), at(0.38, 0.5)];
+            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Icon::StepOn => {
+            line(&[(0.72, 0.2), (0.72, 0.8)]);
+            let corners = vec![at(0.22, 0.2), at(0.62, 0.5), at(0.22, 0.8)];
+            painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Icon::Slower => {
+            for x in [0.46, 0.78] {
+                line(&[(x, 0.24), (x - 0.26, 0.5), (x, 0.76)]);
+            }
+        }
+        Icon::Faster => {
+            for x in [0.22, 0.54] {
+                line(&[(x, 0.24), (x + 0.26, 0.5), (x, 0.76)]);
+            }
+        }
+        Icon::Live => {
+            painter.circle_filled(rect.center(), rect.width() * 0.26, colour);
+        }
+        Icon::End => {
+            line(&[(0.74, 0.2), (0.74, 0.8)]);
+            line(&[(0.26, 0.24), (0.54, 0.5), (0.26, 0.76)]);
+        }
+        Icon::Lanes => {
+            for (y, from, to) in [(0.22, 0.08, 0.62), (0.5, 0.3, 0.92), (0.78, 0.08, 0.5)] {
+                let bar = Rect::from_min_max(at(from, y - 0.09), at(to, y + 0.09));
+                painter.rect_filled(bar, 1.0, colour);
+            }
+        }
+        Icon::Camera => {
+            let body = Rect::from_min_max(at(0.06, 0.26), at(0.94, 0.84));
+            painter.rect_stroke(body, 2.0, Stroke::new(1.5, colour), egui::StrokeKind::Middle);
+            painter.circle_stroke(at(0.5, 0.55), rect.width() * 0.16, Stroke::new(1.5, colour));
+            line(&[(0.34, 0.24), (0.4, 0.12), (0.6, 0.12), (0.66, 0.24)]);
         }
         Icon::Help => {
             painter.line(arc((0.5, 0.3), 0.2, -PI, 0.5 * PI), stroke);

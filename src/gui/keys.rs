@@ -3,14 +3,29 @@
 use egui::{Context, Key, Modifiers};
 
 use crate::balance::NodeId;
+use crate::view::Step;
 
 /// What can be asked for, by a key or by a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
     /// Stand still, or go on.
     Pause,
-    /// From the beginning.
+    /// A new run.
     Restart,
+    /// What happened next (`true`) or before.
+    Step(Step, bool),
+    /// The run's time goes faster (`true`) or slower.
+    Rate(bool),
+    /// What happens as it happens; or the end.
+    Live,
+    /// The run's beginning.
+    Beginning,
+    /// What is worth jumping to.
+    Find,
+    /// The timeline in the machines' place, or these again.
+    Timeline,
+    /// Less of the timeline (`true`), from nearer, or more.
+    Zoom(bool),
     /// Into a file.
     Save,
     /// The scenes, and what else can be opened.
@@ -33,8 +48,19 @@ pub enum Command {
     Slower,
     /// The selected machine stands still, or goes on.
     PauseNode,
-    /// The pixel so far to the right and below, instead of the one that is inspected.
-    Inspect([i32; 2]),
+    /// The pixel so far to the right and below, instead of the one that is inspected; if none is, a step to the right is
+    /// the next event.
+    Arrow([i32; 2]),
+    /// What lies over the picture.
+    Layer,
+    /// Lines between bands and atoms.
+    Outlines,
+    /// A drag of the picture moves the camera, or no longer.
+    Camera,
+    /// The scene's own camera.
+    CameraHome,
+    /// The camera nearer (`true`) or further away.
+    Dolly(bool),
     /// Dark or light.
     Theme,
     /// The whole screen, or a window.
@@ -58,10 +84,59 @@ pub struct Line {
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
+const SHIFT: Modifiers = Modifiers::SHIFT;
 
 /// Everything that keys do, in the order in which it is listed.
 pub const TABLE: &[Line] = &[
     Line { shown: "Space", what: "Pause, or go on", keys: &[(NONE, Key::Space, Command::Pause)] },
+    Line {
+        shown: "←  →",
+        what: "An event back or on; or the pixel beside",
+        keys: &[
+            (NONE, Key::ArrowLeft, Command::Arrow([-1, 0])),
+            (NONE, Key::ArrowRight, Command::Arrow([1, 0])),
+            (NONE, Key::ArrowUp, Command::Arrow([0, -1])),
+            (NONE, Key::ArrowDown, Command::Arrow([0, 1])),
+        ],
+    },
+    Line {
+        shown: "Shift ←  →",
+        what: "An atom back or on",
+        keys: &[
+            (SHIFT, Key::ArrowLeft, Command::Step(Step::Atom, false)),
+            (SHIFT, Key::ArrowRight, Command::Step(Step::Atom, true)),
+        ],
+    },
+    Line {
+        shown: "Ctrl ←  →",
+        what: "An offer back or on, from when it is made",
+        keys: &[
+            (CTRL, Key::ArrowLeft, Command::Step(Step::Lap, false)),
+            (CTRL, Key::ArrowRight, Command::Step(Step::Lap, true)),
+        ],
+    },
+    Line {
+        shown: ",  .",
+        what: "Time goes slower, or faster",
+        keys: &[(NONE, Key::Comma, Command::Rate(false)), (NONE, Key::Period, Command::Rate(true))],
+    },
+    Line { shown: "Home", what: "To the beginning", keys: &[(NONE, Key::Home, Command::Beginning)] },
+    Line {
+        shown: "L",
+        what: "Live: what happens now; or the end",
+        keys: &[(NONE, Key::L, Command::Live), (NONE, Key::End, Command::Live)],
+    },
+    Line {
+        shown: "F",
+        what: "Find the first offer, the biggest transfer …",
+        keys: &[(NONE, Key::F, Command::Find), (CTRL, Key::F, Command::Find)],
+    },
+    Line { shown: "T", what: "The timeline, or the machines", keys: &[(NONE, Key::T, Command::Timeline)] },
+    Line {
+        shown: "Ctrl ↑  ↓",
+        what: "Zoom the timeline",
+        keys: &[(CTRL, Key::ArrowUp, Command::Zoom(true)), (CTRL, Key::ArrowDown, Command::Zoom(false))],
+    },
     Line { shown: "R", what: "Restart with what is set", keys: &[(NONE, Key::R, Command::Restart)] },
     Line {
         shown: "S",
@@ -106,16 +181,19 @@ pub const TABLE: &[Line] = &[
         keys: &[(NONE, Key::P, Command::PauseNode)],
     },
     Line { shown: "Click", what: "Inspect a pixel of the picture", keys: &[] },
+    Line { shown: "Wheel", what: "Zoom the picture or timeline; drag moves it", keys: &[] },
+    Line { shown: "V", what: "Who traced it, what it cost, when it came", keys: &[(NONE, Key::V, Command::Layer)] },
     Line {
-        shown: "Arrows",
-        what: "Inspect the pixel beside it",
-        keys: &[
-            (NONE, Key::ArrowLeft, Command::Inspect([-1, 0])),
-            (NONE, Key::ArrowRight, Command::Inspect([1, 0])),
-            (NONE, Key::ArrowUp, Command::Inspect([0, -1])),
-            (NONE, Key::ArrowDown, Command::Inspect([0, 1])),
-        ],
+        shown: "C",
+        what: "Drag or arrows move the camera; Shift C: back",
+        keys: &[(NONE, Key::C, Command::Camera), (SHIFT, Key::C, Command::CameraHome)],
     },
+    Line {
+        shown: "Page ↑  ↓",
+        what: "The camera nearer, or further away",
+        keys: &[(NONE, Key::PageUp, Command::Dolly(true)), (NONE, Key::PageDown, Command::Dolly(false))],
+    },
+    Line { shown: "B", what: "Lines between bands, and from near atoms", keys: &[(NONE, Key::B, Command::Outlines)] },
     Line {
         shown: "Ctrl Z",
         what: "Undo the last change of a speed or a setting",
@@ -127,7 +205,7 @@ pub const TABLE: &[Line] = &[
         keys: &[(CTRL.plus(Modifiers::SHIFT), Key::Z, Command::Redo), (CTRL, Key::Y, Command::Redo)],
     },
     // The keys of the zoom are egui's own.
-    Line { shown: "Ctrl +  −  0", what: "Zoom in, zoom out, no zoom", keys: &[] },
+    Line { shown: "Ctrl +  −  0", what: "Everything larger, smaller, as usual", keys: &[] },
     Line { shown: "D", what: "Dark or light", keys: &[(NONE, Key::D, Command::Theme)] },
     Line { shown: "F11", what: "Full screen, or a window again", keys: &[(NONE, Key::F11, Command::FullScreen)] },
     Line { shown: "Esc", what: "Close what is open", keys: &[(NONE, Key::Escape, Command::Back)] },
@@ -147,7 +225,7 @@ pub fn pressed(ctx: &Context, types: bool) -> Vec<Command> {
         let plain = modifiers == NONE;
         let typed = plain && !matches!(key, Key::F1 | Key::F5 | Key::F11 | Key::Escape);
         let edits = matches!(command, Command::Undo | Command::Redo);
-        let is_of_focus = key == Key::Space || matches!(command, Command::Inspect(_));
+        let is_of_focus = key == Key::Space || matches!(command, Command::Arrow(_) | Command::Step(..));
         if types && (typed || edits) || is_of_focus && has_focus {
             continue;
         }

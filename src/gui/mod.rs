@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod app;
+mod focus;
 mod frames;
 mod gallery;
 mod help;
@@ -14,6 +15,7 @@ mod notice;
 mod opening;
 mod paint;
 mod picture_panel;
+mod picture_view;
 mod places;
 mod preset;
 mod ring_panel;
@@ -24,6 +26,8 @@ mod settings;
 mod setup_panel;
 mod tempo;
 mod theme;
+mod time_panel;
+mod timeline_panel;
 mod top_bar;
 mod widgets;
 mod words_panel;

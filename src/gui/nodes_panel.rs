@@ -1,7 +1,8 @@
 //! A row a node: its number and colour, its speed to drag or to type, what it has done and has left, and what it does.
 
-use egui::{Align2, Color32, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align2, Color32, Rect, Response, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2};
 
+use super::focus::Focus;
 use super::history::Gesture;
 use super::icons::{self, Icon};
 use super::row_places::{Grid, HEAD, Places};
@@ -10,7 +11,7 @@ use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::balance::NodeId;
 use crate::palette::text_on;
-use crate::view::{Activity, Row, activity_word, count, node_name, rows};
+use crate::view::{About, Activity, Lit, Row, activity_word, count, node_name, rows};
 
 /// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
@@ -20,9 +21,9 @@ pub fn height(ui: &Ui, nodes: usize) -> f32 {
 }
 
 /// Shows all rows, in as many columns as there is room for. A click on a row selects its node.
-pub fn show(ui: &mut Ui, session: &mut Session, selected: &mut Option<NodeId>) {
+pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
     let look = Look::of(ui.ctx());
-    let rows = rows(&session.stage().state, session.now());
+    let rows = rows(session.stage().state(), session.now());
     let grid = Grid::new(rows.len(), ui.available_width());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
@@ -33,8 +34,13 @@ pub fn show(ui: &mut Ui, session: &mut Session, selected: &mut Option<NodeId>) {
         for (i, row) in rows.iter().enumerate() {
             let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
             let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
-            if background(ui, &places, row, *selected == Some(row.node), look) {
-                *selected = if *selected == Some(row.node) { None } else { Some(row.node) };
+            let is_lit = lit.nodes.contains(&row.node);
+            let response = background(ui, &places, row, (focus.node() == Some(row.node), is_lit), look);
+            if response.hovered() {
+                focus.hover(About::Node(row.node));
+            }
+            if response.clicked() {
+                focus.toggle(About::Node(row.node));
             }
             facts(ui, &places, row, session, look);
             controls(ui, &places, row.node, session, look);
@@ -61,22 +67,22 @@ fn head(ui: &Ui, places: &Places, look: Look) {
     words(places.activity, Align2::LEFT_CENTER, "now");
 }
 
-/// What lies under a row: its name for those who cannot see it, and whether it was clicked.
-fn background(ui: &Ui, places: &Places, row: &Row, selected: bool, look: Look) -> bool {
+/// What lies under a row: its name for those who cannot see it, and what tells that it is selected or stands out.
+fn background(ui: &Ui, places: &Places, row: &Row, (selected, is_lit): (bool, bool), look: Look) -> Response {
     let name = node_name(row.node);
     let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::click());
     widgets::describe(&response, &format!("Node {name}"), || {
         let selected = if selected { ", selected" } else { "" };
         format!("{} atoms done, {} left, {}{selected}", row.done, row.left, activity_word(row.activity))
     });
-    if selected || response.hovered() {
+    if selected || is_lit {
         let place = places.row.expand2(vec2(0.5 * GRID, -0.5));
         ui.painter().rect_filled(place, 6.0, look.raised.gamma_multiply(0.5));
         if selected {
             ui.painter().rect_stroke(place, 6.0, Stroke::new(1.5, look.text), StrokeKind::Inside);
         }
     }
-    response.clicked()
+    response
 }
 
 fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
@@ -111,18 +117,12 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
 
 fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, look: Look) {
     let name = node_name(node);
-    let colour = theme::colour(session.stage().colours[usize::from(node)]);
     let enabled = !session.is_recorded();
     let goes_on = enabled && session.stage().phase == Phase::Running;
+    let at = |place: Rect, salt: &str| UiBuilder::new().max_rect(place).id_salt((salt, node));
+    ui.scope_builder(at(places.slider, "slider"), |ui| speed_slider(ui, node, places.slider.width(), session));
     let before = (session.speed(node) * 100.0).round();
     let mut percent = before;
-    let at = |place: Rect, salt: &str| UiBuilder::new().max_rect(place).id_salt((salt, node));
-    ui.scope_builder(at(places.slider, "slider"), |ui| {
-        ui.add_enabled_ui(enabled, |ui| {
-            let name = format!("Speed of node {name}");
-            widgets::slider(ui, &mut percent, (0.0..=100.0, true), places.slider.width(), colour, &name);
-        });
-    });
     ui.scope_builder(at(places.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
             let name = format!("Exact speed of node {name}");
@@ -148,6 +148,20 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
     let hint = if paused { "Let it go on" } else { "Let this machine stand still" };
     if response.on_hover_text(hint).clicked() && goes_on {
         session.toggle_node_pause(node);
+    }
+}
+
+/// The slider of a machine's speed.
+pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session) {
+    let colour = theme::colour(session.stage().colours[usize::from(node)]);
+    let before = (session.speed(node) * 100.0).round();
+    let mut percent = before;
+    ui.add_enabled_ui(!session.is_recorded(), |ui| {
+        let name = format!("Speed of node {}", node_name(node));
+        widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
+    });
+    if percent != before {
+        session.change(Gesture::Speed(node), |settings| settings.speeds[usize::from(node)] = percent / 100.0);
     }
 }
 

@@ -1,120 +1,337 @@
 //! The picture, and how much of it is render and how much owners.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, ColorImage, Painter, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2,
-    vec2,
+    Align2, Color32, ColorImage, Painter, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, TextureHandle,
+    TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::session::Session;
+use super::focus::Focus;
+use super::icons::{self, Icon};
+use super::picture_view::PictureView;
+use super::session::{Moved, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
-use crate::view::{Canvas, atom_words, percent};
+use crate::picture::Atom;
+use crate::view::{About, Canvas, Layer, Lit, atom_words, outlines, percent, ramp};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
 
-/// The picture's texture, which lives as long as the window, and the blend.
+/// The picture's texture, which lives as long as the window, and how the picture is looked at.
 pub struct PicturePanel {
     texture: Option<TextureHandle>,
-    /// 0 is the render, 100 the owners.
+    /// Whether pixels of the texture are to be told apart.
+    shows_pixels: bool,
+    view: PictureView,
+    /// What lies over the render.
+    pub layer: Layer,
+    /// 0 is the render, 100 the layer.
     pub blend: f64,
+    /// Whether lines part the bands, and from near the atoms.
+    pub outlines: bool,
+    /// Whether a drag moves the camera.
+    pub moves_camera: bool,
+    /// What is about seen by a camera that moves.
+    moved: Option<(Arc<Moved>, TextureHandle)>,
 }
 
 impl Default for PicturePanel {
     fn default() -> Self {
-        Self { texture: None, blend: 70.0 }
+        Self {
+            texture: None,
+            shows_pixels: false,
+            view: PictureView::default(),
+            layer: Layer::Owners,
+            blend: 70.0,
+            outlines: false,
+            moves_camera: false,
+            moved: None,
+        }
     }
 }
 
+/// From this size on pixels are squares, in points.
+const SQUARE: f32 = 3.0;
+/// From this height on atoms, a pixel high, are parted by lines, in points.
+const APART: f32 = 5.0;
+
 impl PicturePanel {
     /// Shows the picture as large as it gets, and the slider below it.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
         let look = Look::of(ui.ctx());
-        let blend = self.blend_share();
-        let canvas = session.stage_mut().canvas(blend, theme::rgb(look.ground));
-        self.upload(ui, canvas);
+        let shown = self.shown();
+        let canvas = session.stage_mut().canvas(shown, theme::rgb(look.ground));
         let size = vec2(canvas.size().width() as f32, canvas.size().height() as f32);
         let room = vec2(ui.available_width(), (ui.available_height() - BELOW).max(GRID));
-        let scale = (room.x / size.x).min(room.y / size.y);
-        let slack = (room - size * scale).max(Vec2::ZERO);
-        let place = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * scale);
-        let response = ui.allocate_rect(place, Sense::click());
-        let state = &session.stage().state;
+        let fit = (room.x / size.x).min(room.y / size.y);
+        let slack = (room - size * fit).max(Vec2::ZERO);
+        let frame = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * fit);
+        let response = ui.allocate_rect(frame, Sense::click_and_drag());
+        let moves = self.moves_camera || response.dragged_by(PointerButton::Secondary);
+        if !moves {
+            self.look_about(ui, &response, size, frame);
+        }
+        let (place, scale) = self.view.place(size, frame);
+        self.upload(ui, canvas, scale >= SQUARE);
+        self.move_camera(ui, &response, frame, session);
+        let state = session.stage().state();
         widgets::describe(&response, "Picture", || format!("{} done", percent(state.done(), state.atoms())));
+        let painter = ui.painter_at(frame);
         if let Some(texture) = &self.texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            ui.painter().image(texture.id(), place, whole, Color32::WHITE);
+            painter.image(texture.id(), place, whole, Color32::WHITE);
         }
-        if response.clicked() {
+        if let Some((_, texture)) = &self.moved {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.image(texture.id(), frame, whole, Color32::WHITE);
+        }
+        if self.moves_camera || session.is_camera_away() {
+            self.camera_words(ui, frame, session, look);
+        }
+        if self.moved.is_some() {
+            // Nothing of the run before is to be seen in it.
+        } else if response.double_clicked() && !self.view.shows_all() {
+            self.show_all();
+            session.stop_inspecting();
+        } else if response.clicked() {
             // Whoever has no pointer begins in the middle, and goes on with the arrows.
-            let at = response.interact_pointer_pos().unwrap_or(place.center());
-            session.inspect(pixel_at(session, (at - place.min) / scale));
+            let at = response.interact_pointer_pos().unwrap_or(frame.center());
+            let [x, y] = pixel_at(session, (at - place.min) / scale);
+            session.inspect([x, y]);
+            focus.selected = Some(About::Atom(atom_at(session, [x, y])));
             response.surrender_focus();
         }
+        if self.outlines {
+            outlines_of_all(&painter, (place, scale), frame, session);
+        }
+        outline(&painter, (place, scale), session, &lit.atoms, 1.25);
         if let Some([x, y]) = session.inspected_place() {
-            cross_hair(ui.painter(), place.min + (vec2(x as f32, y as f32) + Vec2::splat(0.5)) * scale, scale);
+            // Who traced it, and when, goes along from pixel to pixel.
+            if let Some(About::Atom(atom)) = &mut focus.selected {
+                *atom = atom_at(session, [x, y]);
+            }
+            cross_hair(&painter, place.min + (vec2(x as f32, y as f32) + Vec2::splat(0.5)) * scale, scale);
         }
         if let Some(at) = response.hover_pos() {
             let [x, y] = pixel_at(session, (at - place.min) / scale);
-            let atom = (y * session.header().size.width() + x) / session.header().division.atom_pixels();
-            let words = atom_words(&session.stage().state, atom, session.now());
-            response.on_hover_text_at_pointer(format!("{words}\nClick to inspect pixel {x}, {y}"));
+            let atom = atom_at(session, [x, y]);
+            focus.hover(About::Atom(atom));
+            if !self.moves_camera && !response.dragged() {
+                let words = atom_words(session.stage().state(), atom, session.now());
+                response.on_hover_text_at_pointer(format!("{words}\nClick to inspect pixel {x}, {y}"));
+            }
         }
-        let below = Rect::from_min_size(place.left_bottom(), vec2(place.width(), BELOW));
+        let below = Rect::from_min_size(frame.left_bottom(), vec2(frame.width(), BELOW));
         self.blend_slider(ui, below, look);
     }
 
-    /// How much of the picture is owners, 0 to 1.
-    pub fn blend_share(&self) -> f32 {
-        (self.blend / 100.0) as f32
+    /// What lies over the render, and how much of it is seen, 0 to 1.
+    pub fn shown(&self) -> (Layer, f32) {
+        (self.layer, (self.blend / 100.0) as f32)
+    }
+
+    /// All of the picture is seen again.
+    pub fn show_all(&mut self) {
+        self.view = PictureView::default();
+    }
+
+    /// Whether only a part of the picture is seen.
+    pub fn is_zoomed(&self) -> bool {
+        !self.view.shows_all()
+    }
+
+    /// A drag goes round what the camera looks at, or with Shift to and fro; the wheel comes nearer.
+    fn move_camera(&mut self, ui: &Ui, response: &Response, frame: Rect, session: &mut Session) {
+        let by = response.drag_delta() / frame.height();
+        let [primary, secondary, middle] = [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle]
+            .map(|which| response.dragged_by(which));
+        let shift = ui.input(|input| input.modifiers.shift);
+        let [right, down] = [by.x, by.y].map(f64::from);
+        let drags = secondary || middle || primary && self.moves_camera;
+        if drags && by != Vec2::ZERO {
+            match middle || shift {
+                true => session.move_camera(|camera| camera.pan(-right, down)),
+                false => session.move_camera(|camera| camera.orbit(-180.0 * right, 180.0 * down)),
+            }
+        }
+        if response.hovered() && self.moves_camera {
+            let scroll = ui.input(|input| input.smooth_scroll_delta.y);
+            if scroll != 0.0 {
+                session.move_camera(|camera| camera.dolly((f64::from(-scroll) * 0.003).exp()));
+            }
+        }
+        session.settle_camera(drags);
+        let moved = session.moved();
+        if self.moved.as_ref().map(|(shown, _)| Arc::as_ptr(shown)) != moved.map(Arc::as_ptr) {
+            self.moved = moved.and_then(|moved| Some((Arc::clone(moved), texture_of(ui, moved)?)));
+        }
+    }
+
+    /// What a hand does to the camera, and the way back.
+    fn camera_words(&self, ui: &mut Ui, frame: Rect, session: &mut Session, look: Look) {
+        let height = 4.0 * GRID;
+        let place = Rect::from_min_max(pos2(frame.left(), frame.bottom() - height), frame.max);
+        ui.painter().rect_filled(place, 0.0, look.ground.gamma_multiply(0.75));
+        let inner = place.shrink2(vec2(GRID, 0.0));
+        ui.scope_builder(egui::UiBuilder::new().max_rect(inner), |ui| {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if session.is_camera_away()
+                    && widgets::button(
+                        ui,
+                        Some(Icon::Undo),
+                        "Camera back",
+                        frame.width() > 300.0,
+                        widgets::Weight::Quiet,
+                    )
+                    .on_hover_text("The scene's own camera (Shift C)")
+                    .clicked()
+                {
+                    session.camera_home();
+                }
+                if self.moves_camera {
+                    let text = "Drag to turn, Shift-drag to move, wheel to come nearer, C to finish";
+                    let text = egui::RichText::new(text).font(theme::regular(theme::SMALL)).color(look.text);
+                    ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                        ui.add(egui::Label::new(text).truncate());
+                    });
+                }
+            });
+        });
+    }
+
+    /// Nearer (more than 1) and further away, to and fro.
+    fn look_about(&mut self, ui: &Ui, response: &Response, size: Vec2, frame: Rect) {
+        if let Some(at) = response.hover_pos() {
+            let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta, input.zoom_delta()));
+            let factor = (scroll.y * 0.005).exp() * pinch;
+            if factor != 1.0 {
+                self.view.zoom(factor, at, size, frame);
+            }
+        }
+        if response.dragged() && !self.view.shows_all() {
+            self.view.pan(response.drag_delta(), size, frame);
+        }
     }
 
     fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look) {
         let (middle, font) = (row.center().y + GRID / 2.0, theme::regular(theme::SMALL));
+        // Under a small picture there is room for one of both words.
         let fits = row.width() > 30.0 * GRID;
-        let words = |x: f32, anchor, text: &str, strength: f64| {
-            // Under a small picture the slider has no room for words; its hint says them.
-            if !fits {
-                return -1.5 * GRID;
+        let mut left = row.left();
+        if fits {
+            let place = Rect::from_min_size(pos2(left - 4.0, middle - 1.5 * GRID), Vec2::splat(3.0 * GRID));
+            let response = ui.interact(place, ui.scope_id().with("camera"), Sense::click());
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.moves_camera, "Move the camera"));
+            let ink = match (self.moves_camera, response.hovered() || response.has_focus()) {
+                (true, _) => look.accent,
+                (false, true) => look.text,
+                (false, false) => look.quiet,
+            };
+            icons::paint(ui.painter(), Icon::Camera, place.shrink(3.0), ink);
+            if response.on_hover_text("Move the camera (C), or drag with the right button at any time").clicked() {
+                self.moves_camera = !self.moves_camera;
             }
-            let colour = look.quiet.lerp_to_gamma(look.text, strength as f32 / 100.0);
-            ui.painter().text(pos2(x, middle), anchor, text, font.clone(), colour).width()
-        };
-        let left = words(row.left(), Align2::LEFT_CENTER, "Render", 100.0 - self.blend) + 1.5 * GRID;
-        let right = words(row.right(), Align2::RIGHT_CENTER, "Who traced it", self.blend) + 1.5 * GRID;
-        let width = (row.width() - left - right).max(4.0 * GRID);
-        let place = Rect::from_min_size(pos2(row.left() + left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
+            left += 3.5 * GRID;
+        }
+        if fits {
+            let colour = look.quiet.lerp_to_gamma(look.text, 1.0 - self.blend as f32 / 100.0);
+            let place = pos2(left, middle);
+            left += ui.painter().text(place, Align2::LEFT_CENTER, "Render", font.clone(), colour).width() + 1.5 * GRID;
+        }
+        let colour = look.quiet.lerp_to_gamma(look.text, self.blend as f32 / 100.0);
+        let right =
+            self.choose_layer(ui, (pos2(row.right().max(row.left() + 13.0 * GRID), middle), fits), colour, look)
+                - 1.5 * GRID;
+        // Under a tiny picture there is room for the layer's name only.
+        let width = right - left;
+        if width < 5.0 * GRID {
+            return;
+        }
+        let place = Rect::from_min_size(pos2(left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, "Render or owners")
-                .on_hover_text("From the render to who traced it");
+            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, "Render or layer")
+                .on_hover_text("From the render to what lies over it");
         });
+    }
+
+    /// What lies over the render, and what its colours mean; a click goes on to the next. Returns where it begins.
+    fn choose_layer(&mut self, ui: &Ui, (right, has_legend): (Pos2, bool), colour: Color32, look: Look) -> f32 {
+        let font = theme::regular(theme::SMALL);
+        let mut x = right.x;
+        if let Some([dark, light]) = self.layer.ends().filter(|_| self.blend > 0.0 && has_legend) {
+            let word = |x: f32, text: &str| {
+                ui.painter().text(pos2(x, right.y), Align2::RIGHT_CENTER, text, font.clone(), look.quiet).left()
+            };
+            x = word(x, light) - 4.0;
+            for step in (0..24).rev() {
+                let bar = Rect::from_min_max(pos2(x - 2.0, right.y - 5.0), pos2(x, right.y + 5.0));
+                let rgb = ramp(0.12 + 0.8 * f64::from(step) / 23.0);
+                ui.painter().rect_filled(bar, 0.0, theme::colour(rgb));
+                x -= 2.0;
+            }
+            x = word(x - 4.0, dark) - GRID;
+        }
+        let galley = ui.painter().layout_no_wrap(self.layer.name().to_owned(), font, colour);
+        let size = galley.size() + vec2(2.0 * GRID, 0.0);
+        let place = Rect::from_min_size(pos2(x - size.x, right.y - 1.5 * GRID), vec2(size.x, 3.0 * GRID));
+        let response = ui.interact(place, ui.scope_id().with("layer"), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, self.layer.name()));
+        if response.hovered() || response.has_focus() {
+            ui.painter().rect_filled(place, 4.0, look.raised);
+        }
+        ui.painter().galley(pos2(place.left() + GRID, right.y - galley.size().y / 2.0), galley, colour);
+        if response.on_hover_text("What lies over the render: press for the next (V)").clicked() {
+            self.next_layer();
+        }
+        place.left()
+    }
+
+    /// Goes on to the next layer; one that is not seen is.
+    pub fn next_layer(&mut self) {
+        if self.blend > 0.0 {
+            let next = Layer::ALL.into_iter().cycle().skip_while(|layer| *layer != self.layer).nth(1);
+            self.layer = next.unwrap_or_default();
+        } else {
+            self.blend = 70.0;
+        }
     }
 
     /// Hands the changed rows to the graphics card; the whole picture only once. A picture that is larger than a texture
     /// can be is shown with fewer pixels.
-    fn upload(&mut self, ui: &Ui, canvas: &mut Canvas) {
+    fn upload(&mut self, ui: &Ui, canvas: &mut Canvas, shows_pixels: bool) {
         let (width, height) = (canvas.size().width(), canvas.size().height());
         let most = ui.input(|input| input.max_texture_side).max(1) as u32;
         let step = width.max(height).div_ceil(most);
         let shown = [width.div_ceil(step) as usize, height.div_ceil(step) as usize];
         let dirty = canvas.take_dirty();
+        let is_same = std::mem::replace(&mut self.shows_pixels, shows_pixels) == shows_pixels;
+        let options = if shows_pixels { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
         match &mut self.texture {
-            Some(texture) if texture.size() == shown => {
+            Some(texture) if texture.size() == shown && is_same => {
                 for rows in dirty {
                     let first = rows.start.div_ceil(step);
                     if let Some(image) = image(canvas, first..rows.end.div_ceil(step), step) {
-                        texture.set_partial([0, first as usize], image, TextureOptions::LINEAR);
+                        texture.set_partial([0, first as usize], image, options);
                     }
                 }
             }
             texture => {
                 let image = image(canvas, 0..height.div_ceil(step), step);
-                *texture = image.map(|image| ui.ctx().load_texture("picture", image, TextureOptions::LINEAR));
+                *texture = image.map(|image| ui.ctx().load_texture("picture", image, options));
             }
         }
     }
+}
+
+/// What is about seen by a camera that moves, for the graphics card; nothing if that is too large for it.
+fn texture_of(ui: &Ui, moved: &Moved) -> Option<TextureHandle> {
+    let [width, height] = [moved.size.width(), moved.size.height()].map(|side| side as usize);
+    let most = ui.input(|input| input.max_texture_side);
+    let image = || ColorImage::new([width, height], moved.pixels.iter().map(|&pixel| theme::colour(pixel)).collect());
+    (width.max(height) <= most).then(|| ui.ctx().load_texture("moved", image(), TextureOptions::LINEAR))
 }
 
 /// Some rows of the texture, each `step`th of the picture's, and of those each `step`th pixel.
@@ -133,6 +350,39 @@ fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
 fn pixel_at(session: &Session, place: Vec2) -> [u32; 2] {
     let size = session.header().size;
     [(place.x.max(0.0) as u32).min(size.width() - 1), (place.y.max(0.0) as u32).min(size.height() - 1)]
+}
+
+/// Marks atoms by a line round them.
+fn outline(painter: &Painter, (place, scale): (Rect, f32), session: &Session, atoms: &[Range<Atom>], line: f32) {
+    let division = session.header().division;
+    let width = session.header().size.width();
+    for [x0, y0, x1, y1] in outlines(atoms.iter().map(|atoms| division.pixels_of(atoms)), width) {
+        let [from, to] = [vec2(x0 as f32, y0 as f32), vec2(x1 as f32, y1 as f32)].map(|at| place.min + at * scale);
+        // Seen on every picture.
+        painter.line_segment([from, to], Stroke::new(line + 1.75, Color32::from_black_alpha(150)));
+        painter.line_segment([from, to], Stroke::new(line, Color32::WHITE));
+    }
+}
+
+/// Lines between the bands, and from near between the atoms.
+fn outlines_of_all(painter: &Painter, (place, scale): (Rect, f32), frame: Rect, session: &Session) {
+    let (header, width) = (session.header(), session.header().size.width());
+    if scale >= APART {
+        let row = |y: f32| ((y - place.top()) / scale).max(0.0) as u32;
+        let rows = row(frame.top())..(row(frame.bottom()) + 1).min(header.size.height());
+        let pixels = header.division.atom_pixels();
+        for atom in rows.start * width / pixels..(rows.end * width).div_ceil(pixels).min(header.division.atoms()) {
+            outline(painter, (place, scale), session, std::slice::from_ref(&(atom..atom + 1)), 0.5);
+        }
+    }
+    for band in header.division.bands(header.speeds.len()) {
+        outline(painter, (place, scale), session, std::slice::from_ref(&band), 1.0);
+    }
+}
+
+/// The atom that a pixel is in.
+fn atom_at(session: &Session, [x, y]: [u32; 2]) -> Atom {
+    (y * session.header().size.width() + x) / session.header().division.atom_pixels()
 }
 
 /// Marks a pixel of so many points, and leaves it free.

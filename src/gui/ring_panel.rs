@@ -2,21 +2,21 @@
 
 use egui::{Painter, Rect, Sense, Ui};
 
+use super::focus::Focus;
 use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, Look};
 use super::widgets;
-use crate::balance::NodeId;
 use crate::view::{
-    Overlay, Point, Spot, activity_word, flight_words, node_name, node_words, parcel_at, parent_words, ring, ring_at,
-    small_print,
+    About, Lit, Overlay, Point, Spot, activity_word, flight_words, node_name, node_words, parcel_at, parent_words,
+    ring, ring_at, small_print,
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
-pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
+pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
-    let state = &stage.state;
+    let state = stage.state();
     widgets::describe(&response, "The ring", || {
         let say = |node| format!("{} is {}", node_name(node), activity_word(state.activity(node, now)));
         let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| say(node)).collect();
@@ -25,17 +25,28 @@ pub fn show(ui: &mut Ui, session: &Session, selected: &mut Option<NodeId>) {
     let look = Look::of(ui.ctx());
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
-    let drawn = Overlay { outcome: stage.outcome, selected: *selected };
+    let drawn = Overlay {
+        outcome: stage.result().map(|result| result.outcome),
+        selected: focus.node(),
+        lit: lit.nodes.clone(),
+        message: lit.message,
+    };
     paint(&painter, rect.min, &ring(state, &drawn, now, rect.size().into()), &inks);
 
     let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
     let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at));
     let parcel = pointed.and_then(|at| parcel_at(state, now, rect.size().into(), at));
     if response.clicked() {
-        *selected = match spot {
-            Some(Spot::Node(node)) if *selected != Some(node) => Some(node),
-            _ => None,
-        };
+        match (parcel, spot) {
+            (Some(parcel), _) => focus.toggle(About::Message(parcel.id)),
+            (None, Some(Spot::Node(node))) => focus.toggle(About::Node(node)),
+            (None, _) => focus.selected = None,
+        }
+    }
+    match (parcel, spot) {
+        (Some(parcel), _) => focus.hover(About::Message(parcel.id)),
+        (None, Some(Spot::Node(node))) => focus.hover(About::Node(node)),
+        (None, _) => {}
     }
     // Parcels fly over everything else.
     let more = match (parcel, spot) {

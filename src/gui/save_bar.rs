@@ -10,6 +10,7 @@ use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
 use crate::output::{as_file_name, check_writable, is_same_file};
 use crate::runlog::Header;
+use crate::view::Layer;
 
 /// The bar below the top bar, while it is open.
 #[derive(Default)]
@@ -34,15 +35,18 @@ enum Kind {
     Render,
     /// The picture in the colours of who traced it.
     Owners,
-    /// Between the two, as it is shown.
+    /// The picture in the colours of what its atoms cost.
+    Costs,
+    /// As it is shown, between the render and a layer.
     Blend,
     /// The run's records.
     Run,
 }
 
-const KINDS: [(Kind, &str, &str); 4] = [
+const KINDS: [(Kind, &str, &str); 5] = [
     (Kind::Render, "render", "The picture as it was traced"),
     (Kind::Owners, "owners", "The picture in the colours of who traced it"),
+    (Kind::Costs, "costs", "The picture in the colours of what it cost"),
     (Kind::Blend, "blend", "The picture as it is blended now"),
     (Kind::Run, "run", "All records of the run, to be played again"),
 ];
@@ -78,8 +82,8 @@ impl SaveBar {
         }
     }
 
-    /// Shows the bar; the picture is shown with this `blend`.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, blend: f32) {
+    /// Shows the bar; the picture is shown with so much of a layer.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shown: (Layer, f32)) {
         let look = Look::of(ui.ctx());
         ui.horizontal(|ui| {
             let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
@@ -93,7 +97,7 @@ impl SaveBar {
                 (self.warned, self.trouble) = (None, None);
             }
             if button(ui, None, "Save", true, Weight::Primary).clicked() || field.entered {
-                self.save(session, blend);
+                self.save(session, shown);
             }
             if button(ui, None, "Browse…", true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
@@ -125,7 +129,7 @@ impl SaveBar {
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
-    fn save(&mut self, session: &mut Session, blend: f32) {
+    fn save(&mut self, session: &mut Session, shown: (Layer, f32)) {
         let path = match resolve(&self.path, std::env::home_dir()) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
@@ -147,9 +151,10 @@ impl SaveBar {
         }
         self.open = false;
         match self.kind {
-            Kind::Render => session.save_picture(path, 0.0),
-            Kind::Owners => session.save_picture(path, 1.0),
-            Kind::Blend => session.save_picture(path, blend),
+            Kind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
+            Kind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
+            Kind::Costs => session.save_picture(path, (Layer::Costs, 1.0)),
+            Kind::Blend => session.save_picture(path, shown),
             Kind::Run => session.save_run(path),
         }
     }
@@ -188,6 +193,7 @@ fn file_name(header: &Header, kind: Kind, done: bool) -> String {
     let what = match kind {
         Kind::Render => String::new(),
         Kind::Owners => "-owners".into(),
+        Kind::Costs => "-costs".into(),
         Kind::Blend => "-blend".into(),
         Kind::Run => format!("-{}-{}", header.strategy_name(), header.speeds.len()),
     };

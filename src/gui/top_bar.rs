@@ -8,7 +8,7 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button};
 use crate::runlog::Driver;
-use crate::view::{Sharing, count};
+use crate::view::{Sharing, count, time_words};
 
 /// What is open, and so shown as pressed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,10 +46,10 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         ui.with_layout(from_right, |ui| {
             clicked = clicked.or(buttons(ui, session, wide, open));
             ui.add_space(2.0 * GRID);
-            let time = format!("{:.1} s", session.stage().lasted().secs());
+            let time = time_words(session.stage().lasted(), session.stage().grain());
             ui.label(RichText::new(time).font(theme::strong(theme::LARGE)).color(look.text));
-            if session.stage().paused {
-                ui.label(quiet("paused at".into(), look.quiet));
+            if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
+                ui.label(quiet(state.into(), look.quiet));
             }
             ui.add_space(2.0 * GRID);
             // What is left over between name and time.
@@ -90,16 +90,40 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     // The two to press first keep their words.
     let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
     let weight = |first: bool| if first { Weight::Primary } else { Weight::Quiet };
-    press(Icon::Restart, "Restart", true, weight(over), Command::Restart, "From the beginning, with what is set (R)");
-    let paused = session.stage().paused;
-    let (icon, name) = if paused { (Icon::Play, "Go on") } else { (Icon::Pause, "Pause") };
-    ui.add_enabled_ui(!over, |ui| {
-        let button = button(ui, Some(icon), name, true, weight(!over));
+    let hint = if session.is_recorded() {
+        "From its beginning (R); Set up can make it live"
+    } else {
+        "A new run, with what is set (R)"
+    };
+    press(Icon::Restart, "Restart", true, weight(over && session.stage().shows_end()), Command::Restart, hint);
+    let stage = session.stage();
+    let (icon, name) = match stage.goes_on() {
+        _ if stage.is_at_end() => (Icon::Play, "Play again"),
+        true => (Icon::Pause, "Pause"),
+        false if stage.phase == Phase::Preparing => (Icon::Pause, "Pause"),
+        false => (Icon::Play, "Go on"),
+    };
+    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
+    ui.add_enabled_ui(can, |ui| {
+        let button = button(ui, Some(icon), name, true, weight(!over || !stage.shows_end()));
         if button.on_hover_text("Stand still or go on (space)").clicked() {
             clicked = Some(Command::Pause);
         }
     });
     clicked
+}
+
+/// What is to be said before the shown time.
+fn time_state(session: &Session) -> Option<&'static str> {
+    let stage = session.stage();
+    match (stage.phase == Phase::Running, stage.is_live(), stage.goes_on()) {
+        (_, true, _) if stage.paused => Some("paused at"),
+        (_, true, _) => None,
+        (true, false, true) => Some("earlier"),
+        (false, false, true) => Some("again"),
+        (_, false, false) if stage.shows_end() => None,
+        (_, false, false) => Some("stands at"),
+    }
 }
 
 /// What runs, in as many words as fit.

@@ -6,7 +6,7 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::text_on;
-use crate::view::{Share, figures, node_name, percent, shares};
+use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares};
 
 const SENTENCE: f32 = 3.25 * GRID;
 const EVENT: f32 = 2.25 * GRID;
@@ -18,14 +18,16 @@ pub fn height(ui: &Ui) -> f32 {
 }
 
 /// Shows all three.
-pub fn show(ui: &mut Ui, session: &Session) {
+pub fn show(ui: &mut Ui, session: &Session, about: Option<&Dossier>) {
     let look = Look::of(ui.ctx());
     let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui)), Sense::hover());
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - BAR);
     let words = &mut ui.new_child(UiBuilder::new().max_rect(above.with_max_y(above.bottom() - GRID)));
     words.spacing_mut().item_spacing.y = 0.0;
     words.shrink_clip_rect(above);
-    if session.stage().outcome.is_some() {
+    if let Some(about) = about {
+        selected(words, session, about, look);
+    } else if session.stage().result().is_some() {
         result(words, session, look)
     } else {
         story(words, session, look)
@@ -42,17 +44,35 @@ fn events_shown(ui: &Ui) -> usize {
     }
 }
 
+/// What is selected, in the story's place: whoever clicks wants to know.
+fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
+    let stage = session.stage();
+    let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
+    let area = ui.available_rect_before_wrap();
+    let response = ui.interact(area, ui.scope_id().with("selected"), Sense::hover());
+    widgets::describe(&response, "Selected", || format!("{title}. {more}"));
+    ui.allocate_ui(vec2(ui.available_width(), SENTENCE), |ui| {
+        ui.set_min_height(SENTENCE);
+        ui.add(Label::new(RichText::new(&title).font(theme::strong(18.0)).color(look.text)).truncate());
+    });
+    let more = Label::new(RichText::new(&more).font(theme::regular(theme::SMALL)).color(look.quiet));
+    ui.add(if events_shown(ui) < 2 { more.truncate() } else { more.wrap() });
+}
+
 /// The sentence of the moment, and the last events before it.
 fn story(ui: &mut Ui, session: &Session, look: Look) {
     let stage = session.stage();
     let sentence = match &stage.phase {
         Phase::Preparing => "Reading the scene, compiling it, and looking what it will cost …".to_owned(),
         Phase::Failed(why) => format!("The run cannot go on: {why}"),
-        Phase::Finished if stage.state.finished().is_none() => {
-            let done = percent(stage.state.done(), stage.state.atoms());
+        Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => {
+            let done = percent(stage.state().done(), stage.state().atoms());
             format!("The record ends here, with {done} of the picture")
         }
-        _ => stage.narrator.sentence(&stage.state, session.now()),
+        _ => match stage.stepped_to() {
+            Some(record) => record_words(record, stage.state()),
+            None => stage.narrator().sentence(stage.state(), session.now()),
+        },
     };
     // Rather small than cut.
     let width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
@@ -68,7 +88,7 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
 /// The last events before that of the moment.
 fn events(ui: &mut Ui, session: &Session, most: usize, look: Look) {
     let font = theme::regular(theme::SMALL);
-    for (at, event) in session.stage().narrator.earlier(session.now()).rev().take(most) {
+    for (at, event) in session.stage().narrator().earlier(session.now()).rev().take(most) {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, "Event", || event.to_owned());
         let y = line.center().y;
@@ -82,15 +102,15 @@ fn events(ui: &mut Ui, session: &Session, most: usize, look: Look) {
 /// What the run amounts to: large, and in words.
 fn result(ui: &mut Ui, session: &Session, look: Look) {
     let stage = session.stage();
-    let Some(outcome) = stage.outcome else { return };
+    let Some(result) = stage.result() else { return };
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("result"), Sense::hover());
-    widgets::describe(&response, "Result", || stage.result.clone());
+    widgets::describe(&response, "Result", || result.words.clone());
     // Where there is no room below a figure, what it means stands beside it.
     let is_high = area.height() > 5.5 * GRID;
     let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
     let mut x = area.left();
-    for (figure, means) in figures(&outcome) {
+    for (figure, means) in figures(&result.outcome) {
         let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
         let means = ui.painter().layout_no_wrap(means.to_owned(), theme::regular(theme::SMALL), look.quiet);
         let (figure_size, means_size) = (figure.size(), means.size());
@@ -106,12 +126,12 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let lines = (rest.height().max(0.0) / EVENT) as usize;
     ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| events(ui, session, lines, look));
     let height =
-        |size: f32| ui.painter().layout(stage.parts.clone(), theme::regular(size), look.text, place.width()).size().y;
+        |size: f32| ui.painter().layout(result.parts.clone(), theme::regular(size), look.text, place.width()).size().y;
     // Rather not at all than cut: the bar below tells it too.
     let fits = [theme::BODY, theme::SMALL].into_iter().find(|&size| height(size) <= place.height());
     if let Some(size) = fits.filter(|_| place.width() > 12.0 * GRID) {
         ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-            ui.add(Label::new(RichText::new(&stage.parts).font(theme::regular(size)).color(look.text)).wrap());
+            ui.add(Label::new(RichText::new(&result.parts).font(theme::regular(size)).color(look.text)).wrap());
         });
     }
 }
@@ -125,7 +145,7 @@ fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::
 /// All atoms in one row: each node's part in its colour, what is still to be done empty.
 fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
-    let state = &session.stage().state;
+    let state = session.stage().state();
     let (shares, all) = (shares(state), state.atoms());
     widgets::describe(&response, "Who has traced how much", || {
         let say = |share: &Share| format!("{} {}", node_name(share.node), percent(share.atoms, all));

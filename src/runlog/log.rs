@@ -41,12 +41,13 @@ impl RunLog {
     /// Sorts records in: a batch of one party's, which are in the order of time, or several such one after the other.
     /// Parties deliver theirs a little late, so that only the log's end is touched, and sorting what is made of sorted
     /// runs takes nearly linear time. Still that end is long where many parties say much: whoever has several batches at
-    /// hand should add them together.
-    pub fn add(&mut self, batch: Vec<Record>) {
-        let Some(first) = batch.iter().map(|record| record.at).min() else { return };
+    /// hand should add them together. Returns how many of the first records are the same as before.
+    pub fn add(&mut self, batch: Vec<Record>) -> usize {
+        let Some(first) = batch.iter().map(|record| record.at).min() else { return self.records.len() };
         let untouched = self.records.partition_point(|record| record.at <= first);
         self.records.extend(batch);
         self.records[untouched..].sort_by_key(|record| record.at);
+        untouched
     }
 }
 
@@ -81,7 +82,7 @@ mod tests {
                         records.push(Record { at: Time(at), what });
                     }
                     made[node].extend(records.clone());
-                    if together { several.extend(records) } else { log.add(records) }
+                    if together { several.extend(records) } else { _ = log.add(records) }
                 }
                 log.add(several);
             }

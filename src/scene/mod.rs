@@ -4,6 +4,7 @@ mod checked;
 mod file;
 mod resolve;
 mod text;
+mod viewpoint;
 
 pub use file::{Opened, SceneError};
 

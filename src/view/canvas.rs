@@ -1,9 +1,11 @@
 //! The picture as it is shown: the render, the owners, or anything between.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::state::RunState;
-use super::tones::Tones;
+use super::tones::{Layer, Tones};
+use crate::balance::NodeId;
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Colour, Division, Size, srgb8};
 
@@ -18,12 +20,28 @@ pub struct Canvas {
     tones: Tones,
     ground: Rgb,
     blend: f32,
+    /// What an atom costs on the average, as far as costs are shown by it.
+    mean_cost: f64,
     render: Vec<Rgb>,
-    placed: Vec<bool>,
-    /// Whether `render` has a preview where nothing is placed.
-    previewed: bool,
+    /// By atom: whether `render` has its pixels.
+    known: Vec<bool>,
+    /// What the render will about look like; empty if that is not known. Of its own, so that a moment that is shown again
+    /// looks the same.
+    preview: Arc<[Rgb]>,
     shown: Vec<Rgb>,
+    /// By atom: what `shown` shows of it.
+    painted: Vec<Painted>,
     dirty: Vec<bool>,
+}
+
+/// What decides how an atom is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Painted {
+    holder: Option<NodeId>,
+    tone: Option<u16>,
+    is_traced: bool,
+    is_traced_now: bool,
+    is_render: bool,
 }
 
 impl Canvas {
@@ -33,14 +51,16 @@ impl Canvas {
         Self {
             size,
             division,
-            tones: Tones::new(&colours),
+            tones: Tones::new(Layer::Owners, &colours),
             colours,
             ground,
             blend: 0.0,
+            mean_cost: 0.0,
             render: vec![[0; 3]; pixels],
-            placed: vec![false; division.atoms() as usize],
-            previewed: false,
+            known: vec![false; division.atoms() as usize],
+            preview: Arc::default(),
             shown: vec![ground; pixels],
+            painted: vec![Painted::default(); division.atoms() as usize],
             dirty: vec![true; size.height() as usize],
         }
     }
@@ -55,22 +75,18 @@ impl Canvas {
         self.ground
     }
 
-    /// Takes in traced pixels: `pixels` are those of `atoms`.
-    pub fn place(&mut self, atoms: Range<Atom>, pixels: &[Colour]) {
+    /// Takes in traced pixels: `pixels` are those of `atoms`. They are seen once the parent has placed them.
+    pub fn take(&mut self, atoms: Range<Atom>, pixels: &[Colour]) {
         let start = self.division.pixels(atoms.start).start as usize;
         for (to, &from) in self.render[start..].iter_mut().zip(pixels) {
             *to = srgb8(from);
         }
-        self.placed[atoms.start as usize..atoms.end as usize].fill(true);
+        self.known[atoms.start as usize..atoms.end as usize].fill(true);
     }
 
-    /// Shows faintly what a pixel, at its place from the left and from the top, will look like.
-    pub fn preview(&mut self, guess: impl Fn(u32, u32) -> Colour, state: &RunState) {
-        let width = self.size.width();
-        for (pixel, to) in (0..).zip(&mut self.render) {
-            *to = srgb8(guess(pixel % width, pixel / width));
-        }
-        self.previewed = true;
+    /// Shows faintly what all pixels, in scan order, will look like; nothing if there are none.
+    pub fn preview(&mut self, guess: Arc<[Rgb]>, state: &RunState) {
+        self.preview = guess;
         self.paint(0..self.division.atoms(), state);
     }
 
@@ -88,8 +104,29 @@ impl Canvas {
         }
     }
 
-    /// Shows the render (0), the owners (1) or something between, on `ground`. Nothing is drawn if nothing changes.
-    pub fn set_look(&mut self, blend: f32, ground: Rgb, state: &RunState) {
+    /// Shows another moment: draws anew what differs.
+    pub fn show(&mut self, state: &RunState) {
+        for atom in 0..self.division.atoms() {
+            if self.painted[atom as usize] != self.to_paint(atom, state) {
+                self.paint(atom..atom + 1, state);
+            }
+        }
+    }
+
+    /// Shows the render (0), a layer (1) or something between, on `ground`. Nothing is drawn if nothing changes.
+    pub fn set_look(&mut self, (layer, blend): (Layer, f32), ground: Rgb, state: &RunState) {
+        /// What costs are compared with follows the mean in steps, or each atom would be drawn anew with every other.
+        const STEP: f64 = 1.1;
+        if layer != self.tones.layer() {
+            self.tones = Tones::new(layer, &self.colours);
+            self.blend = f32::NAN;
+        }
+        let mean = state.mean_cost();
+        let is_off = !(self.mean_cost / STEP..=self.mean_cost * STEP).contains(&mean);
+        if layer == Layer::Costs && is_off {
+            self.mean_cost = mean;
+            self.show(state);
+        }
         if (blend, ground) != (self.blend, self.ground) {
             (self.blend, self.ground) = (blend, ground);
             self.paint(0..self.division.atoms(), state);
@@ -118,27 +155,37 @@ impl Canvas {
         &self.shown[rows.start as usize * width..rows.end as usize * width]
     }
 
+    fn to_paint(&self, atom: Atom, state: &RunState) -> Painted {
+        let place = state.places()[atom as usize];
+        let (holder, is_traced) = (place.holder(), place.owner().is_some());
+        let is_traced_now = holder.is_some_and(|node| state.nodes()[usize::from(node)].atom == Some(atom));
+        let tone = self.tones.of(atom, state, self.mean_cost);
+        Painted { holder, tone, is_traced, is_traced_now, is_render: place.is_placed() && self.known[atom as usize] }
+    }
+
     fn paint_atom(&mut self, atom: Atom, pixels: Range<usize>, state: &RunState) {
-        let place = atom as usize;
-        let (owner, holder) = (state.places()[place].owner(), state.places()[place].holder());
-        if self.placed[place] {
+        let painted = self.to_paint(atom, state);
+        self.painted[atom as usize] = painted;
+        let Painted { holder, tone, is_traced, is_traced_now, is_render } = painted;
+        if is_render {
             for (to, &render) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
-                *to = self.tones.shown(render, owner, self.blend);
+                *to = self.tones.shown(render, tone, self.blend);
             }
             return;
         }
-        let traced_now = holder.is_some_and(|node| state.nodes()[usize::from(node)].atom == Some(atom));
         let colour = holder.map(|node| self.colours[usize::from(node)]);
-        let strength = match (owner, traced_now) {
-            (None, false) => 0.16 + 0.14 * self.blend,
-            (None, true) => 1.0,
-            (Some(_), _) => 0.6,
+        let strength = match (is_traced, is_traced_now) {
+            (false, false) => 0.16 + 0.14 * self.blend,
+            (false, true) => 1.0,
+            (true, _) => 0.6,
         };
+        // Under another layer it is of no interest whose an atom will be.
+        let strength = if self.tones.layer() == Layer::Owners { strength } else { strength * (1.0 - 0.7 * self.blend) };
         let plain = colour.map_or(self.ground, |colour| mix(self.ground, colour, strength));
-        if self.previewed && !traced_now {
+        if !self.preview.is_empty() && !is_traced_now {
             // Fainter the more owners are shown, so that what is done stands out.
             let share = 0.35 - 0.2 * self.blend;
-            for (to, &guess) in self.shown[pixels.clone()].iter_mut().zip(&self.render[pixels]) {
+            for (to, &guess) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels]) {
                 *to = mix(plain, guess, share);
             }
         } else {
@@ -162,7 +209,7 @@ mod tests {
         sample::records(&header).iter().for_each(|record| state.apply(record));
         canvas.take_dirty();
         let touched = state.take_touched();
-        canvas.place(0..20, &vec![[0.0, 1.0, 0.0]; 1000]);
+        canvas.take(0..20, &vec![[0.0, 1.0, 0.0]; 1000]);
         touched.into_iter().for_each(|atoms| canvas.paint(atoms, &state));
         (canvas, state)
     }
@@ -176,7 +223,7 @@ mod tests {
     #[test]
     fn the_owners_colour_what_they_traced() {
         let (mut canvas, state) = finished();
-        canvas.set_look(1.0, GROUND, &state);
+        canvas.set_look((Layer::Owners, 1.0), GROUND, &state);
         let [first, last] = [canvas.rows(0..1)[0], canvas.rows(19..20)[49]];
         assert!(first[0] > 150 && first[2] < 80, "{first:?}");
         assert!(last[2] > 150 && last[0] < 80, "{last:?}");
@@ -186,7 +233,7 @@ mod tests {
     fn only_what_changed_is_drawn_again() {
         let (mut canvas, state) = finished();
         canvas.take_dirty();
-        canvas.set_look(0.0, GROUND, &state);
+        canvas.set_look((Layer::Owners, 0.0), GROUND, &state);
         assert!(canvas.take_dirty().is_empty());
         canvas.paint(3..4, &state);
         canvas.paint(17..19, &state);

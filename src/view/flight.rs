@@ -1,8 +1,9 @@
 //! Messages in flight, and for how long they are shown.
 //!
 //! On a fast link a message is gone before anyone has seen it. So each kind has a shortest displayed flight: it
-//! still leaves at its own time, but its drawing may arrive later than the message. One pure function of (sent,
-//! arrives) decides that for every view, so that pausing or going back costs nothing.
+//! still leaves at its own time, but its drawing may arrive later than the message. Where time goes slowly that is a
+//! shorter part of it. One pure function of (sent, arrives) and of how fast time goes decides that for every view, so
+//! that pausing or going back costs nothing.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -14,6 +15,8 @@ use crate::time::Time;
 /// A message that has left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
+    /// Its name in the run.
+    pub id: u64,
     /// The sender.
     pub from: Party,
     /// The receiver.
@@ -24,6 +27,8 @@ pub struct Flight {
     pub sent: Time,
     /// When the link delivers it.
     pub arrives: Time,
+    /// The run's seconds in a second of whoever looks on, at most 1.
+    pub(super) rate: f64,
 }
 
 /// What a message carries, as far as views care.
@@ -49,8 +54,8 @@ pub enum Cargo {
 }
 
 impl Flight {
-    /// The message that left at `sent`.
-    pub fn new(from: Party, to: Party, message: &Message, sent: Time, arrives: Time) -> Self {
+    /// The message `id` that left at `sent`.
+    pub fn new(id: u64, (from, to): (Party, Party), message: &Message, sent: Time, arrives: Time) -> Self {
         let cargo = match message {
             Message::Band(band) => Cargo::Band(band.clone()),
             Message::Offer { who, .. } => Cargo::Offer { who: *who },
@@ -60,17 +65,21 @@ impl Flight {
             Message::Results(ranges) => Cargo::Results(ranges.clone()),
             Message::Shutdown => Cargo::Shutdown,
         };
-        Self { from, to, cargo, sent, arrives }
+        Self { id, from, to, cargo, sent, arrives, rate: 1.0 }
     }
 
     /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen.
     pub fn shown(&self) -> Range<Time> {
-        self.sent..self.arrives.max(self.sent + self.cargo.shortest())
+        self.sent..self.arrives.max(self.sent + self.cargo.shortest().mul_f64(self.rate))
     }
 
     /// When the last of its fading trail is gone.
     pub fn gone(&self) -> Time {
-        self.shown().end + self.cargo.fade()
+        self.shown().end + self.fade()
+    }
+
+    fn fade(&self) -> Duration {
+        self.cargo.fade().mul_f64(self.rate)
     }
 
     /// How far it is on its way at `now`, 0 to 1.
@@ -82,7 +91,7 @@ impl Flight {
 
     /// How strongly its trail is still seen at `now`: 1 until it has arrived, then less and less, at last 0.
     pub fn presence(&self, now: Time) -> f32 {
-        let (end, fade) = (self.shown().end, self.cargo.fade());
+        let (end, fade) = (self.shown().end, self.fade());
         if now <= end {
             1.0
         } else if now >= end + fade {
@@ -141,7 +150,7 @@ mod tests {
 
     fn transfer(sent: u64, length: u64) -> Flight {
         let ranges = vec![Range { start: 0, end: 7 }, Range { start: 20, end: 50 }];
-        Flight::new(Party::Node(1), Party::Node(4), &Message::Transfer(ranges), Time(sent), Time(sent + length))
+        Flight::new(7, (Party::Node(1), Party::Node(4)), &Message::Transfer(ranges), Time(sent), Time(sent + length))
     }
 
     #[test]
@@ -154,12 +163,21 @@ mod tests {
     #[test]
     fn an_offer_keeps_its_time_and_leaves_a_trail() {
         let message = Message::Offer { who: 3, done: 9 };
-        let offer = Flight::new(Party::Node(3), Party::Node(2), &message, Time::from_secs(1.0), Time::from_secs(1.04));
+        let offer =
+            Flight::new(7, (Party::Node(3), Party::Node(2)), &message, Time::from_secs(1.0), Time::from_secs(1.04));
         assert_eq!(offer.shown().end, Time::from_secs(1.04));
         assert_eq!(offer.presence(Time::from_secs(1.03)), 1.0);
         let later = offer.presence(Time::from_secs(1.44));
         assert!(later > 0.2 && later < 0.8, "{later}");
         assert_eq!(offer.presence(offer.gone()), 0.0);
+    }
+
+    #[test]
+    fn where_time_goes_slowly_little_is_stretched() {
+        let slow = Flight { rate: 1e-3, ..transfer(5, 40_000) };
+        assert_eq!((slow.shown(), slow.gone()), (Time(5)..Time(1_000_005), Time(1_300_005)));
+        let slow = Flight { rate: 1e-6, ..transfer(5, 40_000) };
+        assert_eq!(slow.shown(), Time(5)..Time(40_005));
     }
 
     proptest! {

@@ -10,6 +10,8 @@ pub(super) struct Flights {
     flights: Vec<Flight>,
     /// How many the last sweep left.
     swept: usize,
+    /// How fast time goes for those to come; `None`: as it does.
+    rate: Option<f64>,
 }
 
 impl Flights {
@@ -17,10 +19,20 @@ impl Flights {
     pub fn push(&mut self, flight: Flight) {
         // A sweep looks at all of them, and so waits until they are twice as many.
         if self.flights.len() > 2 * self.swept + 16 {
-            self.flights.retain(|earlier| earlier.gone() > flight.sent);
+            // What is kept does not depend on how fast time just goes.
+            self.flights.retain(|earlier| Flight { rate: 1.0, ..earlier.clone() }.gone() > flight.sent);
             self.swept = self.flights.len();
         }
-        self.flights.push(flight);
+        self.flights.push(Flight { rate: self.rate.unwrap_or(1.0), ..flight });
+    }
+
+    /// From now on so many of the run's seconds go by in a second; where that is more than one, flights are as long as
+    /// at one.
+    pub fn set_rate(&mut self, rate: f64) {
+        let rate = rate.min(1.0);
+        if self.rate.replace(rate) != Some(rate) {
+            self.flights.iter_mut().for_each(|flight| flight.rate = rate);
+        }
     }
 }
 
@@ -45,7 +57,7 @@ mod tests {
         for second in 0..1000 {
             let at = Time::from_secs(f64::from(second));
             let arrives = if second % 100 == 0 { Time(u64::MAX) } else { at };
-            flights.push(Flight::new(Party::Node(0), Party::Node(1), &offer, at, arrives));
+            flights.push(Flight::new(0, (Party::Node(0), Party::Node(1)), &offer, at, arrives));
         }
         assert!(flights.len() < 50, "{}", flights.len());
         assert_eq!(flights.iter().filter(|flight| flight.arrives == Time(u64::MAX)).count(), 10);

@@ -75,6 +75,7 @@ pub fn small_print(state: &RunState) -> Vec<String> {
     let mut lines = vec!["some atoms take longer than others".to_owned()];
     match state.sharing() {
         Sharing::Stealing => lines.push("threads share their memory, without messages".into()),
+        _ if state.latency().is_zero() && state.handling.is_zero() => {}
         sharing if sharing.is_ring() => lines.push(format!("an offer takes {takes} a hop")),
         _ if state.handling.is_zero() => lines.push(format!("a message takes {takes}")),
         _ => lines.push(format!("a message takes {takes}, the parent {}", duration(state.handling))),
@@ -89,7 +90,7 @@ pub fn small_print(state: &RunState) -> Vec<String> {
 pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
     let Some(&place) = state.places().get(atom as usize) else { return String::new() };
     let stands = match (place, state.carrier(atom)) {
-        (Place::Traced { by, cost, at }, _) => {
+        (Place::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default());
             format!("traced by {} at {:.1} s, at a cost of {cost}", node_name(by), at.secs())
         }

@@ -21,6 +21,8 @@ pub struct NodeState {
     pub retired: bool,
     /// Offers that it has made.
     pub offers: u32,
+    /// What its last offer says that it has traced.
+    pub offered: u32,
     /// Offers of others that it has passed on.
     pub hops: u32,
     /// What it has given to nodes that offered help.
@@ -153,6 +155,7 @@ impl NodeState {
             atom: None,
             retired: false,
             offers: 0,
+            offered: 0,
             hops: 0,
             given: Parcels::default(),
             got: Parcels::default(),

@@ -26,6 +26,8 @@ pub enum Place {
         cost: f32,
         /// When it was done.
         at: Time,
+        /// Whether the parent has placed it in the picture.
+        placed: bool,
     },
 }
 
@@ -46,8 +48,20 @@ impl Place {
         }
     }
 
+    /// Whether it is in the picture.
+    pub fn is_placed(self) -> bool {
+        matches!(self, Self::Traced { placed: true, .. })
+    }
+
     pub(super) fn traced(by: NodeId, cost: Duration, at: Time) -> Self {
-        Self::Traced { by, cost: cost.as_secs_f32(), at }
+        Self::Traced { by, cost: cost.as_secs_f32(), at, placed: false }
+    }
+
+    /// The parent has placed it. Returns whether it was known to be traced.
+    pub(super) fn place(&mut self) -> bool {
+        let Self::Traced { placed, .. } = self else { return false };
+        *placed = true;
+        true
     }
 
     /// The atom has arrived at `node`. It may have been handed on, or traced, before the record of that comes.

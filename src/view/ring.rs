@@ -20,12 +20,16 @@ use crate::balance::{NodeId, Strategy};
 use crate::time::Time;
 
 /// What is laid over the ring.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overlay {
     /// The result, which takes the centre.
     pub outcome: Option<Outcome>,
     /// The node that is marked.
     pub selected: Option<NodeId>,
+    /// Nodes that stand out.
+    pub lit: Vec<NodeId>,
+    /// A message that stands out.
+    pub message: Option<u64>,
 }
 
 /// What can be pointed at.
@@ -52,7 +56,7 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
     for node in 0..state.nodes().len() as NodeId {
         let of = &*state.seen(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
-        machine(&plan, (node, of), activity, is_selected, &mut marks);
+        machine(&plan, (node, of), activity, is_selected || overlay.lit.contains(&node), &mut marks);
         if is_labelled(&plan, is_selected) {
             label(&plan, state, (node, of), activity, now, &mut marks);
         }
@@ -62,7 +66,7 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
         None => parent(&plan, state, now, &mut marks),
     }
     asking::draw(&plan, state, now, &mut marks);
-    traffic::parcels(&plan, state, now, &mut marks);
+    traffic::parcels(&plan, state, now, overlay.message, &mut marks);
     marks
 }
 
@@ -252,7 +256,7 @@ mod tests {
         ) {
             let (state, now) = moment(&speeds, part);
             for later in 0..8 {
-                let overlay = Overlay { selected: Some(selected), outcome: None };
+                let overlay = Overlay { selected: Some(selected), ..Overlay::default() };
                 let now = now + Duration::from_millis(150 * later);
                 for point in ring(&state, &overlay, now, [width, height]).iter().flat_map(places) {
                     prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
@@ -267,7 +271,7 @@ mod tests {
         ) {
             let (state, now) = moment(&speeds, part);
             let selected = selected % speeds.len() as u16;
-            let overlay = Overlay { selected: Some(selected), outcome: None };
+            let overlay = Overlay { selected: Some(selected), ..Overlay::default() };
             let plan = Plan::new(speeds.len(), [width, height]);
             let [x, y] = plan.centre;
             let nearest = |[left, top, right, bottom]: [f32; 4]| {
@@ -325,7 +329,8 @@ mod tests {
             let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);
             marks.iter().filter(has).count()
         };
-        let draw = |state: &RunState, selected| ring(state, &Overlay { selected, outcome: None }, now, [640.0, 490.0]);
+        let draw =
+            |state: &RunState, selected| ring(state, &Overlay { selected, ..Overlay::default() }, now, [640.0, 490.0]);
         let paused = draw(&state, None);
         assert!(texts(&paused).contains(&"paused"));
         assert_eq!(draw(&state, Some(1)).len(), paused.len() + 1);
@@ -370,7 +375,8 @@ mod tests {
         let state = RunState::new(&sample::header(&[1.0, 1.0], 30));
         let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
         let outcome = Outcome { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
-        let marks = ring(&state, &Overlay { outcome: Some(outcome), selected: None }, Time::from_secs(21.0), SIZE);
+        let marks =
+            ring(&state, &Overlay { outcome: Some(outcome), ..Overlay::default() }, Time::from_secs(21.0), SIZE);
         assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
     }
 }

@@ -1,15 +1,17 @@
 //! The state of a run at one moment, as a fold over its records.
 
+mod messages;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::time::Duration;
 
-use super::flight::{Cargo, Flight, atoms_in};
+use super::flight::Flight;
 use super::flights::Flights;
 use super::node::{NodeState, Parcels};
 use super::place::Place;
 use super::sharing::Sharing;
-use crate::balance::{NodeId, Party};
+use crate::balance::{Message, NodeId, Party};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
 use crate::runlog::{Driver, Header};
@@ -23,9 +25,15 @@ pub struct RunState {
     pub(super) nodes: Vec<NodeState>,
     /// By atom.
     places: Vec<Place>,
+    /// By atom: how many were traced before it.
+    orders: Vec<u32>,
+    /// Seconds of CPU time that all traced atoms took.
+    cost: f64,
     pub(super) flights: Flights,
     pub(super) pending: BTreeMap<u64, Flight>,
     early: BTreeSet<u64>,
+    /// Atoms that the parent has placed before their tracing was told.
+    early_atoms: BTreeSet<Atom>,
     touched: Vec<Range<Atom>>,
     division: Division,
     pub(super) sharing: Sharing,
@@ -60,9 +68,12 @@ impl RunState {
         Self {
             nodes: header.speeds.iter().map(|&speed| NodeState::new(speed)).collect(),
             places: vec![Place::Nowhere; header.division.atoms() as usize],
+            orders: vec![0; header.division.atoms() as usize],
+            cost: 0.0,
             flights: Flights::default(),
             pending: BTreeMap::new(),
             early: BTreeSet::new(),
+            early_atoms: BTreeSet::new(),
             touched: Vec::new(),
             division: header.division,
             sharing: Sharing::of(header),
@@ -87,7 +98,13 @@ impl RunState {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
                 }
-                self.sent(*id, Flight::new(*from, *to, message, at, *arrives));
+                if let (Party::Node(from), Message::Offer { who, done }) = (from, message)
+                    && from == who
+                    && let Some(node) = self.node(*from)
+                {
+                    node.offered = *done;
+                }
+                self.sent(*id, Flight::new(*id, (*from, *to), message, at, *arrives));
             }
             What::Received { id, by } => {
                 if *by == Party::Parent {
@@ -136,9 +153,24 @@ impl RunState {
         &self.flights
     }
 
+    /// A message that has not been handled yet, or can still be seen, by its name in the run.
+    pub fn flight(&self, id: u64) -> Option<&Flight> {
+        self.pending.get(&id).or_else(|| self.flights.iter().rfind(|flight| flight.id == id))
+    }
+
     /// How many atoms have been traced.
     pub fn done(&self) -> u32 {
         self.nodes.iter().map(|node| node.done).sum()
+    }
+
+    /// How many atoms were traced before a traced one.
+    pub fn order(&self, atom: Atom) -> u32 {
+        self.orders.get(atom as usize).copied().unwrap_or_default()
+    }
+
+    /// What an atom has cost on the average, in seconds of CPU time; 0 if none is traced.
+    pub fn mean_cost(&self) -> f64 {
+        self.cost / f64::from(self.done().max(1))
     }
 
     /// How many atoms there are.
@@ -181,114 +213,27 @@ impl RunState {
         std::mem::take(&mut self.touched)
     }
 
+    /// So many of the run's seconds go by in a second of whoever looks on: the slower, the less are flights stretched.
+    pub fn set_rate(&mut self, rate: f64) {
+        self.flights.set_rate(rate);
+    }
+
     fn node(&mut self, node: NodeId) -> Option<&mut NodeState> {
         self.nodes.get_mut(usize::from(node))
     }
 
     fn atom_done(&mut self, node: NodeId, atom: Atom, cost: Duration, at: Time) {
+        let order = self.done();
         if let (Some(state), Some(place)) = (self.nodes.get_mut(usize::from(node)), self.places.get_mut(atom as usize))
         {
+            self.orders[atom as usize] = order;
+            self.cost += cost.as_secs_f64();
             *place = Place::traced(node, cost, at);
+            if self.early_atoms.remove(&atom) {
+                place.place();
+            }
             state.atom_done(at);
             self.touched.push(atom..atom + 1);
-        }
-    }
-
-    fn sent(&mut self, id: u64, flight: Flight) {
-        if let Party::Node(from) = flight.from
-            && let Some(sender) = self.node(from)
-        {
-            match &flight.cargo {
-                Cargo::Transfer(ranges) => {
-                    let atoms = atoms_in(ranges);
-                    sender.given.add(atoms);
-                    sender.left -= i64::from(atoms);
-                }
-                Cargo::Offer { who } if *who == from => {
-                    sender.offers += 1;
-                    sender.offer_out = true;
-                }
-                Cargo::Offer { .. } => sender.hops += 1,
-                Cargo::Request => (sender.requests, sender.offer_out) = (sender.requests + 1, true),
-                Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
-            }
-        }
-        if let Cargo::Part(part) = &flight.cargo
-            && !part.is_empty()
-        {
-            self.handed_out.add(part.len() as u32);
-        }
-        if self.is_drawn(&flight) {
-            self.flights.push(flight.clone());
-        }
-        if self.early.remove(&id) {
-            let at = flight.arrives;
-            self.received(flight, at);
-        } else {
-            self.pending.insert(id, flight);
-        }
-    }
-
-    /// Results are many, and requests and parts may be: of each node only as many are drawn as can be told apart.
-    fn is_drawn(&mut self, flight: &Flight) -> bool {
-        let between = [90, 300, 450].map(Duration::from_millis);
-        let known = |party: Party| match party {
-            Party::Parent => true,
-            Party::Node(node) => usize::from(node) < self.nodes.len(),
-        };
-        if !known(flight.from) || !known(flight.to) {
-            return false;
-        }
-        let (node, kind) = match (flight.from, flight.to, &flight.cargo) {
-            (_, _, Cargo::Shutdown) => return false,
-            (Party::Node(from), _, Cargo::Results(_)) => (from, 0),
-            (Party::Node(from), _, Cargo::Request) => (from, 1),
-            (_, Party::Node(to), Cargo::Part(part)) if !part.is_empty() => (to, 2),
-            _ => return true,
-        };
-        let last = &mut self.nodes[usize::from(node)].last_drawn[kind];
-        let drawn = last.is_none_or(|last| flight.sent >= last + between[kind]);
-        if drawn {
-            *last = Some(flight.sent);
-        }
-        drawn
-    }
-
-    fn received(&mut self, flight: Flight, at: Time) {
-        let to = match (flight.to, &flight.cargo) {
-            (Party::Parent, Cargo::Results(ranges)) => {
-                self.arrived.pixels += ranges.iter().map(|range| self.division.pixels_in(range)).sum::<u32>();
-                return;
-            }
-            (Party::Parent, _) => return,
-            (Party::Node(to), _) => to,
-        };
-        let Some(state) = self.node(to) else { return };
-        let ranges = match flight.cargo {
-            Cargo::Band(band) => {
-                state.band_at = Some(at);
-                vec![band]
-            }
-            Cargo::Part(part) => {
-                state.offer_out = false;
-                if !part.is_empty() {
-                    state.got.add(part.len() as u32);
-                }
-                vec![part]
-            }
-            Cargo::Transfer(ranges) => {
-                state.offer_out = false;
-                state.got.add(atoms_in(&ranges));
-                ranges
-            }
-            Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => return,
-        };
-        state.give(atoms_in(&ranges), at);
-        for range in ranges {
-            if let Some(places) = self.places.get_mut(range.start as usize..range.end as usize) {
-                places.iter_mut().for_each(|place| place.arrive(to, flight.arrives));
-                self.touched.push(range);
-            }
         }
     }
 }
@@ -297,6 +242,7 @@ impl RunState {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::flight::Cargo;
     use super::super::sample;
     use super::*;
 
@@ -387,7 +333,7 @@ mod tests {
     #[test]
     fn strangers_are_left_out() {
         let mut state = RunState::new(&sample::header(&[1.0], 2));
-        let offer = crate::balance::Message::Offer { who: 9, done: 0 };
+        let offer = Message::Offer { who: 9, done: 0 };
         let (from, to, at) = (Party::Node(9), Party::Node(8), Time::ZERO);
         state.apply(&Record { at, what: What::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
         state.apply(&Record { at, what: What::Received { id: 0, by: to } });

@@ -1,23 +1,89 @@
-//! The render in the colours of who traced it.
+//! The render in the colours of what else one wants to know of it: who traced it, what it cost, or when it came.
 
+use super::false_colour::ramp;
+use super::place::Place;
 use super::state::RunState;
-use crate::balance::NodeId;
 use crate::palette::{Rgb, mix};
-use crate::picture::{Frame, srgb8};
+use crate::picture::{Atom, Frame, srgb8};
 
-/// For each node, its colour as 256 levels of light.
-#[derive(Clone, Debug)]
-pub(super) struct Tones(Vec<[Rgb; 256]>);
+/// What lies over the render.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layer {
+    /// Who traced it.
+    #[default]
+    Owners,
+    /// What it cost: from an eighth of the mean atom to eight times as much.
+    Costs,
+    /// When it came, the first dark, the last light.
+    Arrival,
+}
 
-impl Tones {
-    /// The tones of nodes of these colours.
-    pub(super) fn new(colours: &[Rgb]) -> Self {
-        Self(colours.iter().map(|&colour| tones(colour)).collect())
+impl Layer {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Owners, Self::Costs, Self::Arrival];
+
+    /// What it shows, in a few words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Owners => "Who traced it",
+            Self::Costs => "What it cost",
+            Self::Arrival => "When it came",
+        }
     }
 
-    /// A pixel of the render that `owner` has traced: the render (`blend` 0), the owner (1), or between.
-    pub(super) fn shown(&self, render: Rgb, owner: Option<NodeId>, blend: f32) -> Rgb {
-        match owner.and_then(|owner| self.0.get(usize::from(owner))) {
+    /// What its darkest and its lightest colour mean, if it has such.
+    pub fn ends(self) -> Option<[&'static str; 2]> {
+        match self {
+            Self::Owners => None,
+            Self::Costs => Some(["cheap", "dear"]),
+            Self::Arrival => Some(["first", "last"]),
+        }
+    }
+}
+
+/// Steps of a ramp that can be told apart.
+const STEPS: usize = 48;
+
+/// For each colour of a layer, 256 levels of light.
+#[derive(Clone, Debug)]
+pub(super) struct Tones {
+    layer: Layer,
+    tones: Vec<[Rgb; 256]>,
+}
+
+impl Tones {
+    /// The tones of a layer, where nodes have these colours.
+    pub(super) fn new(layer: Layer, colours: &[Rgb]) -> Self {
+        let tones = match layer {
+            Layer::Owners => colours.iter().map(|&colour| tones(colour)).collect(),
+            // Neither black nor white, which tell nothing.
+            Layer::Costs | Layer::Arrival => {
+                (0..STEPS).map(|step| tones(ramp(0.12 + 0.8 * step as f64 / (STEPS - 1) as f64))).collect()
+            }
+        };
+        Self { layer, tones }
+    }
+
+    /// Which layer it is.
+    pub(super) fn layer(&self) -> Layer {
+        self.layer
+    }
+
+    /// Which of the tones an atom has, where atoms cost so much on the average; `None` if it is not traced.
+    pub(super) fn of(&self, atom: Atom, state: &RunState, mean: f64) -> Option<u16> {
+        let Place::Traced { by, cost, .. } = state.places()[atom as usize] else { return None };
+        let step = |share: f64| (share.clamp(0.0, 1.0) * (STEPS - 1) as f64).round() as u16;
+        Some(match self.layer {
+            Layer::Owners => by,
+            Layer::Costs if mean > 0.0 => step(0.5 + (f64::from(cost) / mean).log2() / 6.0),
+            Layer::Costs => step(0.5),
+            Layer::Arrival => step(f64::from(state.order(atom)) / f64::from(state.atoms().max(1))),
+        })
+    }
+
+    /// A pixel of the render in a tone: the render (`blend` 0), the layer (1), or between.
+    pub(super) fn shown(&self, render: Rgb, tone: Option<u16>, blend: f32) -> Rgb {
+        match tone.and_then(|tone| self.tones.get(usize::from(tone))) {
             Some(tones) if blend > 0.0 => mix(render, tones[light(render)], blend),
             _ => render,
         }
@@ -25,15 +91,15 @@ impl Tones {
 }
 
 /// The picture as it is shown, as 8-bit RGB in scan order: the render (`blend` 0, exactly [`Frame::to_srgb8`]), in the
-/// `colours` of the nodes that traced it (1), or between. What is not traced yet is black.
-pub fn picture_pixels(frame: &Frame, state: &RunState, colours: &[Rgb], blend: f32) -> Vec<u8> {
-    let (tones, division) = (Tones::new(colours), state.division());
-    let atoms = (0..).zip(state.places()).map(|(atom, place)| (division.pixels(atom), place.owner()));
-    let pixels = atoms.flat_map(|(pixels, owner)| {
+/// colours of a layer (1; those of nodes are given), or between. What is not traced yet is black.
+pub fn picture_pixels(frame: &Frame, state: &RunState, colours: &[Rgb], (layer, blend): (Layer, f32)) -> Vec<u8> {
+    let (tones, division, mean) = (Tones::new(layer, colours), state.division(), state.mean_cost());
+    let atoms = (0..state.atoms()).map(|atom| (division.pixels(atom), tones.of(atom, state, mean)));
+    let pixels = atoms.flat_map(|(pixels, tone)| {
         let pixels = &frame.pixels()[pixels.start as usize..pixels.end as usize];
-        pixels.iter().map(move |&pixel| (srgb8(pixel), owner))
+        pixels.iter().map(move |&pixel| (srgb8(pixel), tone))
     });
-    pixels.flat_map(|(render, owner)| tones.shown(render, owner, blend)).collect()
+    pixels.flat_map(|(render, tone)| tones.shown(render, tone, blend)).collect()
 }
 
 /// How light a shown pixel looks, 0 to 255 (Rec. 601 luma, which is made for encoded values).
@@ -82,15 +148,17 @@ mod tests {
 
     proptest! {
         #[test]
-        fn without_owners_it_is_the_render_byte_for_byte(records in 0..400usize, pixel in prop::array::uniform3(-0.5..1.5f32)) {
+        fn without_a_layer_it_is_the_render_byte_for_byte(
+            records in 0..400usize, pixel in prop::array::uniform3(-0.5..1.5f32), layer in prop::sample::select(&Layer::ALL),
+        ) {
             let (frame, state) = traced(records, pixel);
-            prop_assert_eq!(picture_pixels(&frame, &state, &COLOURS, 0.0), frame.to_srgb8());
+            prop_assert_eq!(picture_pixels(&frame, &state, &COLOURS, (layer, 0.0)), frame.to_srgb8());
         }
 
         #[test]
         fn what_is_not_traced_is_black(records in 0..60usize, blend in 0.0..=1.0f32) {
             let (frame, state) = traced(records, [0.4, 0.5, 0.6]);
-            let bytes = picture_pixels(&frame, &state, &COLOURS, blend);
+            let bytes = picture_pixels(&frame, &state, &COLOURS, (Layer::Owners, blend));
             for (pixel, bytes) in bytes.chunks(3).enumerate() {
                 prop_assert_eq!(bytes == [0; 3], state.places()[pixel / 50].owner().is_none());
             }
@@ -100,7 +168,7 @@ mod tests {
     #[test]
     fn the_owners_colour_what_they_traced() {
         let (frame, state) = traced(usize::MAX, [0.2; 3]);
-        let picture = |blend| picture_pixels(&frame, &state, &COLOURS, blend);
+        let picture = |blend| picture_pixels(&frame, &state, &COLOURS, (Layer::Owners, blend));
         let (render, between, owners) = (picture(0.0), picture(0.5), picture(1.0));
         let last = owners.len() - 3;
         assert!(owners[0] > 100 && owners[2] < 40, "{:?}", &owners[..3]);
@@ -108,6 +176,27 @@ mod tests {
         for ((render, between), owners) in render.iter().zip(&between).zip(&owners) {
             assert!(between.abs_diff(*render).abs_diff(between.abs_diff(*owners)) <= 1);
         }
+    }
+
+    #[test]
+    fn the_last_to_come_is_lighter_than_the_first() {
+        let (_, state) = traced(usize::MAX, [0.2; 3]);
+        let tones = Tones::new(Layer::Arrival, &COLOURS);
+        let of =
+            |order: u32| (0..20).find(|&atom| state.order(atom) == order).and_then(|atom| tones.of(atom, &state, 0.0));
+        let shown = |order| light(tones.shown([120; 3], of(order), 1.0));
+        assert!(shown(0) + 40 < shown(10) && shown(10) + 40 < shown(19), "{} {} {}", shown(0), shown(10), shown(19));
+    }
+
+    #[test]
+    fn whatever_costs_twice_the_mean_is_lighter_than_the_mean() {
+        let (_, state) = traced(usize::MAX, [0.2; 3]);
+        let tones = Tones::new(Layer::Costs, &COLOURS);
+        let mean = state.mean_cost();
+        assert!((mean - sample::COST.as_secs_f64()).abs() < 1e-9);
+        let of = |mean| tones.of(3, &state, mean);
+        assert!(of(mean / 2.0) > of(mean) && of(mean) > of(mean * 2.0));
+        assert_eq!([of(mean / 100.0), of(mean * 100.0)], [Some(STEPS as u16 - 1), Some(0)]);
     }
 
     #[test]

@@ -82,9 +82,9 @@ fn lane_width(plan: &Plan) -> f32 {
 }
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
-pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(super) fn parcels(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
     for parcel in on_their_way(plan, state, now).into_iter().rev() {
-        parcel.draw(plan, now, marks);
+        parcel.draw(plan, now, lit == Some(parcel.flight.id), marks);
     }
 }
 
@@ -154,7 +154,7 @@ impl Parcel<'_> {
         (text, middle, half)
     }
 
-    fn draw(&self, plan: &Plan, now: Time, marks: &mut Vec<Mark>) {
+    fn draw(&self, plan: &Plan, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
         let (from, to, alpha) = (self.from, self.to, self.strength);
         let (bend, here) = (plan.bend(from, to), ease(self.flight.progress(now)));
         let pieces = 24;
@@ -169,7 +169,8 @@ impl Parcel<'_> {
             return marks.push(Mark::Box { centre, half, round: 0.5 * half[0], ink: hue.faint(alpha) });
         }
         let round = 6.0;
-        marks.push(Mark::Box { centre, half: half.map(|side| side + 2.0), round, ink: Hue::Ground.faint(alpha) });
+        let (wide, border) = if is_lit { (3.0, Hue::Text) } else { (2.0, Hue::Ground) };
+        marks.push(Mark::Box { centre, half: half.map(|side| side + wide), round, ink: border.faint(alpha) });
         marks.push(Mark::Box { centre, half, round, ink: hue.faint(alpha) });
         let ink = Hue::OnNode(self.node).faint(alpha);
         marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size: plan.labels.size(), ink });

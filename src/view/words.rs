@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::node::Activity;
 use crate::balance::NodeId;
+use crate::time::Time;
 
 /// A node's name for people: its number from 1.
 pub fn node_name(node: NodeId) -> u32 {
@@ -45,6 +46,15 @@ pub fn rate_words(rate: f64) -> String {
     }
 }
 
+/// A weight on the wire: `840 B`, `12 kB`, `3.4 MB`.
+pub fn bytes_words(bytes: u64) -> String {
+    match bytes {
+        0..1000 => format!("{bytes} B"),
+        1000..1_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
 /// A length of time in the unit that suits it: `20.4 s`, `200 ms`, `1.3 ms`, `840 µs`.
 pub fn duration(length: Duration) -> String {
     let ms = length.as_secs_f64() * 1e3;
@@ -59,6 +69,22 @@ pub fn duration(length: Duration) -> String {
     } else {
         format!("{:.1} s", ms * 1e-3)
     }
+}
+
+/// A time of the run, as exactly as one can follow where so many of its seconds go by in a second: `13.4 s`,
+/// `13.402 518 s`.
+pub fn time_words(time: Time, rate: f64) -> String {
+    let digits = if rate >= 1.0 { 1 } else { (1.0 - rate.log10().floor()).clamp(1.0, 9.0) as usize };
+    let text = format!("{:.digits$}", time.secs());
+    let (whole, part) = text.split_once('.').unwrap_or((&text, ""));
+    let mut words = format!("{whole}.");
+    for (place, digit) in part.chars().enumerate() {
+        if place > 0 && place.is_multiple_of(3) {
+            words.push('\u{a0}');
+        }
+        words.push(digit);
+    }
+    words + " s"
 }
 
 /// What a node is doing, in a word.
@@ -128,6 +154,14 @@ mod tests {
         let said =
             [0, 840, 1_300, 40_000, 999_400, 999_600, 20_440_000].map(|micros| duration(Duration::from_micros(micros)));
         assert_eq!(said, ["0 s", "840 µs", "1.3 ms", "40 ms", "999 ms", "1.0 s", "20.4 s"]);
+    }
+
+    #[test]
+    fn the_slower_time_goes_the_more_exactly_it_is_told() {
+        let said = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(|rate| time_words(Time(13_402_518_077), rate));
+        let expected = ["13.4 s", "13.4 s", "13.40 s", "13.402\u{a0}5 s", "13.402\u{a0}518\u{a0}1 s"];
+        assert_eq!(said, expected);
+        assert_eq!(time_words(Time(60_999_999_999), 1.0), "61.0 s");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anel::balance::{NodeId, Strategy};
-use anel::driver::{Replay, Update};
+use anel::driver::{Retrace, Update};
 use anel::gui::Settings;
 use anel::picture::{Colour, Frame};
 use anel::runlog::{Header, RunLog, Tally};
@@ -13,7 +13,7 @@ use anel::sim::Sim;
 use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
-    Narrator, Outcome, Overlay, RunState, atom_words, flight_words, node_words, parent_words, parts_words,
+    Layer, Narrator, Outcome, Overlay, RunState, atom_words, flight_words, node_words, parent_words, parts_words,
     picture_pixels, result_words, ring, rows, shares, small_print,
 };
 
@@ -35,7 +35,7 @@ pub fn show(file: &Path) -> bool {
     view(&log, outcome);
     if log.header.division.atoms() <= LARGE {
         simulate(&log);
-        replay(log);
+        retrace(log);
     }
     true
 }
@@ -67,13 +67,13 @@ fn view(log: &RunLog, outcome: Option<Outcome>) {
     if log.header.size.pixels() <= LARGE {
         let frame = Frame::new(log.header.size);
         let colours = vec![[200; 3]; log.header.speeds.len()];
-        let pixels = picture_pixels(&frame, &state, &colours, 0.5);
+        let pixels = picture_pixels(&frame, &state, &colours, (Layer::Costs, 0.5));
         assert_eq!(pixels.len(), 3 * log.header.size.pixels() as usize);
     }
 }
 
 fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Outcome>, now: Time) {
-    let marks = ring(state, &Overlay { outcome, selected: Some(0) }, now, [400.0, 300.0]);
+    let marks = ring(state, &Overlay { outcome, selected: Some(0), ..Overlay::default() }, now, [400.0, 300.0]);
     let mut said = format!("{marks:?}");
     for node in 0..state.nodes().len().min(40) as NodeId {
         said += &format!("{:?}", node_words(state, node, now));
@@ -107,14 +107,14 @@ fn simulate(log: &RunLog) {
     }
 }
 
-/// Plays it again, and has soon seen enough.
-fn replay(log: RunLog) {
+/// Traces it again, and has soon seen enough.
+fn retrace(log: RunLog) {
     let black = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| out.extend(pixels.map(|_| [0.0; 3]));
-    let replay = Replay::start_with(black, Arc::new(log));
-    replay.stop();
-    match replay.updates().iter().last() {
+    let retrace = Retrace::start_with(black, Arc::new(log));
+    retrace.stop();
+    match retrace.updates().iter().last() {
         Some(Update::Finished) => {}
-        Some(Update::Failed(why)) => assert_eq!(why, "the replay was stopped"),
-        other => panic!("the replay ends with {other:?}"),
+        Some(Update::Failed(why)) => assert_eq!(why, "it was stopped"),
+        other => panic!("the retrace ends with {other:?}"),
     }
 }

@@ -51,7 +51,7 @@ pub fn now(window: &Window) -> u64 {
 
 /// How many atoms have been traced.
 pub fn done(window: &Window) -> u32 {
-    session(window).stage().state.done()
+    session(window).stage().state().done()
 }
 
 /// What the records say, as far as `of` cares.

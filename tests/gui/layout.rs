@@ -19,7 +19,16 @@ fn every_size_shows_everything() {
     for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open(size);
         let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
-        for name in buttons.into_iter().chain(["Render or owners", "Speed of node 1", "Pause node 1"]) {
+        let time = ["Step back", "What a step is", "Step on", "Slower", "Faster", "The run's time", "Live", "Find"];
+        // Under a tiny picture there is room for the layer's name only.
+        let layer = if size[0] < 1000.0 { "Who traced it" } else { "Render or layer" };
+        let others = [layer, "Speed of node 1", "Pause node 1"];
+        for pair in time.windows(2) {
+            let (one, other) = (rect(&window, pair[0]), rect(&window, pair[1]));
+            assert!(one.right() <= other.left(), "{pair:?} at {size:?}");
+        }
+        assert!(rect(&window, "The run's time").width() > 100.0);
+        for name in buttons.into_iter().chain(time).chain(others) {
             let rect = rect(&window, name);
             assert!(whole(size).contains_rect(rect) && rect.area() > 0.0, "{name} at {size:?}: {rect:?}");
         }

@@ -12,3 +12,4 @@ mod run;
 mod saving;
 mod setup;
 mod sharing;
+mod time;

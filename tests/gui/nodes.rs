@@ -56,13 +56,13 @@ fn a_machine_stands_still_and_goes_on() {
     };
     press(&mut window, "Pause node 2");
     until(&mut window, "a pause", |window| pauses(window) == [(1, true)]);
-    let then = session(&window).stage().state.nodes()[1].done;
-    assert!(session(&window).is_node_paused(1) && session(&window).stage().state.nodes()[1].paused);
+    let then = session(&window).stage().state().nodes()[1].done;
+    assert!(session(&window).is_node_paused(1) && session(&window).stage().state().nodes()[1].paused);
     until(&mut window, "others' atoms", |window| done(window) > 200);
-    assert!(session(&window).stage().state.nodes()[1].done <= then + 1);
+    assert!(session(&window).stage().state().nodes()[1].done <= then + 1);
     press(&mut window, "Pause node 2");
     until(&mut window, "work", |window| pauses(window) == [(1, true), (1, false)]);
-    until(&mut window, "its atoms", |window| session(window).stage().state.nodes()[1].done > then + 1);
+    until(&mut window, "its atoms", |window| session(window).stage().state().nodes()[1].done > then + 1);
 }
 
 #[test]

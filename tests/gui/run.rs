@@ -12,7 +12,7 @@ use super::driving::*;
 fn a_run_starts_at_once() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 20);
-    let speeds: Vec<_> = session(&window).stage().state.nodes().iter().map(|node| node.speed).collect();
+    let speeds: Vec<_> = session(&window).stage().state().nodes().iter().map(|node| node.speed).collect();
     assert_eq!((speeds.len(), speeds[7]), (8, 0.1));
 }
 
@@ -40,7 +40,7 @@ fn pause_stops_the_clock_and_the_work() {
 fn restart_begins_anew_with_the_speeds_as_they_are() {
     let mut window = open(SIZE);
     drag(&mut window, "Speed of node 3", 0.0);
-    until(&mut window, "speed 0", |window| session(window).stage().state.nodes()[2].speed == 0.0);
+    until(&mut window, "speed 0", |window| session(window).stage().state().nodes()[2].speed == 0.0);
     until(&mut window, "many atoms", |window| done(window) > 300);
     let begun = session(&window).runs_begun();
     press(&mut window, "Restart");
@@ -60,12 +60,16 @@ fn a_finished_run_says_what_came_of_it_and_begins_anew() {
     press(&mut window, "Full speed");
     until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
     window.run_steps(2);
-    let outcome = session(&window).stage().outcome.expect("an outcome");
+    let outcome = session(&window).stage().result().expect("an outcome").outcome;
     let said = window.get_by_label("Result").value().unwrap_or_default();
     assert!(said.contains(&format!("efficiency {:.0} %", 100.0 * outcome.efficiency)), "{said}");
-    // There is nothing to pause any more.
+    // There is nothing to pause any more: it is shown again from its beginning.
+    for _ in 0..9 {
+        key(&mut window, Key::Comma);
+    }
     key(&mut window, Key::Space);
-    assert!(!session(&window).stage().paused);
+    let stage = session(&window).stage();
+    assert!(!stage.paused && !stage.shows_end() && stage.goes_on() && stage.phase == Phase::Finished);
     key(&mut window, Key::R);
     assert_eq!(session(&window).stage().phase, Phase::Running);
 }

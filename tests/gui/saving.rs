@@ -50,7 +50,7 @@ fn save_writes_the_render_and_says_where() {
 fn owners_and_blend_are_other_pictures_under_other_names() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
-    drag(&mut window, "Render or owners", 0.4);
+    drag(&mut window, "Render or layer", 0.4);
     until(&mut window, "traced atoms", |window| done(window) > 300);
     key(&mut window, Key::Space);
     std::thread::sleep(std::time::Duration::from_millis(100));

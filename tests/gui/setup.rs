@@ -24,7 +24,7 @@ fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     press(&mut window, "All equal");
     until(&mut window, "a record", |window| speeds_set(window) == [(7, 1.0)]);
     press(&mut window, "Old laboratory");
-    until(&mut window, "records", |window| session(window).stage().state.nodes()[6].speed == 0.21);
+    until(&mut window, "records", |window| session(window).stage().state().nodes()[6].speed == 0.21);
     press(&mut window, "Random");
     let random = session(&window).settings().speeds.clone();
     type_number(&mut window, "Seed", "77");
@@ -33,7 +33,7 @@ fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     type_number(&mut window, "Seed", "1");
     assert_eq!(session(&window).settings().speeds, random);
     press(&mut window, "One slow");
-    until(&mut window, "a record", |window| session(window).stage().state.nodes()[7].speed == 0.1);
+    until(&mut window, "a record", |window| session(window).stage().state().nodes()[7].speed == 0.1);
     // It is still the same run.
     assert!(done(&window) > 100);
 }
@@ -47,7 +47,7 @@ fn latency_acts_on_the_run_that_goes_on() {
         recorded(window, |what| if let What::LatencySet { latency } = what { Some(*latency) } else { None })
     };
     until(&mut window, "a record", |window| set(window).last() == Some(&Duration::from_millis(250)));
-    assert_eq!(session(&window).stage().state.latency(), Duration::from_millis(250));
+    assert_eq!(session(&window).stage().state().latency(), Duration::from_millis(250));
     drag(&mut window, "Latency slider", 0.0);
     until(&mut window, "a record", |window| set(window).last() == Some(&Duration::ZERO));
     assert!(done(&window) > 100);
@@ -63,7 +63,7 @@ fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
     type_number(&mut window, "Number of machines", "32");
     assert_eq!(session(&window).runs_begun(), begun + 1);
     assert_eq!(notice(&window), "Started anew: 32 machines");
-    assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state.nodes().len()), (32, 32));
+    assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state().nodes().len()), (32, 32));
     window.get_by_label("Node 32");
     // Nothing starts before the slider is let go.
     let rect = window.get_by_label("Machines slider").rect();
@@ -94,8 +94,8 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     until(&mut window, "samples", |window| session(window).header().quality.samples == 2);
     choose(&mut window, "Strategy", "Serial");
     assert_eq!(session(&window).header().rules.strategy, Strategy::Serial);
-    until(&mut window, "atoms of the first", |window| session(window).stage().state.nodes()[0].done > 10);
-    assert_eq!(done(&window), session(&window).stage().state.nodes()[0].done);
+    until(&mut window, "atoms of the first", |window| session(window).stage().state().nodes()[0].done > 10);
+    assert_eq!(done(&window), session(&window).stage().state().nodes()[0].done);
     choose(&mut window, "Strategy", "Ring");
     assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
     window.get_by_label("Usual sizes").click();

@@ -96,7 +96,7 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
     type_number(&mut window, "Seconds of the run", "2");
     type_number(&mut window, "Parent's milliseconds for a message", "10");
     until(&mut window, "a line at the parent", |window| {
-        session(window).stage().state.waiting(session(window).now()) > 2
+        session(window).stage().state().waiting(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
     let given = |what: &What| match what {
@@ -134,7 +134,7 @@ fn a_run_in_virtual_time_obeys_is_replayed_and_made_live() {
     let rules = session(&window).header().rules;
     let mut again = open_with(SIZE, path.to_str().expect("a plain path"));
     assert!(session(&again).is_recorded() && driver(&again) == Driver::Sim);
-    until(&mut again, "the speed", |window| session(window).stage().state.nodes()[7].speed == 1.0);
+    until(&mut again, "the speed", |window| session(window).stage().state().nodes()[7].speed == 1.0);
     press(&mut again, "Set up");
     press(&mut again, "Make it live");
     until(&mut again, "a living run", |window| !session(window).is_recorded() && done(window) > 10);

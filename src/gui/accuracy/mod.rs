@@ -93,7 +93,7 @@ impl Accuracy {
             findings.job = session.measure(&prepared, findings.qualities.clone());
             (self.findings, self.choice) = (Some(findings), None);
             if session.stage().phase == Phase::Running && !session.stage().paused {
-                session.toggle_pause();
+                session.set_run_paused(true);
                 self.holds_run = true;
             }
         }
@@ -108,7 +108,7 @@ impl Accuracy {
 
     fn let_run_go_on(&mut self, session: &mut Session) {
         if std::mem::take(&mut self.holds_run) && session.stage().paused {
-            session.toggle_pause();
+            session.set_run_paused(false);
         }
     }
 

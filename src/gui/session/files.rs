@@ -10,10 +10,11 @@ use super::jobs::{FileChange, Prepared, Recorded};
 use super::performer::Performer;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
-use crate::driver::Replay;
+use crate::driver::Retrace;
 use crate::output::is_same_file;
+use crate::runlog::RunLog;
 use crate::scene::Opened;
-use crate::view::picture_pixels;
+use crate::view::{Known, Layer, picture_pixels};
 
 impl Session {
     /// Shows what has been read already.
@@ -33,6 +34,7 @@ impl Session {
             let log = log.display();
             return self.trouble(format!("Not opened. The run's records will be written to {log} (--log)"));
         }
+        self.moving = None;
         let argument = argument.to_owned();
         self.load(name, move || Opening::read(&argument));
     }
@@ -63,12 +65,12 @@ impl Session {
         }
     }
 
-    /// Writes the picture, as far as it is, in the background: the render (`blend` 0), the owners (1) or a blend.
-    pub fn save_picture(&mut self, path: PathBuf, blend: f32) {
+    /// Writes the picture, as far as it is, in the background: the render (`blend` 0), a layer (1) or a blend.
+    pub fn save_picture(&mut self, path: PathBuf, look: (Layer, f32)) {
         self.note(format!("Saving {} …", path.display()));
-        let Stage { frame, state, colours, .. } = &self.stage;
-        let (frame, state, colours) = (frame.clone(), state.clone(), colours.clone());
-        self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, blend));
+        let Stage { frame, colours, .. } = &self.stage;
+        let (frame, state, colours) = (frame.clone(), self.stage.latest().clone(), colours.clone());
+        self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, look));
     }
 
     /// Writes the run, as far as it is, in the background.
@@ -90,9 +92,11 @@ impl Session {
     /// Plays a recorded run from its beginning.
     pub(super) fn play(&mut self, recorded: Recorded) {
         self.jobs.watch(None);
-        let replay = Replay::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
-        self.recorded = Some(recorded.clone());
-        self.set_stage(Performer::Recorded(replay), recorded.log.header.clone(), &recorded.tracer);
+        let retrace = Retrace::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
+        let (log, known) = (RunLog::clone(&recorded.log), Known::clone(&recorded.known));
+        let stage = Stage::recorded(Performer::Recorded(retrace), log, known, self.ground);
+        self.set_stage(stage, recorded.preview.clone());
+        self.recorded = Some(recorded);
     }
 
     /// Writes the records in the background to where the user asked for them, if so.
@@ -113,12 +117,16 @@ impl Session {
             self.remember(path.to_string_lossy().into_owned());
         }
         self.jobs.watch(path);
+        if !self.is_moving() {
+            self.home = Some(prepared.opened.scene.camera);
+        }
         self.prepared = Some(prepared);
         self.recorded = None;
         self.restart();
     }
 
     pub(super) fn could_not_open(&mut self, why: String) {
+        self.moving = None;
         if self.stage.phase == Phase::Preparing {
             self.open("ten-objects");
         }

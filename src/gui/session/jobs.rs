@@ -12,13 +12,15 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 use super::super::opening::Opening;
 use super::super::settings::Settings;
 use super::measuring::Finding;
+use super::moving::Moved;
 use crate::driver::{RAY, probe};
 use crate::output::OutputError;
-use crate::picture::{Frame, Quality, Size, write_png};
+use crate::palette::Rgb;
+use crate::picture::{Frame, Quality, Size, srgb8, write_png};
 use crate::runlog::{Driver, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
-use crate::view::Inspected;
+use crate::view::{Inspected, Known};
 
 /// What a job has come to.
 pub enum Done {
@@ -34,6 +36,8 @@ pub enum Done {
     Found(u64, Finding),
     /// A pixel, with all that is known of it; nothing if there is no such pixel.
     Inspected(Option<Box<Inspected>>),
+    /// What is about seen by a camera that was moved.
+    Moved(Moved),
     /// The file that is open has changed, or is gone.
     FileChanged(PathBuf, FileChange),
 }
@@ -71,6 +75,8 @@ pub struct Prepared {
     pub opened: Arc<Opened>,
     /// What traces it.
     pub tracer: Arc<Tracer>,
+    /// What its picture will about look like.
+    pub preview: Arc<[Rgb]>,
     /// Of the picture that it is compiled for.
     pub size: Size,
     /// Of the picture that it is compiled for.
@@ -90,6 +96,10 @@ pub struct Recorded {
     pub opened: Arc<Opened>,
     /// What traces its picture again.
     pub tracer: Arc<Tracer>,
+    /// What its picture will about look like.
+    pub preview: Arc<[Rgb]>,
+    /// What is known of all of it.
+    pub known: Arc<Known>,
 }
 
 impl Prepared {
@@ -151,7 +161,8 @@ impl Jobs {
                     let found = probe(&tracer, division, PROBE);
                     let cpu = found.whole_with_rests(&tracer, division);
                     let virtual_time = RAY.mul_f64(found.rays as f64);
-                    Ok(Ready::Scene(Prepared { opened, tracer, size, quality, cpu, virtual_time }))
+                    let preview = guess(&tracer);
+                    Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size)?;
@@ -159,7 +170,9 @@ impl Jobs {
                     let opened = opened.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
                     let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
                     let tracer = Arc::new(with_preview(tracer));
-                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer }))
+                    let known = Arc::new(Known::of(&log));
+                    let preview = guess(&tracer);
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
                 }
             });
             Done::Ready(number, ready)
@@ -244,7 +257,7 @@ impl Jobs {
         self.next
     }
 
-    fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
+    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
         self.start_many(name, |why| Done::Saved(Err(why)), move |tell| tell(job()));
     }
 
@@ -285,6 +298,14 @@ fn with_preview(mut tracer: Tracer) -> Tracer {
             return tracer;
         }
     }
+}
+
+/// All pixels as the preview has them.
+pub(super) fn guess(tracer: &Tracer) -> Arc<[Rgb]> {
+    let (width, height) = (tracer.size().width(), tracer.size().height());
+    let Some(preview) = tracer.preview() else { return Arc::default() };
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    places.map(|(x, y)| srgb8(preview.guess(x, y))).collect()
 }
 
 /// How long a preview may take.

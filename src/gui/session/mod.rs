@@ -5,8 +5,10 @@ mod files;
 mod inspecting;
 pub mod jobs;
 mod measuring;
+mod moving;
 mod performer;
 mod stage;
+mod timing;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,14 +23,15 @@ use crate::driver::{Run, cores};
 use crate::palette::Rgb;
 use crate::picture::Quality;
 use crate::runlog::Header;
-use crate::scene::Opened;
+use crate::scene::{Camera, Opened};
 use crate::time::Time;
-use crate::tracer::Tracer;
 
 use inspecting::Inspecting;
 pub use jobs::{Done, Prepared, Purpose};
 use jobs::{Jobs, Ready, Recorded};
 pub use measuring::Finding;
+pub use moving::Moved;
+use moving::Moving;
 use performer::Performer;
 pub use stage::{Phase, Stage};
 
@@ -43,6 +46,11 @@ pub struct Session {
     recorded: Option<Recorded>,
     loading: Option<Loading>,
     inspecting: Inspecting,
+    /// The scene's own camera.
+    home: Option<Camera>,
+    moving: Option<Moving>,
+    /// Looks from a moved camera that have not come back.
+    camera_jobs: usize,
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
     ending: Vec<Performer>,
@@ -55,6 +63,8 @@ pub struct Session {
     /// The files that were opened last, the latest first.
     recent: Vec<String>,
     ground: Rgb,
+    /// While a hand drags the run's time: whether that stood still before.
+    dragged_from: Option<bool>,
     /// egui's clock, in seconds.
     clock: f64,
 }
@@ -78,6 +88,9 @@ impl Session {
             recorded: None,
             loading: None,
             inspecting: Inspecting::default(),
+            home: None,
+            moving: None,
+            camera_jobs: 0,
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
             begun: 0,
@@ -86,6 +99,7 @@ impl Session {
             log_path,
             recent: Vec::new(),
             ground,
+            dragged_from: None,
             clock: 0.0,
         }
     }
@@ -107,7 +121,7 @@ impl Session {
     /// the system's dialogs, small pictures, and what was measured.
     pub fn tick(&mut self, clock: f64) -> Vec<Done> {
         self.clock = clock;
-        if self.stage.tick() {
+        if self.stage.tick(clock) {
             self.write_log();
         }
         self.ending.retain(|performer| !performer.has_ended());
@@ -135,6 +149,7 @@ impl Session {
                     others.push(Done::Found(job, finding));
                 }
                 Done::Inspected(inspected) => self.take_inspected(inspected),
+                Done::Moved(moved) => self.take_moved(moved),
                 done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
             }
         }
@@ -179,16 +194,9 @@ impl Session {
         }
     }
 
-    /// Lets the run go on or stand still.
-    pub fn toggle_pause(&mut self) {
-        if self.stage.phase == Phase::Running {
-            self.stage.paused = !self.stage.paused;
-            self.stage.performer.set_paused(self.stage.paused);
-        }
-    }
-
     /// Lets a machine go on or stand still.
     pub fn toggle_node_pause(&mut self, node: NodeId) {
+        self.return_to_present();
         if let Some(paused) = self.stage.paused_nodes.get_mut(usize::from(node))
             && self.stage.phase == Phase::Running
         {
@@ -234,21 +242,25 @@ impl Session {
 
     /// The run's clock, the same for a whole frame.
     pub fn now(&self) -> Time {
-        self.stage.now
+        self.stage.now()
     }
 
     /// The speed that a node has or is about to have.
     pub fn speed(&self, node: NodeId) -> f64 {
         let index = usize::from(node);
-        let recorded = || self.stage.state.nodes().get(index).map_or(0.0, |node| node.speed);
-        if self.is_recorded() { recorded() } else { self.settings.speeds.get(index).copied().unwrap_or_else(recorded) }
+        let recorded = || self.stage.state().nodes().get(index).map_or(0.0, |node| node.speed);
+        if self.is_recorded() || !self.stage.is_live() && self.stage.phase == Phase::Running {
+            recorded()
+        } else {
+            self.settings.speeds.get(index).copied().unwrap_or_else(recorded)
+        }
     }
 
     /// Whether a node stands still, or is about to.
     pub fn is_node_paused(&self, node: NodeId) -> bool {
         let index = usize::from(node);
         if self.is_recorded() {
-            self.stage.state.nodes().get(index).is_some_and(|node| node.paused)
+            self.stage.state().nodes().get(index).is_some_and(|node| node.paused)
         } else {
             self.stage.paused_nodes.get(index).copied().unwrap_or(false)
         }
@@ -327,6 +339,7 @@ impl Session {
 
     /// Sets everything that differs, and returns what was set before.
     fn apply(&mut self, settings: Settings) -> Settings {
+        self.return_to_present();
         let before = std::mem::replace(&mut self.settings, settings);
         if self.settings.needs_restart(&before) {
             self.restart();
@@ -350,15 +363,16 @@ impl Session {
         let work = prepared.work(self.settings.driver);
         let header = self.settings.header(&opened.name, &opened.text, work, cores());
         let run = Run::start(Arc::clone(&prepared.tracer), &header);
-        self.set_stage(Performer::Live(run), header, &prepared.tracer);
+        self.set_stage(Stage::new(Performer::Live(run), header, self.ground), prepared.preview.clone());
     }
 
-    fn set_stage(&mut self, performer: Performer, header: Header, tracer: &Tracer) {
+    fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
         self.retire();
         self.begun += 1;
-        self.stage = Stage::new(performer, header, self.ground);
-        self.stage.show_preview(tracer);
+        self.stage = stage;
+        self.stage.show_preview(preview);
         self.look_again();
+        self.camera_has_settled();
     }
 
     /// Lets whoever performs end in their own time.

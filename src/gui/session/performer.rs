@@ -1,12 +1,11 @@
-//! Whoever performs what the window shows: nodes that trace, or a recorded run that is played again.
+//! Whoever performs what the window shows: nodes that trace, or whoever traces a recorded run's picture again.
 
 use std::time::Duration;
 
 use crossbeam_channel::Receiver;
 
 use crate::balance::NodeId;
-use crate::driver::{Replay, Run, Update};
-use crate::time::Time;
+use crate::driver::{Retrace, Run, Update};
 
 /// Whoever performs a run.
 pub enum Performer {
@@ -14,37 +13,26 @@ pub enum Performer {
     Nobody,
     /// Nodes as threads.
     Live(Run),
-    /// Records.
-    Recorded(Replay),
+    /// All records are there; the picture is traced again.
+    Recorded(Retrace),
 }
 
 impl Performer {
-    /// The run's clock.
-    pub fn now(&self) -> Time {
-        match self {
-            Self::Nobody => Time::ZERO,
-            Self::Live(run) => run.now(),
-            Self::Recorded(replay) => replay.now(),
-        }
-    }
-
     /// What has happened since, oldest first.
     pub fn updates(&self) -> Option<&Receiver<Update>> {
         match self {
             Self::Nobody => None,
             Self::Live(run) => Some(run.updates()),
-            Self::Recorded(replay) => Some(replay.updates()),
+            Self::Recorded(retrace) => Some(retrace.updates()),
         }
     }
 
     /// Stops the run's clock, or lets it go on.
     pub fn set_paused(&self, paused: bool) {
         match (self, paused) {
-            (Self::Nobody, _) => {}
             (Self::Live(run), true) => run.pause(),
             (Self::Live(run), false) => run.resume(),
-            (Self::Recorded(replay), true) => replay.pause(),
-            (Self::Recorded(replay), false) => replay.resume(),
+            (Self::Nobody | Self::Recorded(_), _) => {}
         }
     }
 
@@ -53,7 +41,7 @@ impl Performer {
         match self {
             Self::Nobody => {}
             Self::Live(run) => run.stop(),
-            Self::Recorded(replay) => replay.stop(),
+            Self::Recorded(retrace) => retrace.stop(),
         }
     }
 
@@ -62,7 +50,7 @@ impl Performer {
         match self {
             Self::Nobody => true,
             Self::Live(run) => run.has_ended(),
-            Self::Recorded(replay) => replay.has_ended(),
+            Self::Recorded(retrace) => retrace.has_ended(),
         }
     }
 
@@ -77,6 +65,13 @@ impl Performer {
     pub fn set_node_paused(&self, node: NodeId, paused: bool) {
         if let Self::Live(run) = self {
             run.set_paused(node, paused);
+        }
+    }
+
+    /// Lets the run's own clock go so many times as fast, if it is one of virtual time.
+    pub fn set_rate(&self, rate: f64) {
+        if let Self::Live(run) = self {
+            run.set_rate(rate);
         }
     }
 

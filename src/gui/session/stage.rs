@@ -1,14 +1,19 @@
-//! What is shown: one run, and everything that is known of it.
+//! What is shown: one run, and everything that is known of it, at the moment that is looked at.
 
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::performer::Performer;
 use crate::driver::Update;
 use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
-use crate::runlog::{Header, RunLog, Tally};
+use crate::record::Record;
+use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::time::Time;
-use crate::tracer::Tracer;
-use crate::view::{Canvas, Narrator, Outcome, RunState, parts_words, result_words};
-
-use super::performer::Performer;
+use crate::view::{
+    About, Canvas, Dossier, Known, Lanes, Layer, Moment, Narrator, Outcome, Past, Playback, RATES, RunState, Signs,
+    Step, parts_words, records_until, result_words, step,
+};
 
 /// A run, and everything that is known of it.
 pub struct Stage {
@@ -16,29 +21,38 @@ pub struct Stage {
     pub performer: Performer,
     /// How far it is.
     pub phase: Phase,
-    /// Its clock, as of the last tick: everything in a frame shows the same time.
-    pub now: Time,
     /// Whether its clock stands still because it was asked to.
     pub paused: bool,
     /// Which machines were asked to stand still.
     pub paused_nodes: Vec<bool>,
     /// Its records so far.
     pub log: RunLog,
-    /// What is known of it.
-    pub state: RunState,
-    /// The sentences.
-    pub narrator: Narrator,
+    /// Which moment of it is shown.
+    pub time: Playback,
     /// The picture in linear light.
     pub frame: Frame,
-    canvas: Canvas,
-    /// What the finished run amounts to.
-    pub outcome: Option<Outcome>,
-    /// The same in words.
-    pub result: String,
-    /// Who did most and least of it.
-    pub parts: String,
     /// The nodes' colours.
     pub colours: Vec<Rgb>,
+    known: Known,
+    /// An earlier moment, if that is shown.
+    earlier: Option<Moment>,
+    /// What is shown is known to be that after so many records, although others have the same time.
+    stepped_to: Option<usize>,
+    past: Past,
+    canvas: Canvas,
+    result: Option<RunResult>,
+    /// egui's clock at the last tick, in seconds.
+    ticked: Option<f64>,
+}
+
+/// What a run amounts to.
+pub struct RunResult {
+    /// In figures.
+    pub outcome: Outcome,
+    /// The same in words.
+    pub words: String,
+    /// Who did most and least of it.
+    pub parts: String,
 }
 
 /// How far a run is.
@@ -54,95 +68,309 @@ pub enum Phase {
     Failed(String),
 }
 
+/// After a run's end time goes on for as long as its last messages are drawn.
+const LINGER: Duration = Duration::from_millis(1500);
+
+/// In one frame no more time goes by than this: whoever comes back to a window wants to see what he missed.
+const LONGEST_FRAME: Duration = Duration::from_millis(100);
+
 impl Stage {
-    /// The beginning of a run.
+    /// The beginning of a run that goes on.
     pub fn new(performer: Performer, header: Header, ground: Rgb) -> Self {
         let nodes = header.speeds.len();
         let colours: Vec<_> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
         Self {
             phase: if matches!(performer, Performer::Nobody) { Phase::Preparing } else { Phase::Running },
             performer,
-            now: Time::ZERO,
             paused: false,
             paused_nodes: vec![false; nodes],
-            state: RunState::new(&header),
-            narrator: Narrator::default(),
+            time: Playback::live(),
+            known: Known::new(&header),
+            earlier: None,
+            stepped_to: None,
+            past: Past::default(),
             frame: Frame::new(header.size),
             canvas: Canvas::new(header.size, header.division, colours.clone(), ground),
-            outcome: None,
-            result: String::new(),
-            parts: String::new(),
+            result: None,
             log: RunLog::new(header),
             colours,
+            ticked: None,
         }
+    }
+
+    /// A run that was recorded, from its beginning; `known` is what is known of all of it.
+    pub fn recorded(performer: Performer, log: RunLog, known: Known, ground: Rgb) -> Self {
+        let result = RunResult::of(&log, &known.latest.state);
+        let mut time = Playback::from_the_beginning();
+        // A run of no time would be over before anybody looked.
+        let length = known.latest.state.head().secs();
+        time.set_rate(RATES.iter().rposition(|&rate| rate <= 1.0 && length >= 6.0 * rate).unwrap_or_default());
+        let plain = Self::new(performer, log.header.clone(), ground);
+        let mut stage = Self { phase: Phase::Finished, log, known, time, result, ..plain };
+        stage.show_now();
+        stage
     }
 
     /// Shows what is known of the picture beforehand where nothing is traced yet.
-    pub fn show_preview(&mut self, tracer: &Tracer) {
-        if let Some(preview) = tracer.preview() {
-            self.canvas.preview(|x, y| preview.guess(x, y), &self.state);
-        }
+    pub fn show_preview(&mut self, preview: Arc<[Rgb]>) {
+        let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
+        self.canvas.preview(preview, state);
     }
 
-    /// Takes in what has happened since the last call. Returns whether the run has just come to its end.
-    pub fn tick(&mut self) -> bool {
-        self.now = self.performer.now();
+    /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns whether the run has just come
+    /// to its end.
+    pub fn tick(&mut self, clock: f64) -> bool {
+        let passed = Duration::try_from_secs_f64(clock - self.ticked.unwrap_or(clock)).unwrap_or_default();
+        self.ticked = Some(clock);
         // One batch for the log, which would else sort its end for each party's.
         let (mut told, mut ends) = (Vec::new(), false);
         while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
             match update {
                 Update::Records(records) => {
-                    for record in &records {
-                        self.state.apply(record);
-                        self.narrator.apply(record, &self.state);
-                    }
+                    records.iter().for_each(|record| self.known.apply(record));
                     told.extend(records);
                 }
                 Update::Placed { atoms, pixels } => {
                     let division = self.log.header.division;
+                    let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
                     for (range, (place, colours)) in atoms.iter().zip(division.placed(&atoms, &pixels)) {
                         self.frame.place(place, colours);
-                        self.canvas.place(range.clone(), colours);
-                        self.canvas.paint(range.clone(), &self.state);
+                        self.canvas.take(range.clone(), colours);
+                        self.canvas.paint(range.clone(), state);
                     }
                 }
                 Update::Rays(_) => {}
                 Update::Finished => {
+                    ends = self.phase == Phase::Running;
                     self.phase = Phase::Finished;
-                    ends = true;
                 }
                 Update::Failed(why) => self.phase = Phase::Failed(why),
             }
         }
-        self.log.add(told);
+        self.sort_in(told);
         if ends {
-            self.outcome = outcome(&self.log);
-            // Sums over all atoms, so not for every frame.
-            self.result = self.outcome.map(|outcome| result_words(&self.state, &outcome)).unwrap_or_default();
-            self.parts = parts_words(&self.state).unwrap_or_default();
+            self.result = RunResult::of(&self.log, &self.known.latest.state);
         }
-        for atoms in self.state.take_touched() {
-            self.canvas.paint(atoms, &self.state);
-        }
+        self.time.advance(passed.min(LONGEST_FRAME), self.clock(), self.keeps_pace());
+        self.show_now();
         ends
     }
 
+    /// The time that is shown.
+    pub fn now(&self) -> Time {
+        self.time.now()
+    }
+
+    /// What is known of the run at the shown time.
+    pub fn state(&self) -> &RunState {
+        &self.shown().state
+    }
+
+    /// The sentences at the shown time.
+    pub fn narrator(&self) -> &Narrator {
+        &self.shown().narrator
+    }
+
+    /// What stands out in its time.
+    pub fn signs(&self) -> &Signs {
+        &self.known.signs
+    }
+
+    /// What each machine did and when, all of it.
+    pub fn lanes(&self) -> &Lanes {
+        &self.known.lanes
+    }
+
+    /// What is known of something, whatever moment is shown.
+    pub fn dossier(&mut self, about: About) -> Dossier {
+        Dossier::of(about, &self.log, &self.known.lanes, &mut self.past)
+    }
+
+    /// How many records lie before what is shown.
+    pub fn records_shown(&self) -> usize {
+        self.shown().records()
+    }
+
+    /// The record to which somebody stepped, which is the last that is shown.
+    pub fn stepped_to(&self) -> Option<&Record> {
+        self.log.records().get(self.stepped_to?.checked_sub(1)?)
+    }
+
+    /// What is known of the run by now, whatever is shown.
+    pub fn latest(&self) -> &RunState {
+        &self.known.latest.state
+    }
+
+    /// Whether everything that is known is shown.
+    pub fn shows_end(&self) -> bool {
+        self.earlier.is_none()
+    }
+
+    /// What the run amounts to, where its end is shown.
+    pub fn result(&self) -> Option<&RunResult> {
+        self.result.as_ref().filter(|_| self.shows_end())
+    }
+
     /// The picture as it is shown, after what it is to look like.
-    pub fn canvas(&mut self, blend: f32, ground: Rgb) -> &mut Canvas {
-        self.canvas.set_look(blend, ground, &self.state);
+    pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
+        let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
+        self.canvas.set_look(look, ground, state);
         &mut self.canvas
     }
 
-    /// The run's clock; it stops when the picture is complete, or nothing more happens.
+    /// The shown time, which stops when the picture is complete or nothing more happens.
     pub fn lasted(&self) -> Time {
-        let end = (self.phase == Phase::Finished).then(|| self.state.head());
-        self.state.finished().or(end).unwrap_or(self.now)
+        self.now().min(self.length())
+    }
+
+    /// How long the run is, so far.
+    pub fn length(&self) -> Time {
+        let is_over = matches!(self.phase, Phase::Finished | Phase::Failed(_));
+        let end = is_over.then(|| self.known.latest.state.head());
+        self.known.latest.state.finished().or(end).unwrap_or_else(|| self.clock())
+    }
+
+    /// How exactly times are to be told, as a rate at which time goes: the shorter the run and the slower it is shown, the
+    /// more exactly.
+    pub fn grain(&self) -> f64 {
+        // A run that goes on is not told ever less exactly.
+        let by_length = if self.phase == Phase::Running { 1.0 } else { self.length().secs() / 2.0 };
+        self.time.rate().min(by_length).clamp(1e-9, 1.0)
+    }
+
+    /// Whether the shown time goes on by itself.
+    pub fn goes_on(&self) -> bool {
+        match self.phase {
+            Phase::Running if self.time.is_live() => !self.paused,
+            Phase::Preparing | Phase::Failed(_) if self.time.is_live() => false,
+            _ => !self.time.stands() && self.now() < self.clock(),
+        }
+    }
+
+    /// Whether the end of a run that is over is shown.
+    pub fn is_at_end(&self) -> bool {
+        self.phase == Phase::Finished && self.now() >= self.length()
+    }
+
+    /// Whether what happens in the run is seen at once.
+    pub fn is_live(&self) -> bool {
+        self.time.is_live()
+    }
+
+    /// Shows another moment.
+    pub fn seek(&mut self, time: Time, stands: bool) {
+        self.stepped_to = None;
+        if time >= self.clock() && self.phase == Phase::Running {
+            self.time.follow();
+        } else {
+            self.time.seek(time.min(self.clock()), stands);
+        }
+        self.show_now();
+    }
+
+    /// Shows what happened next or before, and stands still there. Returns whether there is such a thing.
+    pub fn step(&mut self, by: Step, forward: bool) -> bool {
+        let Some(records) = step(&self.log, self.records_shown(), by, forward) else { return false };
+        self.show_after(records);
+        true
+    }
+
+    /// Shows the moment after so many records, and stands still there.
+    pub fn show_after(&mut self, records: usize) {
+        let at =
+            records.checked_sub(1).and_then(|last| self.log.records().get(last)).map_or(Time::ZERO, |last| last.at);
+        self.time.seek(at, true);
+        self.stepped_to = Some(records);
+        self.show_now();
+    }
+
+    /// Shows what happens as it happens, or, if nothing more does, the end.
+    pub fn follow(&mut self) {
+        self.stepped_to = None;
+        match self.phase {
+            Phase::Running | Phase::Preparing => self.time.follow(),
+            Phase::Finished | Phase::Failed(_) => self.time.seek(self.clock(), false),
+        }
+        self.show_now();
+    }
+
+    /// Time goes faster or slower by so many of [`RATES`](crate::view::RATES).
+    pub fn change_rate(&mut self, by: isize) {
+        self.time.change_rate(by);
+        self.performer.set_rate(self.time.rate());
+    }
+
+    fn shown(&self) -> &Moment {
+        self.earlier.as_ref().unwrap_or(&self.known.latest)
+    }
+
+    /// How far the run's own clock has come.
+    fn clock(&self) -> Time {
+        let end = self.known.latest.state.head() + LINGER.mul_f64(self.time.rate().min(1.0));
+        match (&self.performer, &self.phase) {
+            (Performer::Live(run), Phase::Finished | Phase::Failed(_)) => run.now().min(end),
+            (Performer::Live(run), _) => run.now(),
+            (Performer::Recorded(_), _) => end,
+            (Performer::Nobody, _) => Time::ZERO,
+        }
+    }
+
+    /// In virtual time the run itself goes as fast as is asked.
+    fn keeps_pace(&self) -> bool {
+        matches!(self.performer, Performer::Live(_)) && self.log.header.driver == Driver::Sim
+    }
+
+    fn sort_in(&mut self, told: Vec<Record>) {
+        if told.is_empty() {
+            return;
+        }
+        let same = self.log.add(told);
+        self.past.forget_after(same);
+        if self.earlier.as_ref().is_some_and(|moment| moment.records() > same) {
+            // Told anew by the next look at it.
+            (self.earlier, self.stepped_to) = (Some(Moment::new(&self.log.header)), None);
+        }
+    }
+
+    /// Comes to the moment that the shown time asks for.
+    fn show_now(&mut self) {
+        if !self.time.stands() {
+            self.stepped_to = None;
+        }
+        let records = match self.stepped_to {
+            Some(records) => records,
+            _ if self.time.is_live() => usize::MAX,
+            _ => records_until(&self.log, self.now()),
+        };
+        if records >= self.log.records().len() {
+            if self.earlier.take().is_some() {
+                self.known.latest.state.take_touched();
+                self.canvas.show(&self.known.latest.state);
+            }
+        } else if self.earlier.as_ref().is_none_or(|earlier| earlier.records() != records) {
+            let is_first = self.earlier.is_none();
+            let moment = self.earlier.get_or_insert_with(|| Moment::new(&self.log.header));
+            let went_on = self.past.go(&self.log, records, moment);
+            if is_first || !went_on {
+                moment.state.take_touched();
+                self.canvas.show(&moment.state);
+            }
+        }
+        let state = &mut self.earlier.as_mut().unwrap_or(&mut self.known.latest).state;
+        state.set_rate(self.time.rate());
+        for atoms in state.take_touched() {
+            self.canvas.paint(atoms, state);
+        }
     }
 }
 
-/// What the run amounts to, if it came to its end.
-fn outcome(log: &RunLog) -> Option<Outcome> {
-    let tally = Tally::of(log);
-    let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
-    Some(Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() })
+impl RunResult {
+    /// What the run amounts to, if it came to its end. Sums over all atoms, so not for every frame.
+    fn of(log: &RunLog, state: &RunState) -> Option<Self> {
+        let tally = Tally::of(log);
+        let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
+        let outcome = Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() };
+        let parts = parts_words(state).unwrap_or_default();
+        Some(Self { outcome, words: result_words(state, &outcome), parts })
+    }
 }

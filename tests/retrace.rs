@@ -1,13 +1,12 @@
-//! A recorded run is told again: the same records in the same order, the same pixels, each when it is time.
+//! The picture of a recorded run is traced again: the same pixels, each once, and no others.
 
 use std::iter::once;
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use anel::balance::{Message, Party, Strategy};
-use anel::driver::{Replay, Run, Update};
+use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Atom, Colour, Division, Frame, Quality, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Driver, Header, Link, RunLog};
@@ -36,7 +35,7 @@ impl Told {
     fn take(&mut self, update: Update) {
         assert!(self.end.is_none(), "something follows the last update: {update:?}");
         match update {
-            Update::Records(records) => self.log.add(records),
+            Update::Records(records) => _ = self.log.add(records),
             Update::Placed { atoms, pixels } => {
                 for (place, colours) in self.log.header.division.placed(&atoms, &pixels) {
                     self.frame.place(place, colours);
@@ -49,21 +48,9 @@ impl Told {
         }
     }
 
-    /// Takes in what a replay tells until its end, and checks that nothing is told before its time.
-    fn take_all(&mut self, replay: &Replay) {
-        for update in replay.updates() {
-            match &update {
-                Update::Records(records) => {
-                    assert!(!records.is_empty() && records.iter().all(|record| record.at <= replay.now()));
-                }
-                Update::Placed { atoms, .. } => {
-                    let received = received(&self.log);
-                    assert!(atoms.iter().cloned().flatten().all(|atom| received.contains(&atom)), "{atoms:?}");
-                }
-                _ => {}
-            }
-            self.take(update);
-        }
+    /// Takes in what is told until the end.
+    fn take_all(&mut self, retrace: &Retrace) {
+        retrace.updates().iter().for_each(|update| self.take(update));
     }
 
     fn placed_atoms(&self) -> Vec<Atom> {
@@ -134,23 +121,22 @@ fn bits(frame: &Frame) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn the_same_records_and_the_same_pixels() {
+fn the_same_pixels() {
     for driver in [Driver::Threads, Driver::WorkStealing, Driver::Pairs] {
         let header = Header { driver, ..header(&[0.4, 0.2, 0.05]) };
         let tracer = tracer(&header);
         let run = recorded(&tracer, &header);
-        let replay = Replay::start(tracer, Arc::new(run.log.clone()));
+        let retrace = Retrace::start(tracer, Arc::new(run.log.clone()));
         let mut told = Told::new(&header);
-        told.take_all(&replay);
+        told.take_all(&retrace);
         assert_eq!(told.end, Some(Ok(())));
-        assert_eq!(told.log, run.log);
-        assert!(told.placed.iter().all(|&placed| placed == 1));
+        assert!(told.log.records().is_empty() && told.placed.iter().all(|&placed| placed == 1));
         assert_eq!(bits(&told.frame), bits(&run.frame));
     }
 }
 
 #[test]
-fn an_incomplete_log_is_told_as_far_as_it_goes() {
+fn of_an_incomplete_log_what_the_parent_has_received_is_traced() {
     let header = header(&[1.0, 1.0]);
     let tracer = tracer(&header);
     let whole = recorded(&tracer, &header).log;
@@ -158,22 +144,20 @@ fn an_incomplete_log_is_told_as_far_as_it_goes() {
     part.add(whole.records()[..whole.records().len() / 2].to_vec());
     let mut expected = received(&part);
     expected.sort_unstable();
-    let replay = Replay::start(tracer, Arc::new(part.clone()));
+    let retrace = Retrace::start(tracer, Arc::new(part));
     let mut told = Told::new(&header);
-    told.take_all(&replay);
-    assert_eq!((told.end.clone(), &told.log), (Some(Ok(())), &part));
-    assert_eq!(told.placed_atoms(), expected);
+    told.take_all(&retrace);
+    assert_eq!((told.end.clone(), told.placed_atoms()), (Some(Ok(())), expected));
 }
 
 #[test]
-fn atoms_of_two_messages_are_placed_once() {
+fn atoms_of_two_messages_are_traced_once() {
     let mut log = one_by_one(MS);
     log.add(one_by_one(2 * MS).records().to_vec());
-    let replay = Replay::start_with(black, Arc::new(log.clone()));
+    let retrace = Retrace::start_with(black, Arc::new(log.clone()));
     let mut told = Told::new(&log.header);
-    told.take_all(&replay);
-    assert_eq!((told.end.clone(), told.log.records()), (Some(Ok(())), log.records()));
-    assert_eq!(told.placed_atoms(), (0..10).collect::<Vec<_>>());
+    told.take_all(&retrace);
+    assert_eq!((told.end.clone(), told.placed_atoms()), (Some(Ok(())), (0..10).collect()));
     assert!(told.placed.iter().all(|&placed| placed <= 1));
 }
 
@@ -181,74 +165,12 @@ fn atoms_of_two_messages_are_placed_once() {
 fn an_empty_log_is_over_at_once() {
     let log = RunLog::new(header(&[1.0]));
     let mut told = Told::new(&log.header);
-    told.take_all(&Replay::start_with(black, Arc::new(log)));
+    told.take_all(&Retrace::start_with(black, Arc::new(log)));
     assert_eq!(told.end, Some(Ok(())));
 }
 
 #[test]
-fn a_paused_replay_stands_still_and_goes_on() {
-    let log = one_by_one(20 * MS);
-    let replay = Replay::start_with(black, Arc::new(log.clone()));
-    std::thread::sleep(30 * MS);
-    replay.pause();
-    let paused = replay.now();
-    let mut told = Told::new(&log.header);
-    // Until then everything is told, but nothing later.
-    let due = log.records().partition_point(|record| record.at <= paused);
-    while told.log.records().len() < due {
-        told.take(replay.updates().recv().unwrap());
-    }
-    std::thread::sleep(60 * MS);
-    replay.updates().try_iter().for_each(|update| told.take(update));
-    assert_eq!((replay.now(), told.log.records()), (paused, &log.records()[..due]));
-    replay.resume();
-    told.take_all(&replay);
-    assert_eq!((told.end.clone(), told.log.records()), (Some(Ok(())), log.records()));
-    assert_eq!(told.placed_atoms(), (0..10).collect::<Vec<_>>());
-}
-
-#[test]
-fn pixels_that_are_late_come_during_a_pause_too() {
-    let (log, may_trace) = (one_by_one(MS), Arc::new(AtomicBool::new(false)));
-    let gate = Arc::clone(&may_trace);
-    let gated = move |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| {
-        while !gate.load(Ordering::SeqCst) {
-            std::thread::sleep(MS);
-        }
-        black(pixels, scratch, out);
-    };
-    let replay = Replay::start_with(gated, Arc::new(log.clone()));
-    let mut told = Told::new(&log.header);
-    while told.log != log {
-        told.take(replay.updates().recv().unwrap());
-    }
-    replay.pause();
-    may_trace.store(true, Ordering::SeqCst);
-    told.take_all(&replay);
-    assert_eq!((told.end.clone(), told.placed_atoms()), (Some(Ok(())), (0..10).collect()));
-}
-
-#[test]
-fn a_replay_that_waits_for_years_can_be_stopped() {
-    for paused in [false, true] {
-        let mut log = one_by_one(Duration::from_secs(3600));
-        log.add(vec![Record { at: Time(u64::MAX), what: What::Finished }]);
-        let replay = Replay::start_with(black, Arc::new(log.clone()));
-        assert!(!replay.has_ended());
-        if paused {
-            replay.pause();
-        }
-        std::thread::sleep(20 * MS);
-        replay.stop();
-        let mut told = Told::new(&log.header);
-        told.take_all(&replay);
-        assert_eq!(told.end, Some(Err("the replay was stopped".into())));
-        assert!(told.log.records().len() <= 1 && told.placed_atoms().is_empty());
-    }
-}
-
-#[test]
-fn dropping_a_replay_ends_it_in_the_middle_of_an_atom() {
+fn dropping_it_ends_it_in_the_middle_of_an_atom() {
     let mut log = one_by_one(MS);
     // One atom, the whole picture, would take a minute or more.
     log.header.division = Division::new(log.header.size.pixels(), u32::MAX);
@@ -259,21 +181,21 @@ fn dropping_a_replay_ends_it_in_the_middle_of_an_atom() {
         std::thread::sleep(pixels.len() as u32 * 20 * MS / 64);
         black(pixels, scratch, out);
     };
-    let replay = Replay::start_with(slow, Arc::new(log));
+    let retrace = Retrace::start_with(slow, Arc::new(log));
     std::thread::sleep(10 * MS);
-    drop(replay);
+    drop(retrace);
     assert_eq!(Arc::strong_count(&held), 1, "a thread goes on");
 }
 
 #[test]
-fn a_panicking_tracer_fails_the_replay() {
+fn a_panicking_tracer_fails_the_retrace() {
     let log = one_by_one(MS);
     let panicking = |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| {
         assert!(pixels.start < 160, "no way to trace pixel {}", pixels.start);
         black(pixels, scratch, out);
     };
     let mut told = Told::new(&log.header);
-    told.take_all(&Replay::start_with(panicking, Arc::new(log)));
+    told.take_all(&Retrace::start_with(panicking, Arc::new(log)));
     let why = told.end.unwrap().unwrap_err();
     assert!(why.starts_with("tracer ") && why.contains(" failed: no way to trace pixel "), "{why}");
 }

@@ -1,0 +1,107 @@
+//! What happens when something is asked for, by a key or by a button.
+
+use egui::{Context, Theme, ViewportCommand};
+
+use super::super::history::Gesture;
+use super::super::keys::Command;
+use super::App;
+use crate::time::Time;
+use crate::view::{About, Step};
+
+impl App {
+    pub(super) fn obey(&mut self, command: Command, ctx: &Context) {
+        let session = &mut self.session;
+        match command {
+            Command::Pause => session.toggle_pause(),
+            Command::Restart => session.restart(),
+            Command::Step(by, forward) => session.step(by, forward),
+            Command::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
+            Command::Live => session.stage_mut().follow(),
+            Command::Beginning => session.stage_mut().seek(Time::ZERO, true),
+            Command::Find => self.time.toggle_find(),
+            Command::Timeline => self.shows_timeline = !self.shows_timeline,
+            Command::Zoom(nearer) => {
+                self.shows_timeline = true;
+                self.timeline.zoom(if nearer { 0.5 } else { 2.0 }, self.session.stage().lasted());
+            }
+            Command::Save => self.save_bar.toggle(session),
+            Command::Scenes => {
+                self.accuracy.close(session);
+                self.gallery.toggle(session);
+            }
+            Command::Accuracy => {
+                self.gallery.close();
+                self.accuracy.toggle(session);
+            }
+            Command::Reload => session.reload(),
+            Command::Setup => self.setup.open = !self.setup.open,
+            Command::Undo => session.undo(),
+            Command::Redo => session.redo(),
+            Command::Select(node) if usize::from(node) < session.header().speeds.len() => {
+                self.focus.toggle(About::Node(node));
+            }
+            Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
+            Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
+            Command::Camera => self.picture.moves_camera = !self.picture.moves_camera,
+            Command::CameraHome => session.camera_home(),
+            Command::Dolly(nearer) => session.move_camera(|camera| camera.dolly(if nearer { 0.9 } else { 1.0 / 0.9 })),
+            Command::Arrow([right, down]) if self.picture.moves_camera => {
+                session.move_camera(|camera| camera.orbit(f64::from(5 * right), f64::from(-5 * down)));
+            }
+            Command::Arrow(by) if session.inspected_place().is_some() => session.inspect_beside(by),
+            Command::Arrow([right, 0]) => session.step(Step::Event, right > 0),
+            Command::Arrow(_) => {}
+            Command::Layer => self.picture.next_layer(),
+            Command::Outlines => self.picture.outlines = !self.picture.outlines,
+            Command::Theme => {
+                ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
+            }
+            Command::FullScreen => {
+                let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+                ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
+            }
+            Command::Help => self.help = !self.help,
+            Command::Back => self.back(),
+            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+    }
+
+    fn obey_for_node(&mut self, command: Command) {
+        let Some(node) = self.focus.node() else {
+            return self.session.note("First select a machine: press its number, or click it");
+        };
+        if command == Command::PauseNode {
+            return self.session.toggle_node_pause(node);
+        }
+        // To the next tenth.
+        let tenths = self.session.speed(node) * 10.0;
+        let next = if command == Command::Faster { (tenths + 1.01).floor() } else { (tenths - 1.01).ceil() };
+        let speed = (next / 10.0).clamp(0.0, 1.0);
+        self.session.change(Gesture::Once, |settings| settings.speeds[usize::from(node)] = speed);
+    }
+
+    /// Whatever was opened last goes away.
+    fn back(&mut self) {
+        if self.help {
+            self.help = false;
+        } else if self.time.is_finding() {
+            self.time.toggle_find();
+        } else if self.gallery.is_open() {
+            self.gallery.close();
+        } else if self.accuracy.is_open() {
+            self.accuracy.close(&mut self.session);
+        } else if self.save_bar.is_open() {
+            self.save_bar.close();
+        } else if self.session.notice().is_some() {
+            self.session.close_notice();
+        } else if self.session.inspected_place().is_some() {
+            self.session.stop_inspecting();
+        } else if self.picture.moves_camera {
+            self.picture.moves_camera = false;
+        } else if self.picture.is_zoomed() {
+            self.picture.show_all();
+        } else {
+            self.focus.selected = None;
+        }
+    }
+}

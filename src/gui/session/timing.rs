@@ -1,0 +1,75 @@
+//! The run's time in the user's hand.
+
+use super::{Phase, Session};
+use crate::time::Time;
+use crate::view::Step;
+
+impl Session {
+    /// Lets what is seen go on or stand still: the run itself while it is followed, else the shown time. From the end it
+    /// goes on at the beginning.
+    pub fn toggle_pause(&mut self) {
+        let stage = &mut self.stage;
+        if stage.phase == Phase::Preparing {
+        } else if stage.phase == Phase::Running && stage.is_live() {
+            self.set_run_paused(!self.stage.paused);
+        } else if stage.is_at_end() {
+            stage.seek(Time::ZERO, false);
+        } else if stage.goes_on() {
+            stage.time.set_stands(true);
+        } else {
+            stage.time.set_stands(false);
+        }
+    }
+
+    /// Lets the run itself stand still or go on.
+    pub fn set_run_paused(&mut self, paused: bool) {
+        if self.stage.phase == Phase::Running {
+            self.stage.paused = paused;
+            self.stage.performer.set_paused(paused);
+        }
+    }
+
+    /// Shows the moment that a hand drags along the run's time; meanwhile time stands still.
+    pub fn drag_to(&mut self, time: Time, stands: bool) {
+        if self.dragged_from.is_none() && stands {
+            self.dragged_from = Some(self.stage.time.stands() && !self.stage.is_live());
+        }
+        self.stage.seek(time, stands);
+    }
+
+    /// Shows the moment after so many records, and stands still there.
+    pub fn look_after(&mut self, records: usize) {
+        self.stage.show_after(records);
+    }
+
+    /// Shows a moment, and stands still there.
+    pub fn look_at(&mut self, time: Time) {
+        self.stage.seek(time, true);
+    }
+
+    /// The hand lets go: time goes on if it did before.
+    pub fn let_time_go(&mut self) {
+        if let Some(stood) = self.dragged_from.take() {
+            self.stage.time.set_stands(stood);
+        }
+    }
+
+    /// Shows what happened next or before, and stands still there.
+    pub fn step(&mut self, by: Step, forward: bool) {
+        // Whoever makes steps wants to see them all.
+        if self.stage.is_live() {
+            self.set_run_paused(true);
+        }
+        if !self.stage.step(by, forward) {
+            self.note(format!("There is no {} {}", if forward { "later" } else { "earlier" }, by.name()));
+        }
+    }
+
+    /// Whoever takes a hand in a run that goes on sees what comes of it.
+    pub(super) fn return_to_present(&mut self) {
+        if self.stage.phase == Phase::Running && !self.stage.is_live() {
+            self.stage.follow();
+            self.note("Back in the present: what you change, you change in the run as it is now");
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What messages change in the state of a run.
+
+use std::ops::Range;
+use std::time::Duration;
+
+use super::super::flight::{Cargo, Flight, atoms_in};
+use super::RunState;
+use crate::balance::Party;
+use crate::picture::Atom;
+use crate::time::Time;
+
+impl RunState {
+    /// The parent has placed these atoms in the picture.
+    fn placed(&mut self, atoms: &Range<Atom>) {
+        let Some(places) = self.places.get_mut(atoms.start as usize..atoms.end as usize) else { return };
+        for (atom, place) in (atoms.start..).zip(places) {
+            if !place.place() {
+                self.early_atoms.insert(atom);
+            }
+        }
+        self.touched.push(atoms.clone());
+    }
+
+    pub(super) fn sent(&mut self, id: u64, flight: Flight) {
+        if let Party::Node(from) = flight.from
+            && let Some(sender) = self.node(from)
+        {
+            match &flight.cargo {
+                Cargo::Transfer(ranges) => {
+                    let atoms = atoms_in(ranges);
+                    sender.given.add(atoms);
+                    sender.left -= i64::from(atoms);
+                }
+                Cargo::Offer { who } if *who == from => {
+                    sender.offers += 1;
+                    sender.offer_out = true;
+                }
+                Cargo::Offer { .. } => sender.hops += 1,
+                Cargo::Request => (sender.requests, sender.offer_out) = (sender.requests + 1, true),
+                Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
+            }
+        }
+        if let Cargo::Part(part) = &flight.cargo
+            && !part.is_empty()
+        {
+            self.handed_out.add(part.len() as u32);
+        }
+        if self.is_drawn(&flight) {
+            self.flights.push(flight.clone());
+        }
+        if self.early.remove(&id) {
+            let at = flight.arrives;
+            self.received(flight, at);
+        } else {
+            self.pending.insert(id, flight);
+        }
+    }
+
+    /// Results are many, and requests and parts may be: of each node only as many are drawn as can be told apart.
+    fn is_drawn(&mut self, flight: &Flight) -> bool {
+        let between = [90, 300, 450].map(Duration::from_millis);
+        let known = |party: Party| match party {
+            Party::Parent => true,
+            Party::Node(node) => usize::from(node) < self.nodes.len(),
+        };
+        if !known(flight.from) || !known(flight.to) {
+            return false;
+        }
+        let (node, kind) = match (flight.from, flight.to, &flight.cargo) {
+            (_, _, Cargo::Shutdown) => return false,
+            (Party::Node(from), _, Cargo::Results(_)) => (from, 0),
+            (Party::Node(from), _, Cargo::Request) => (from, 1),
+            (_, Party::Node(to), Cargo::Part(part)) if !part.is_empty() => (to, 2),
+            _ => return true,
+        };
+        let last = &mut self.nodes[usize::from(node)].last_drawn[kind];
+        let drawn = last.is_none_or(|last| flight.sent >= last + between[kind]);
+        if drawn {
+            *last = Some(flight.sent);
+        }
+        drawn
+    }
+
+    pub(super) fn received(&mut self, flight: Flight, at: Time) {
+        let to = match (flight.to, &flight.cargo) {
+            (Party::Parent, Cargo::Results(ranges)) => {
+                self.arrived.pixels += ranges.iter().map(|range| self.division.pixels_in(range)).sum::<u32>();
+                ranges.iter().for_each(|range| self.placed(range));
+                return;
+            }
+            (Party::Parent, _) => return,
+            (Party::Node(to), _) => to,
+        };
+        let Some(state) = self.node(to) else { return };
+        let ranges = match flight.cargo {
+            Cargo::Band(band) => {
+                state.band_at = Some(at);
+                vec![band]
+            }
+            Cargo::Part(part) => {
+                state.offer_out = false;
+                if !part.is_empty() {
+                    state.got.add(part.len() as u32);
+                }
+                vec![part]
+            }
+            Cargo::Transfer(ranges) => {
+                state.offer_out = false;
+                state.got.add(atoms_in(&ranges));
+                ranges
+            }
+            Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => return,
+        };
+        state.give(atoms_in(&ranges), at);
+        for range in ranges {
+            if let Some(places) = self.places.get_mut(range.start as usize..range.end as usize) {
+                places.iter_mut().for_each(|place| place.arrive(to, flight.arrives));
+                self.touched.push(range);
+            }
+        }
+    }
+}

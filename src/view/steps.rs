@@ -1,0 +1,214 @@
+//! Steps through a run's records, and what is worth jumping to.
+
+use super::flight::atoms_in;
+use super::words::{atoms_words, count, counted, duration, node_name};
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::record::{Record, What};
+use crate::runlog::RunLog;
+use crate::time::Time;
+
+/// By what one steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a hand.
+    Event,
+    /// An atom is traced.
+    Atom,
+    /// A machine sends an offer of its own: from there it runs round the ring.
+    Lap,
+}
+
+impl Step {
+    /// Every step, the smallest last.
+    pub const ALL: [Self; 3] = [Self::Lap, Self::Event, Self::Atom];
+
+    /// What one steps by, in a word or two.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Event => "event",
+            Self::Atom => "atom",
+            Self::Lap => "lap",
+        }
+    }
+
+    fn ends_at(self, what: &What) -> bool {
+        match (self, what) {
+            (Self::Atom, What::AtomDone { .. }) => true,
+            (Self::Lap, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. }) => from == who,
+            (
+                Self::Event,
+                What::Sent { message: Message::Results(_), .. } | What::Received { by: Party::Parent, .. },
+            ) => false,
+            (Self::Event, What::AtomStarted { .. } | What::AtomDone { .. }) => false,
+            (Self::Event, _) => true,
+            (Self::Atom | Self::Lap, _) => false,
+        }
+    }
+}
+
+/// Whoever has seen the first `records` records of `log` and makes a step has then seen so many; `None` if there is no
+/// such step. The first step back from the first event is the beginning.
+pub fn step(log: &RunLog, records: usize, by: Step, forward: bool) -> Option<usize> {
+    let is_end = |record: &Record| by.ends_at(&record.what);
+    let (before, after) = log.records().split_at(records.min(log.records().len()));
+    if forward {
+        return after.iter().position(is_end).map(|further| before.len() + further + 1);
+    }
+    let (_, before) = before.split_last()?;
+    Some(before.iter().rposition(is_end).map_or(0, |last| last + 1))
+}
+
+/// Something that is worth jumping to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Landmark {
+    /// What it is, and what is to be said of it.
+    pub words: String,
+    /// How many records lie before it, its own included.
+    pub records: usize,
+    /// When it is.
+    pub at: Time,
+    /// What it is about.
+    pub about: About,
+}
+
+/// What something is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// A machine.
+    Node(NodeId),
+    /// An atom.
+    Atom(Atom),
+    /// A message, by its name in the run.
+    Message(u64),
+}
+
+/// What of a run is worth jumping to, in the order in which one would ask.
+pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
+    let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
+    let mut hand = None;
+    for (index, record) in log.records().iter().enumerate() {
+        let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
+        match &record.what {
+            What::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
+                let words = || format!("The first offer: {} has finished", node_name(*who));
+                offer.get_or_insert_with(|| mark(words(), About::Message(*id)));
+            }
+            What::Sent {
+                id, from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            } => {
+                let atoms = atoms_in(ranges);
+                let words = || format!("{} from {} to {}", atoms_words(atoms), node_name(*from), node_name(*to));
+                transfer.get_or_insert_with(|| mark(format!("The first transfer: {}", words()), About::Message(*id)));
+                if biggest.as_ref().is_none_or(|(most, _)| atoms > *most) {
+                    biggest = Some((atoms, mark(format!("The biggest transfer: {}", words()), About::Message(*id))));
+                }
+            }
+            What::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
+                let by = node_name(*node);
+                let name = count(atom.saturating_add(1));
+                let words = format!("The costliest atom: {name}, {} of {by}'s time", duration(*cost));
+                dearest = Some((*cost, mark(words, About::Atom(*atom))));
+            }
+            What::Retired { node } => {
+                let words = || format!("The first to retire: {}", node_name(*node));
+                retired.get_or_insert_with(|| mark(words(), About::Node(*node)));
+            }
+            What::SpeedSet { node, .. } | What::Paused { node } => {
+                let words = || format!("The first hand on a machine: {}", node_name(*node));
+                hand.get_or_insert_with(|| mark(words(), About::Node(*node)));
+            }
+            _ => {}
+        }
+    }
+    // Said once, if they are the same.
+    let transfer =
+        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
+    let slowest = slowest(log);
+    let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
+    [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
+}
+
+/// The machine that traced the fewest atoms in the time in which it had any; its place is the end, where that is seen.
+fn slowest(log: &RunLog) -> Option<Landmark> {
+    let nodes = log.header.speeds.len();
+    let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
+    for record in log.records() {
+        match record.what {
+            What::AtomStarted { node, .. } if usize::from(node) < nodes => {
+                started[usize::from(node)] = Some(record.at);
+            }
+            What::AtomDone { node, .. } if usize::from(node) < nodes => {
+                let node = usize::from(node);
+                atoms[node] += 1;
+                busy[node] += started[node].take().map_or(0.0, |since| record.at.since(since).as_secs_f64());
+            }
+            _ => {}
+        }
+    }
+    let rate = |node: &usize| f64::from(atoms[*node]) / busy[*node];
+    let slowest = (0..nodes).filter(|&node| busy[node] > 0.0).min_by(|one, other| rate(one).total_cmp(&rate(other)))?;
+    let node = slowest as NodeId;
+    let words = format!("The slowest machine: {}, {}", node_name(node), counted(atoms[slowest], "atom"));
+    let (records, at) = (log.records().len(), log.records().last()?.at);
+    (nodes > 1).then_some(Landmark { words, records, at, about: About::Node(node) })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::sample;
+    use super::*;
+
+    fn run(speeds: &[f64], atoms: u32) -> RunLog {
+        let header = sample::header(speeds, atoms);
+        let mut log = RunLog::new(header.clone());
+        log.add(sample::records(&header));
+        log
+    }
+
+    proptest! {
+        #[test]
+        fn steps_back_are_the_steps_forward(speeds in prop::collection::vec(0.1..1.0f64, 1..5), atoms in 1..200u32) {
+            let log = run(&speeds, atoms);
+            for by in Step::ALL {
+                let mut places = vec![0];
+                while let Some(next) = step(&log, places[places.len() - 1], by, true) {
+                    prop_assert!(by.ends_at(&log.records()[next - 1].what));
+                    places.push(next);
+                }
+                let mut back = vec![places[places.len() - 1]];
+                while let Some(next) = step(&log, back[back.len() - 1], by, false) {
+                    back.push(next);
+                }
+                back.reverse();
+                prop_assert_eq!(places, back);
+            }
+        }
+    }
+
+    #[test]
+    fn every_atom_is_a_step() {
+        let log = run(&[1.0, 0.3], 57);
+        let ends = |by: Step| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
+        assert_eq!(ends(Step::Atom), 57);
+        assert!(ends(Step::Lap) >= 2 && ends(Step::Event) > ends(Step::Lap));
+    }
+
+    #[test]
+    fn what_one_asks_for_is_found() {
+        let mut log = run(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
+        // There the last atoms keep everybody busy.
+        log.add(vec![Record { at: Time::from_secs(9e3), what: What::Retired { node: 0 } }]);
+        let found = landmarks(&log);
+        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
+        assert!(matches!(says("The first offer: "), Some(About::Message(_))));
+        assert!(matches!(says("The biggest transfer: "), Some(About::Message(_))));
+        assert!(matches!(says("The first to retire: "), Some(About::Node(0))));
+        assert_eq!(says("The slowest machine: 5, "), Some(About::Node(4)));
+        assert!(matches!(says("The costliest atom: "), Some(About::Atom(_))));
+        assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
+        assert_eq!(landmarks(&RunLog::new(log.header)), []);
+    }
+}

@@ -1,0 +1,261 @@
+//! The run's time in the user's hand: back, on, slower, faster, and back to what happens now.
+
+use anel::balance::{Message, Party};
+use anel::gui::Phase;
+use anel::record::What;
+use anel::time::Time;
+use anel::view::{About, Moment};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+/// A window with a run that is over.
+fn finished() -> Window {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Full speed");
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    press(&mut window, "Set up");
+    window
+}
+
+/// Drags the line of the run's time to a share of its length, and lets go.
+fn scrub(window: &mut Window, to: f32) {
+    let rect = window.get_by_role_and_label(Role::Slider, "The run's time").rect();
+    let at = |share: f32| egui::pos2(rect.left() + 8.0 + (rect.width() - 16.0) * share, rect.center().y);
+    window.drag_at(at(0.5));
+    window.step();
+    window.hover_at(at(to));
+    window.step();
+    window.drop_at(at(to));
+    window.run_steps(3);
+}
+
+fn shift(window: &mut Window, key: Key) {
+    window.key_press_modifiers(Modifiers::SHIFT, key);
+    window.run_steps(3);
+}
+
+/// All that is shown of the run, apart from its picture.
+fn seen(window: &Window) -> String {
+    let stage = session(window).stage();
+    let (state, at) = (stage.state(), stage.state().head());
+    format!(
+        "{} {:?} {:?} {}",
+        stage.records_shown(),
+        state.nodes(),
+        state.places(),
+        stage.narrator().sentence(state, at)
+    )
+}
+
+#[test]
+fn a_run_that_goes_on_is_rewound_and_caught_up_with() {
+    let mut window = open(SIZE);
+    until(&mut window, "many atoms", |window| done(window) > 600);
+    scrub(&mut window, 0.3);
+    let stage = session(&window).stage();
+    assert!(!stage.is_live() && stage.phase == Phase::Running && !stage.paused);
+    let (then, before) = (stage.latest().done(), stage.state().done());
+    assert!(before < then, "{before} {then}");
+    // Here frames follow each other faster than they say: slowly, so that what is shown stays behind.
+    for _ in 0..4 {
+        key(&mut window, Key::Comma);
+    }
+    until(&mut window, "more atoms", |window| {
+        let stage = session(window).stage();
+        stage.latest().done() > then + 20 && stage.state().done() > before
+    });
+    assert!(!session(&window).stage().is_live());
+    press(&mut window, "Live");
+    let stage = session(&window).stage();
+    assert!(stage.is_live() && stage.state().done() == stage.latest().done());
+}
+
+#[test]
+fn a_hand_on_a_machine_brings_one_back_to_the_present() {
+    let mut window = open(SIZE);
+    until(&mut window, "many atoms", |window| done(window) > 400);
+    scrub(&mut window, 0.2);
+    drag(&mut window, "Speed of node 1", 0.0);
+    assert!(session(&window).stage().is_live() && notice(&window).starts_with("Back in the present"));
+    until(&mut window, "a record", |window| speeds_set(window) == [(0, 0.0)]);
+}
+
+#[test]
+fn going_to_a_time_and_playing_up_to_it_show_the_same() {
+    let mut window = finished();
+    scrub(&mut window, 0.2);
+    // As far as it is played by itself.
+    until(&mut window, "some time", |window| session(window).stage().state().done() > 3_000);
+    key(&mut window, Key::Space);
+    let (records, played) = (session(&window).stage().records_shown(), seen(&window));
+    let log = &session(&window).stage().log;
+    let mut told = Moment::new(&log.header);
+    log.records()[..records].iter().for_each(|record| told.apply(record));
+    let state = &told.state;
+    let expected =
+        format!("{records} {:?} {:?} {}", state.nodes(), state.places(), told.narrator.sentence(state, state.head()));
+    assert_eq!(played, expected);
+    let now = session(&window).now();
+    key(&mut window, Key::End);
+    key(&mut window, Key::Home);
+    assert_eq!((session(&window).now().0, done(&window)), (0, 0));
+    window.state_mut().seek(now);
+    window.step();
+    assert_eq!(seen(&window), played);
+}
+
+#[test]
+fn steps_go_from_event_to_event_and_back() {
+    let mut window = finished();
+    key(&mut window, Key::Home);
+    let is_of_an_atom = |window: &Window| {
+        let records = session(window).stage().records_shown();
+        matches!(session(window).stage().log.records()[records - 1].what, What::AtomDone { .. })
+    };
+    shift(&mut window, Key::ArrowRight);
+    shift(&mut window, Key::ArrowRight);
+    assert!(is_of_an_atom(&window) && done(&window) == 2);
+    shift(&mut window, Key::ArrowLeft);
+    assert!(is_of_an_atom(&window) && done(&window) == 1);
+    ctrl(&mut window, Key::ArrowRight);
+    let records = session(&window).stage().records_shown();
+    let offer = session(&window).stage().log.records()[records - 1].clone();
+    assert!(
+        matches!(offer.what, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who),
+        "{offer:?}"
+    );
+    window.get_by_label_contains("and offers help round the ring");
+    key(&mut window, Key::ArrowRight);
+    key(&mut window, Key::ArrowLeft);
+    assert_eq!(session(&window).stage().records_shown(), records);
+    key(&mut window, Key::Home);
+    press(&mut window, "Step back");
+    assert_eq!(notice(&window), "There is no earlier event");
+}
+
+#[test]
+fn what_is_worth_it_is_found_and_stands_still_there() {
+    let mut window = finished();
+    key(&mut window, Key::F);
+    window.run_steps(2);
+    let name = "The biggest transfer: ";
+    let biggest = window.get_by_label_contains(name).rect().center();
+    window.drag_at(biggest);
+    window.step();
+    window.drop_at(biggest);
+    window.run_steps(4);
+    assert!(matches!(window.state().focus(), Some(About::Message(_))), "{:?}", window.state().focus());
+    let said = window.get_by_label("Selected").value().unwrap_or_default();
+    assert!(said.contains(" had traced ") && said.contains(" that waited with machine "), "{said}");
+    let then = session(&window).now();
+    window.run_steps(5);
+    assert_eq!(session(&window).now(), then);
+    // And Esc lets go of it.
+    key(&mut window, Key::Escape);
+    assert_eq!(window.state().focus(), None);
+}
+
+#[test]
+fn time_goes_slower_and_faster() {
+    let mut window = finished();
+    for _ in 0..6 {
+        key(&mut window, Key::Comma);
+    }
+    window.get_by_label("100 × slower");
+    key(&mut window, Key::Space);
+    let passes = |window: &mut Window| {
+        let before = now(window);
+        window.run_steps(4);
+        now(window) - before
+    };
+    let usual = passes(&mut window);
+    for _ in 0..3 {
+        key(&mut window, Key::Comma);
+    }
+    window.get_by_label("1\u{a0}000 × slower");
+    let slow = passes(&mut window);
+    assert!(usual > 8 * slow && slow > 0, "{usual} {slow}");
+    for _ in 0..30 {
+        window.key_press(Key::Period);
+        window.step();
+    }
+    window.run_steps(3);
+    assert!(session(&window).stage().shows_end(), "as fast as it can is at once");
+}
+
+#[test]
+fn virtual_time_itself_goes_as_fast_as_it_can() {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Virtual");
+    type_number(&mut window, "Seconds of the run", "300");
+    for _ in 0..30 {
+        window.key_press(Key::Period);
+        window.step();
+    }
+    // Five minutes would be too long to wait.
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    assert!(session(&window).stage().length().secs() > 100.0);
+}
+
+#[test]
+fn the_timeline_shows_who_did_what_and_goes_there() {
+    let mut window = finished();
+    key(&mut window, Key::T);
+    let said = window.get_by_label("Timeline").value().unwrap_or_default();
+    assert!(said.contains(" of the machines' time used") && said.contains(" messages, "), "{said}");
+    let stage = session(&window).stage();
+    let bars = stage.lanes().lanes()[2].bars();
+    let longest = bars.iter().max_by_key(|bar| bar.to.since(bar.from)).copied().expect("an atom");
+    let middle = Time(longest.from.0 / 2 + longest.to.0 / 2);
+    let share = middle.0 as f32 / stage.length().0 as f32;
+    window.state_mut().seek(middle);
+    for _ in 0..9 {
+        ctrl(&mut window, Key::ArrowUp);
+    }
+    let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of 3").rect());
+    // Zoomed about the shown time, which stays where it is.
+    let at = egui::pos2(timeline.left() + timeline.width() * share, lane.center().y);
+    window.drag_at(at);
+    window.step();
+    window.drop_at(at);
+    window.run_steps(3);
+    assert_eq!(window.state().focus(), Some(About::Atom(longest.atom)));
+    let said = window.get_by_label("Selected").value().unwrap_or_default();
+    assert!(said.starts_with(&format!("Atom {}", anel::view::count(longest.atom + 1))), "{said}");
+    assert!(!session(&window).stage().is_live() && !session(&window).stage().goes_on());
+    key(&mut window, Key::T);
+    window.get_by_label("Node 1");
+}
+
+#[test]
+fn a_time_that_stands_draws_nothing() {
+    let mut window = finished();
+    scrub(&mut window, 0.4);
+    key(&mut window, Key::Space);
+    until(&mut window, "rest", |window| rests(window) > std::time::Duration::from_secs(1));
+}
+
+#[test]
+fn the_camera_is_moved_and_comes_back() {
+    let mut window = open(SIZE);
+    let eye = |window: &Window| session(window).prepared().expect("a scene").opened.scene.camera.eye;
+    let (home, begun) = (eye(&window), session(&window).runs_begun());
+    key(&mut window, Key::C);
+    key(&mut window, Key::ArrowRight);
+    assert!(session(&window).is_moving());
+    until(&mut window, "a picture from there", |window| session(window).moved().is_some());
+    until(&mut window, "a run from there", |window| session(window).runs_begun() == begun + 1);
+    assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_moving());
+    // What is saved of it says so.
+    let text = &session(&window).header().scene_text;
+    assert_eq!(anel::scene::Scene::parse(text).expect("a scene").camera.eye, eye(&window));
+    press(&mut window, "Camera back");
+    until(&mut window, "the first camera", |window| session(window).runs_begun() == begun + 2);
+    assert_eq!(eye(&window), home);
+    assert!(window.query_by_label("Camera back").is_none());
+}
