@@ -111,7 +111,11 @@ pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|times| times * power).find(|&step| step >= least);
     let step = step.unwrap_or(10.0 * power).max(1.0) as u64;
     let first = window.from().0.div_ceil(step);
-    let times = (first..).map(|i| Time(i * step)).take_while(|&time| time <= window.to()).take(64).collect();
+    let times = (first..)
+        .map_while(|i| i.checked_mul(step).map(Time))
+        .take_while(|&time| time <= window.to())
+        .take(64)
+        .collect();
     (times, (step as f64 * 1e-9 * 10.0).min(1.0))
 }
 

@@ -13,8 +13,9 @@ use anel::sim::Sim;
 use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
-    Layer, Narrator, Outcome, Overlay, RunState, atom_words, flight_words, node_words, parent_words, parts_words,
-    picture_pixels, result_words, ring, rows, shares, small_print,
+    Dossier, Known, LanePlan, Layer, Moment, Narrator, Outcome, Overlay, Past, RunState, Step, TimeWindow, atom_words,
+    axis, flight_words, landmarks, node_words, parent_words, parts_words, picture_pixels, record_words, result_words,
+    ring, rows, shares, small_print, step, time_words, timeline, timeline_at,
 };
 
 use super::assert_sentence;
@@ -33,6 +34,7 @@ pub fn show(file: &Path) -> bool {
     };
     let outcome = tally(&log);
     view(&log, outcome);
+    go_through(&log);
     if log.header.division.atoms() <= LARGE {
         simulate(&log);
         retrace(log);
@@ -70,6 +72,48 @@ fn view(log: &RunLog, outcome: Option<Outcome>) {
         let pixels = picture_pixels(&frame, &state, &colours, (Layer::Costs, 0.5));
         assert_eq!(pixels.len(), 3 * log.header.size.pixels() as usize);
     }
+}
+
+/// Goes to and fro in its time, looks at its timeline from near and far, and asks for what there is to know.
+fn go_through(log: &RunLog) {
+    let known = Known::of(log);
+    let (mut past, mut moment) = (Past::default(), Moment::new(&log.header));
+    let records = log.records().len();
+    let mut said = String::new();
+    for there in [records / 2, records, records / 3, 0] {
+        past.go(log, there, &mut moment);
+        assert_eq!(moment.records(), there);
+        for by in Step::ALL {
+            for forward in [true, false] {
+                let to = step(log, there, by, forward);
+                assert!(to.is_none_or(|to| to <= records && (to > there) == forward));
+                said += &to
+                    .and_then(|to| to.checked_sub(1))
+                    .map_or(String::new(), |last| record_words(&log.records()[last], &moment.state));
+            }
+        }
+    }
+    for mark in landmarks(log) {
+        let dossier = Dossier::of(mark.about, log, &known.lanes, &mut past);
+        said += &format!("{:?}{:?}", dossier.words(&moment.state, mark.at, 0.1), dossier.lit(&moment.state));
+    }
+    let end = log.records().last().map_or(Time::ZERO, |last| last.at);
+    said += &format!("{:?}", known.lanes.usage(end));
+    let plan = LanePlan::new(log.header.speeds.len(), 300.0, 200.0);
+    let mut window = TimeWindow::default();
+    window.fit(end);
+    for _ in 0..3 {
+        let drawn = timeline(&known.lanes, &window, &plan, end);
+        assert!(drawn.quads.iter().all(|quad| quad.place.iter().all(|side| side.is_finite())));
+        let (times, rate) = axis(&window, 300.0);
+        said += &times.into_iter().map(|time| time_words(time, rate)).collect::<String>();
+        for y in [0.0, 60.0, 150.0] {
+            said += &format!("{:?}", timeline_at(&known.lanes, &window, &plan, [120.0, y]));
+        }
+        window.zoom(0.4, 0.01);
+        window.fit(end);
+    }
+    assert!(!said.contains("NaN") && !said.contains("inf"), "{said}");
 }
 
 fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Outcome>, now: Time) {
