@@ -79,7 +79,8 @@ pub fn contrast(one: Rgb, other: Rgb) -> f32 {
 /// `share` of the way from `from` to `to`, in sRGB as screens blend.
 pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
     let share = share.clamp(0.0, 1.0);
-    std::array::from_fn(|i| (f32::from(from[i]) + (f32::from(to[i]) - f32::from(from[i])) * share).round() as u8)
+    // None is negative, so that this rounds to nearest, and needs no call for each of a picture's pixels.
+    std::array::from_fn(|i| (f32::from(from[i]) + (f32::from(to[i]) - f32::from(from[i])) * share + 0.5) as u8)
 }
 
 /// Relative luminance, 0 to 1.

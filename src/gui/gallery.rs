@@ -1,6 +1,6 @@
 //! Scenes to choose from, as small pictures; and a path, a dialog, or a file dropped on the window for all others.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::{Align2, Color32, ColorImage, Label, Rect, RichText, ScrollArea, Sense, StrokeKind};
 use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
@@ -138,8 +138,18 @@ impl Gallery {
                 self.open = false;
             }
         });
-        let text = "Or drop a file on the window.";
-        ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
+        ui.horizontal(|ui| {
+            let text = "Or drop a file on the window.";
+            ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
+            let last =
+                session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
+            if let Some(last) = last
+                && button(ui, None, "Open the run saved last", true, Weight::Quiet).on_hover_text(&last).clicked()
+            {
+                self.open = false;
+                session.open(&last);
+            }
+        });
     }
 
     fn tiles(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
@@ -202,6 +212,6 @@ impl Gallery {
 
 /// A scene's name, without directories and ending.
 fn name_of(scene: &str) -> String {
-    let stem = std::path::Path::new(scene).file_stem();
+    let stem = Path::new(scene).file_stem();
     stem.map_or_else(|| scene.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

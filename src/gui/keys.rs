@@ -28,6 +28,8 @@ pub enum Command {
     Zoom(bool),
     /// Into a file.
     Save,
+    /// The run into a file.
+    SaveRun,
     /// The scenes, and what else can be opened.
     Scenes,
     /// Speed against accuracy.
@@ -142,6 +144,11 @@ pub const TABLE: &[Line] = &[
         shown: "S",
         what: "Save a picture, or the run",
         keys: &[(NONE, Key::S, Command::Save), (CTRL, Key::S, Command::Save)],
+    },
+    Line {
+        shown: "Ctrl Shift S",
+        what: "Save the run; then Enter",
+        keys: &[(CTRL.plus(SHIFT), Key::S, Command::SaveRun)],
     },
     Line {
         shown: "O",

@@ -337,11 +337,13 @@ fn texture_of(ui: &Ui, moved: &Moved) -> Option<TextureHandle> {
 /// Some rows of the texture, each `step`th of the picture's, and of those each `step`th pixel.
 fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
     let width = canvas.size().width();
-    let pixels: Vec<_> = rows
-        .clone()
-        .flat_map(|row| canvas.rows(row * step..row * step + 1).iter().step_by(step as usize))
-        .map(|&pixel| theme::colour(pixel))
-        .collect();
+    let pixels: Vec<_> = if step == 1 {
+        // The usual case, at once for all rows: there are many pixels, and frames.
+        canvas.rows(rows.clone()).iter().map(|&pixel| theme::colour(pixel)).collect()
+    } else {
+        let every = rows.clone().flat_map(|row| canvas.rows(row * step..row * step + 1).iter().step_by(step as usize));
+        every.map(|&pixel| theme::colour(pixel)).collect()
+    };
     let size = [width.div_ceil(step) as usize, rows.len()];
     (!pixels.is_empty()).then(|| ColorImage::new(size, pixels))
 }

@@ -58,6 +58,12 @@ impl SaveBar {
         self.suggest(session);
     }
 
+    /// Opens the bar for the run.
+    pub fn open_for_run(&mut self, session: &Session) {
+        *self = Self { open: true, wants_focus: true, kind: Kind::Run, ..Self::default() };
+        self.suggest(session);
+    }
+
     /// Closes it.
     pub fn close(&mut self) {
         self.open = false;

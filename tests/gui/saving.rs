@@ -47,6 +47,24 @@ fn save_writes_the_render_and_says_where() {
 }
 
 #[test]
+fn a_run_is_saved_with_two_keys_and_opened_with_two_more() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = open(SIZE);
+    until(&mut window, "some atoms", |window| done(window) > 20);
+    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::S);
+    window.run_steps(3);
+    type_path(&mut window, "Where to save", &path);
+    key(&mut window, Key::Enter);
+    until(&mut window, "a file", |_| path.is_file());
+    until(&mut window, "that it is said", |window| notice(window).contains("run.anel"));
+    key(&mut window, Key::O);
+    press(&mut window, "Open the run saved last");
+    until(&mut window, "the run", |window| session(window).is_recorded());
+    assert_eq!(session(&window).header().scene, "ten-objects");
+}
+
+#[test]
 fn owners_and_blend_are_other_pictures_under_other_names() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);

@@ -25,6 +25,7 @@ impl App {
                 self.timeline.zoom(if nearer { 0.5 } else { 2.0 }, self.session.stage().lasted());
             }
             Command::Save => self.save_bar.toggle(session),
+            Command::SaveRun => self.save_bar.open_for_run(session),
             Command::Scenes => {
                 self.accuracy.close(session);
                 self.gallery.toggle(session);

@@ -76,6 +76,7 @@ impl Session {
     /// Writes the run, as far as it is, in the background.
     pub fn save_run(&mut self, path: PathBuf) {
         self.note(format!("Saving {} …", path.display()));
+        self.remember(path.to_string_lossy().into_owned());
         self.jobs.save_run(path, self.stage.log.clone());
     }
 
