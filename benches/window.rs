@@ -152,37 +152,37 @@ fn running(what: &str, settings: &str, shows_timeline: bool) {
     tell(what, times);
 }
 
-/// Paced runs one after the other for so many seconds; each is scrubbed through before the next begins.
+/// Paced runs one after the other for so many seconds, gone through to and fro before the next begins; needs xdotool too.
 #[expect(clippy::disallowed_methods, reason = "for how long one waits")]
 fn memory(seconds: u64) {
-    let opening = Opening::read("ten-objects").expect("a built-in scene");
-    let mut window = harness("(settings: (tempo: Lasts(5)))", opening);
+    let display = Display::open().expect("Xvfb");
+    let directory = TempDir::new().expect("a temporary directory");
+    let settings = r#"(settings: (tempo: Lasts(5)), scene: Some("ten-objects"))"#;
+    let window = Window::open_with(&display, directory.path(), None, settings);
+    let press = |keys: &[&str]| {
+        let mut xdotool = Command::new("xdotool");
+        xdotool.env("DISPLAY", &display.name).args([
+            "search",
+            "--name",
+            "anel",
+            "windowfocus",
+            "key",
+            "--delay",
+            "100",
+        ]);
+        let _ = xdotool.args(keys).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    };
     let began = std::time::Instant::now();
     let (mut runs, mut next) = (0, 0);
     while began.elapsed().as_secs() < seconds {
-        sleep(Duration::from_millis(33));
-        window.step();
-        if window.state().session().stage().phase == Phase::Finished {
-            let length = window.state().session().stage().length();
-            for i in 0..50 {
-                window.state_mut().seek(Time(length.0 / 50 * i));
-                window.step();
-            }
-            window.key_press(Key::R);
-            window.run_steps(3);
-            runs += 1;
-        }
+        sleep(Duration::from_secs(6));
+        press(&["Home", "ctrl+Right", "ctrl+Right", "shift+Right", "t", "End", "ctrl+Left", "v", "t", "r"]);
+        runs += 1;
         if began.elapsed().as_secs() >= next {
             next += (seconds / 20).max(1);
-            let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-            let of =
-                |name: &str| status.lines().find_map(|line| line.strip_prefix(name)).unwrap_or("?").trim().to_owned();
-            println!(
-                "{:5} s, {runs} runs: {} in memory, {} threads",
-                began.elapsed().as_secs(),
-                of("VmRSS:"),
-                of("Threads:")
-            );
+            let status = fs::read_to_string(format!("/proc/{}/status", window.0.id())).unwrap_or_default();
+            let of = |name: &str| status.lines().find_map(|line| line.strip_prefix(name)).unwrap_or("?").trim();
+            println!("{:5} s, {runs} runs: {} in memory", began.elapsed().as_secs(), of("VmRSS:"));
         }
     }
 }
@@ -332,9 +332,14 @@ struct Window(Child);
 
 impl Window {
     fn open(display: &Display, home: &Path, log: Option<&Path>) -> Self {
+        Self::open_with(display, home, log, SETTINGS)
+    }
+
+    /// A window that remembers these settings.
+    fn open_with(display: &Display, home: &Path, log: Option<&Path>, settings: &str) -> Self {
         let remembered = home.join("anel");
         fs::create_dir_all(&remembered).expect("a directory");
-        let quoted = format!("{{\"anel\": {SETTINGS:?}}}");
+        let quoted = format!("{{\"anel\": {settings:?}}}");
         fs::write(remembered.join("app.ron"), quoted).expect("a file");
         let mut command = Command::new(env!("CARGO_BIN_EXE_anel"));
         command.env("DISPLAY", &display.name).env("HOME", home).env("XDG_DATA_HOME", home);
