@@ -78,6 +78,10 @@ fn a_run_that_goes_on_is_rewound_and_caught_up_with() {
 fn a_hand_on_a_machine_brings_one_back_to_the_present() {
     let mut window = open(SIZE);
     until(&mut window, "many atoms", |window| done(window) > 400);
+    // Slowly, so that what is shown stays behind.
+    for _ in 0..4 {
+        key(&mut window, Key::Comma);
+    }
     scrub(&mut window, 0.2);
     drag(&mut window, "Speed of node 1", 0.0);
     assert!(session(&window).stage().is_live() && notice(&window).starts_with("Back in the present"));
