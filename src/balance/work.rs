@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::message::{Action, Message, Party};
 use super::queue::Queue;
-use crate::picture::Atom;
+use crate::picture::{Atom, push_atom};
 use crate::time::Time;
 
 /// How many atoms the worker's pipe holds while there are any, the one being traced included: two, so that neither
@@ -67,10 +67,7 @@ impl Work {
         {
             actions.push(Action::SetTimer(now + batch));
         }
-        match self.unsent.last_mut() {
-            Some(last) if last.end == atom => last.end += 1,
-            _ => self.unsent.push(atom..atom + 1),
-        }
+        push_atom(&mut self.unsent, atom);
     }
 
     /// Sends the parent what is traced and unsent, if there is any.

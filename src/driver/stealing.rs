@@ -24,7 +24,7 @@ use super::shared::{Inboxes, Parcel, Shared};
 use super::supervisor::Threads;
 use super::worker::{Duties, Worker};
 use crate::balance::{Event, Message, NodeId, Party, Rules, Strategy};
-use crate::picture::Atom;
+use crate::picture::{Atom, push_atom};
 use crate::runlog::{Header, Link};
 use crate::time::Time;
 
@@ -189,10 +189,7 @@ impl Duties for Thief {
         if self.unsent.is_empty() {
             worker.port.set_timer(worker.port.time() + Rules::BATCH);
         }
-        match self.unsent.last_mut() {
-            Some(last) if last.end == atom => last.end += 1,
-            _ => self.unsent.push(atom..atom + 1),
-        }
+        push_atom(&mut self.unsent, atom);
     }
 
     fn is_over(&self) -> bool {

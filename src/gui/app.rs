@@ -112,7 +112,7 @@ impl App {
 
     /// Shows another moment, for tests.
     pub fn seek(&mut self, time: Time) {
-        self.session.look_at(time);
+        self.session.stage_mut().seek(time, true);
     }
 
     /// What is selected, for tests.
@@ -180,16 +180,9 @@ impl App {
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(words_panel::height(ui) + 18.0);
         words.show(ui, |ui| words_panel::show(ui, &self.session, about));
         let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
-        if let Some((command, mark)) =
-            time.show(ui, |ui| self.time.show(ui, &mut self.session, self.shows_timeline)).inner
-        {
-            if let Some(command) = command {
-                self.obey(command, ui.ctx());
-            }
-            if let Some(mark) = mark {
-                self.session.look_after(mark.records);
-                self.focus.selected = Some(mark.about);
-            }
+        let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
+        if let Some(command) = time.show(ui, row).inner {
+            self.obey(command, ui.ctx());
         }
         self.heroes(ui);
     }

@@ -3,7 +3,7 @@
 use egui::{Context, Key, Modifiers};
 
 use crate::balance::NodeId;
-use crate::view::Step;
+use crate::view::{About, Step};
 
 /// What can be asked for, by a key or by a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub enum Command {
     Beginning,
     /// What is worth jumping to.
     Find,
+    /// The moment after so many records, and what it is about.
+    Jump(usize, About),
     /// The timeline in the machines' place, or these again.
     Timeline,
     /// Less of the timeline (`true`), from nearer, or more.

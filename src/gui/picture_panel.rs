@@ -15,7 +15,7 @@ use super::session::{Moved, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::picture::Atom;
-use crate::view::{About, Canvas, Layer, Lit, atom_words, outlines, percent, ramp};
+use crate::view::{About, Canvas, Layer, Lit, atom_words, outlines, percent};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
@@ -268,7 +268,7 @@ impl PicturePanel {
             x = word(x, light) - 4.0;
             for step in (0..24).rev() {
                 let bar = Rect::from_min_max(pos2(x - 2.0, right.y - 5.0), pos2(x, right.y + 5.0));
-                let rgb = ramp(0.12 + 0.8 * f64::from(step) / 23.0);
+                let rgb = Layer::ramp(f64::from(step) / 23.0);
                 ui.painter().rect_filled(bar, 0.0, theme::colour(rgb));
                 x -= 2.0;
             }
@@ -292,8 +292,7 @@ impl PicturePanel {
     /// Goes on to the next layer; one that is not seen is.
     pub fn next_layer(&mut self) {
         if self.blend > 0.0 {
-            let next = Layer::ALL.into_iter().cycle().skip_while(|layer| *layer != self.layer).nth(1);
-            self.layer = next.unwrap_or_default();
+            self.layer = widgets::next_of(&Layer::ALL, self.layer);
         } else {
             self.blend = 70.0;
         }

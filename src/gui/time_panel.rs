@@ -11,7 +11,7 @@ use super::icons::Icon;
 use super::keys::Command;
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, named_button};
+use super::widgets::{Weight, button, named_button, next_of};
 use crate::time::Time;
 use crate::view::{Landmark, Sign, SignKind, Step, landmarks, rate_of_time_words, short_rate_words, time_words};
 
@@ -46,15 +46,9 @@ impl TimePanel {
     }
 
     /// Shows the panel and returns what was pressed.
-    pub fn show(
-        &mut self,
-        ui: &mut Ui,
-        session: &mut Session,
-        shows_timeline: bool,
-    ) -> Option<(Option<Command>, Option<Landmark>)> {
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shows_timeline: bool) -> Option<Command> {
         let look = Look::of(ui.ctx());
         let mut pressed = None;
-        let mut chosen = None;
         ui.horizontal(|ui| {
             ui.set_height(HEIGHT);
             ui.spacing_mut().item_spacing.x = GRID / 2.0;
@@ -66,7 +60,7 @@ impl TimePanel {
             });
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
-                chosen = self.find(ui, session, look);
+                pressed = pressed.or(self.find(ui, session, look));
                 let weight = if shows_timeline { Weight::On } else { Weight::Quiet };
                 let words = (ui.available_width() > 760.0).then_some("Timeline");
                 let timeline = named_button(ui, Some(Icon::Lanes), "Show the timeline", words, weight);
@@ -80,7 +74,7 @@ impl TimePanel {
                 line(ui, rect, response, session, look);
             });
         });
-        (pressed.is_some() || chosen.is_some()).then_some((pressed, chosen))
+        pressed
     }
 
     /// Back, by what, and on.
@@ -91,11 +85,10 @@ impl TimePanel {
         if back.on_hover_text(format!("Back by one {} ({})", step.name(), keys(step, '←'))).clicked() {
             pressed = Some(Command::Step(step, false));
         }
-        let next = Step::ALL.into_iter().cycle().skip_while(|other| *other != step).nth(1).unwrap_or(step);
         let by = named_button(ui, None, "What a step is", Some(step.name()), Weight::Quiet);
         if by.on_hover_text("Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to change").clicked()
         {
-            self.step = next;
+            self.step = next_of(&Step::ALL, step);
         }
         let on = button(ui, Some(Icon::StepOn), "Step on", false, Weight::Quiet);
         if on.on_hover_text(format!("On by one {} ({})", step.name(), keys(step, '→'))).clicked() {
@@ -105,7 +98,7 @@ impl TimePanel {
     }
 
     /// What is worth jumping to.
-    fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<Landmark> {
+    fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<Command> {
         let weight = if self.is_finding { Weight::On } else { Weight::Quiet };
         let find = button(ui, None, "Find", true, weight).on_hover_text("The first offer, the biggest transfer … (F)");
         let id = Popup::default_response_id(&find);
@@ -124,7 +117,7 @@ impl TimePanel {
             let mut chosen = None;
             for mark in &self.found {
                 if entry(ui, mark, session.stage().grain(), look).clicked() {
-                    chosen = Some(mark.clone());
+                    chosen = Some(Command::Jump(mark.records, mark.about));
                 }
             }
             if self.found.is_empty() {

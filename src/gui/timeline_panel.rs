@@ -147,7 +147,7 @@ impl TimelinePanel {
             session.let_time_go();
         } else if response.clicked() {
             focus.selected = about;
-            session.look_at(time);
+            session.stage_mut().seek(time, true);
         }
     }
 

@@ -76,6 +76,11 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&
     response
 }
 
+/// What follows `now` in `all`, after the last the first.
+pub fn next_of<T: Copy + PartialEq>(all: &[T], now: T) -> T {
+    all.iter().cycle().skip_while(|other| **other != now).nth(1).copied().unwrap_or(now)
+}
+
 /// Buttons of which one is on; returns what was pressed. Each has a value, an accessible name that is also its words, and
 /// a hint.
 pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, on: T, all: &[(T, &str, &str)]) -> Option<T> {

@@ -9,6 +9,14 @@ use super::Colour;
 /// An atom's number in scan order: the unit of work that is never divided.
 pub type Atom = u32;
 
+/// Appends an atom to ranges; it joins the last if it follows it.
+pub fn push_atom(ranges: &mut Vec<Range<Atom>>, atom: Atom) {
+    match ranges.last_mut() {
+        Some(last) if last.end == atom => last.end += 1,
+        _ => ranges.push(atom..atom + 1),
+    }
+}
+
 /// How a picture is cut into atoms: runs of `atom_pixels` pixels in scan order, of which only the last
 /// may be shorter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::Header;
 use crate::record::{Record, What};
+use crate::time::Time;
 
 /// A run's records under its header.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,11 @@ impl RunLog {
         &self.records
     }
 
+    /// How many records are not later than `time`.
+    pub fn until(&self, time: Time) -> usize {
+        self.records.partition_point(|record| record.at <= time)
+    }
+
     /// What each atom cost, in CPU time; `None` for those that are not traced.
     pub fn costs(&self) -> Vec<Option<Duration>> {
         let mut costs = vec![None; self.header.division.atoms() as usize];
@@ -44,7 +50,7 @@ impl RunLog {
     /// hand should add them together. Returns how many of the first records are the same as before.
     pub fn add(&mut self, batch: Vec<Record>) -> usize {
         let Some(first) = batch.iter().map(|record| record.at).min() else { return self.records.len() };
-        let untouched = self.records.partition_point(|record| record.at <= first);
+        let untouched = self.until(first);
         self.records.extend(batch);
         self.records[untouched..].sort_by_key(|record| record.at);
         untouched
@@ -56,7 +62,6 @@ mod tests {
     use super::super::examples::header;
     use super::*;
     use crate::balance::Party;
-    use crate::time::Time;
     use proptest::prelude::*;
 
     proptest! {

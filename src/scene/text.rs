@@ -38,24 +38,36 @@ pub(super) fn read(path: &Path) -> Result<String, String> {
     })
 }
 
+/// How long the comment or the string is that begins here, if one does.
+pub(super) fn skipped(rest: &str) -> Option<usize> {
+    if rest.starts_with("//") {
+        return Some(rest.find('\n').unwrap_or(rest.len()));
+    }
+    if rest.starts_with("/*") {
+        return Some(rest.find("*/").map_or(rest.len(), |end| end + 2));
+    }
+    let string = rest.strip_prefix('"')?;
+    let mut escaped = false;
+    for (at, c) in string.char_indices() {
+        match c {
+            '"' if !escaped => return Some(at + 2),
+            _ => escaped = c == '\\' && !escaped,
+        }
+    }
+    Some(rest.len())
+}
+
 /// Line and column, from 1, of the first string `name` outside comments.
 pub(super) fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
     let quoted = format!("\"{name}\"");
     let mut rest = text;
     while !rest.is_empty() {
-        let skipped = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("/*") {
-            rest.find("*/").map_or(rest.len(), |end| end + 2)
-        } else if rest.starts_with(&quoted) {
+        if rest.starts_with(&quoted) {
             let before = &text[..text.len() - rest.len()];
             let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
             return Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1));
-        } else if let Some(string) = rest.strip_prefix('"') {
-            string.find('"').map_or(rest.len(), |end| end + 2)
-        } else {
-            rest.chars().next().map_or(1, char::len_utf8)
-        };
+        }
+        let skipped = skipped(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
         rest = &rest[skipped..];
     }
     None

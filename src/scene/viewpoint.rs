@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::text::skipped;
 use super::{Camera, Opened};
 
 /// The line of sight keeps so many degrees from straight up and straight down, where it would flip over.
@@ -95,25 +96,6 @@ fn is_camera(text: &str, at: usize) -> bool {
     let before = text[..at].chars().next_back().is_some_and(is_word);
     let after = text[at..].strip_prefix("camera").is_some_and(|rest| rest.trim_start().starts_with(':'));
     !before && after
-}
-
-/// How long the comment or the string is that begins here, if one does.
-fn skipped(rest: &str) -> Option<usize> {
-    if rest.starts_with("//") {
-        return Some(rest.find('\n').unwrap_or(rest.len()));
-    }
-    if rest.starts_with("/*") {
-        return Some(rest.find("*/").map_or(rest.len(), |end| end + 2));
-    }
-    let string = rest.strip_prefix('"')?;
-    let mut escaped = false;
-    for (at, c) in string.char_indices() {
-        match c {
-            '"' if !escaped => return Some(at + 2),
-            _ => escaped = c == '\\' && !escaped,
-        }
-    }
-    Some(rest.len())
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::steps::About;
 use super::why::share_words;
 use super::words::{count, duration, node_name, time_words};
 use crate::balance::{NodeId, Party};
-use crate::picture::Atom;
+use crate::picture::{Atom, push_atom};
 use crate::record::What;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -79,8 +79,13 @@ impl Dossier {
     pub fn lit(&self, state: &RunState) -> Lit {
         match self.about {
             About::Node(node) => {
-                let holds = |atom: &Atom| state.places()[*atom as usize].holder() == Some(node);
-                Lit { nodes: vec![node], atoms: ranges((0..state.atoms()).filter(holds)), ..Lit::default() }
+                let mut atoms = Vec::new();
+                for (atom, place) in (0..).zip(state.places()) {
+                    if place.holder() == Some(node) {
+                        push_atom(&mut atoms, atom);
+                    }
+                }
+                Lit { nodes: vec![node], atoms, ..Lit::default() }
             }
             About::Atom(atom) => {
                 let holder = state.places().get(atom as usize).and_then(|place| place.holder());
@@ -93,11 +98,7 @@ impl Dossier {
                     Party::Node(node) => Some(node),
                     Party::Parent => None,
                 });
-                let atoms = match self.flight.as_ref().map(|flight| &flight.cargo) {
-                    Some(Cargo::Band(atoms) | Cargo::Part(atoms)) => vec![atoms.clone()],
-                    Some(Cargo::Transfer(ranges) | Cargo::Results(ranges)) => ranges.clone(),
-                    _ => Vec::new(),
-                };
+                let atoms = self.flight.as_ref().map_or_else(Vec::new, |flight| flight.cargo.ranges().to_vec());
                 Lit { nodes: nodes.collect(), atoms, message: Some(id), ..Lit::default() }
             }
         }
@@ -150,33 +151,17 @@ impl Dossier {
     }
 }
 
-/// Atoms in order as runs.
-fn ranges(atoms: impl Iterator<Item = Atom>) -> Vec<Range<Atom>> {
-    let mut ranges: Vec<Range<Atom>> = Vec::new();
-    for atom in atoms {
-        match ranges.last_mut() {
-            Some(range) if range.end == atom => range.end += 1,
-            _ => ranges.push(atom..atom + 1),
-        }
-    }
-    ranges
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::known::Known;
     use super::super::sample;
     use super::super::steps::landmarks;
     use super::*;
 
     #[test]
     fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
-        let header = sample::header(&[1.0, 1.0, 0.1], 900);
-        let (mut log, mut lanes, mut moment) = (RunLog::new(header.clone()), Lanes::new(&header), Moment::new(&header));
-        log.add(sample::records(&header));
-        for record in log.records() {
-            lanes.apply(record);
-            moment.apply(record);
-        }
+        let log = sample::log(&[1.0, 1.0, 0.1], 900);
+        let Known { latest: moment, lanes, .. } = Known::of(&log);
         let found = landmarks(&log);
         let biggest = found.iter().find(|mark| mark.words.starts_with("The biggest")).unwrap();
         let mut past = Past::default();
@@ -193,13 +178,8 @@ mod tests {
 
     #[test]
     fn an_atom_lights_up_its_bar_and_its_machine() {
-        let header = sample::header(&[1.0, 0.5], 40);
-        let (mut log, mut lanes, mut moment) = (RunLog::new(header.clone()), Lanes::new(&header), Moment::new(&header));
-        log.add(sample::records(&header));
-        for record in log.records() {
-            lanes.apply(record);
-            moment.apply(record);
-        }
+        let log = sample::log(&[1.0, 0.5], 40);
+        let Known { latest: moment, lanes, .. } = Known::of(&log);
         let dossier = Dossier::of(About::Atom(7), &log, &lanes, &mut Past::default());
         let lit = dossier.lit(&moment.state);
         assert_eq!((lit.atoms.len(), lit.bar.map(|(node, _)| vec![node])), (1, Some(lit.nodes.clone())));

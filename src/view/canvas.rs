@@ -104,13 +104,18 @@ impl Canvas {
         }
     }
 
-    /// Shows another moment: draws anew what differs.
-    pub fn show(&mut self, state: &RunState) {
-        for atom in 0..self.division.atoms() {
+    /// Draws anew what of these atoms looks different by now.
+    pub fn show(&mut self, atoms: Range<Atom>, state: &RunState) {
+        for atom in atoms {
             if self.painted[atom as usize] != self.to_paint(atom, state) {
                 self.paint(atom..atom + 1, state);
             }
         }
+    }
+
+    /// Shows another moment.
+    pub fn show_all(&mut self, state: &RunState) {
+        self.show(0..self.division.atoms(), state);
     }
 
     /// Shows the render (0), a layer (1) or something between, on `ground`. Nothing is drawn if nothing changes.
@@ -125,7 +130,7 @@ impl Canvas {
         let is_off = !(self.mean_cost / STEP..=self.mean_cost * STEP).contains(&mean);
         if layer == Layer::Costs && is_off {
             self.mean_cost = mean;
-            self.show(state);
+            self.show_all(state);
         }
         if (blend, ground) != (self.blend, self.ground) {
             (self.blend, self.ground) = (blend, ground);

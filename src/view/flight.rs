@@ -6,6 +6,7 @@
 //! that pausing or going back costs nothing.
 
 use std::ops::Range;
+use std::slice;
 use std::time::Duration;
 
 use crate::balance::{Message, NodeId, Party};
@@ -73,6 +74,11 @@ impl Flight {
         self.sent..self.arrives.max(self.sent + self.cargo.shortest().mul_f64(self.rate))
     }
 
+    /// When the last of its trail is gone at the latest, however fast time goes.
+    pub(super) fn gone_at_last(&self) -> Time {
+        self.arrives.max(self.sent + self.cargo.shortest()) + self.cargo.fade()
+    }
+
     /// When the last of its fading trail is gone.
     pub fn gone(&self) -> Time {
         self.shown().end + self.fade()
@@ -103,13 +109,18 @@ impl Flight {
 }
 
 impl Cargo {
+    /// The atoms that it holds.
+    pub fn ranges(&self) -> &[Range<Atom>] {
+        match self {
+            Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
+            Self::Transfer(ranges) | Self::Results(ranges) => ranges,
+            Self::Offer { .. } | Self::Request | Self::Shutdown => &[],
+        }
+    }
+
     /// How many atoms it holds.
     pub fn atoms(&self) -> u32 {
-        match self {
-            Self::Band(atoms) | Self::Part(atoms) => atoms.len() as u32,
-            Self::Transfer(ranges) | Self::Results(ranges) => atoms_in(ranges),
-            Self::Offer { .. } | Self::Request | Self::Shutdown => 0,
-        }
+        atoms_in(self.ranges())
     }
 
     /// The shortest time for which its flight is drawn. Offers are not stretched, or one that is passed on would

@@ -20,7 +20,7 @@ impl Flights {
         // A sweep looks at all of them, and so waits until they are twice as many.
         if self.flights.len() > 2 * self.swept + 16 {
             // What is kept does not depend on how fast time just goes.
-            self.flights.retain(|earlier| Flight { rate: 1.0, ..earlier.clone() }.gone() > flight.sent);
+            self.flights.retain(|earlier| earlier.gone_at_last() > flight.sent);
             self.swept = self.flights.len();
         }
         self.flights.push(Flight { rate: self.rate.unwrap_or(1.0), ..flight });

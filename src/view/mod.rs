@@ -64,7 +64,7 @@ pub use hover::{atom_words, flight_words, node_words, parent_words, small_print}
 pub use inspect::{Chosen, Inspected, RaySpot, RayTree, Spans, Term, Terms};
 pub use known::Known;
 pub use lanes::{Lane, Lanes, Load, Stay, Traced, Trip, Usage};
-pub use moment::{Moment, Past, records_until};
+pub use moment::{Moment, Past};
 pub use narrator::Narrator;
 pub use needs::{needs_lines, needs_warnings};
 pub use node::{Activity, NodeState, Parcels, Slot};

@@ -4,7 +4,6 @@ use super::narrator::Narrator;
 use super::state::RunState;
 use crate::record::Record;
 use crate::runlog::{Header, RunLog};
-use crate::time::Time;
 
 /// A run after some of its records.
 #[derive(Clone, Debug)]
@@ -38,8 +37,7 @@ impl Moment {
 
 /// The moments of a run that goes on, or of one that is over: any of them is found by going on from one that was kept.
 ///
-/// No moment is further than some thousand records from one that is kept, and what is kept has no
-/// more than 64 MiB.
+/// No moment is further than some thousand records from one that is kept, and what is kept has no more than 64 MiB.
 #[derive(Clone, Debug, Default)]
 pub struct Past {
     /// Every `stride` records, the earliest first; the first is the beginning.
@@ -97,11 +95,6 @@ impl Past {
     }
 }
 
-/// How many records of `log` are not later than `time`.
-pub fn records_until(log: &RunLog, time: Time) -> usize {
-    log.records().partition_point(|record| record.at <= time)
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -109,14 +102,7 @@ mod tests {
     use super::super::place::Place;
     use super::super::sample;
     use super::*;
-
-    /// A whole run of machines of these speeds.
-    fn run(speeds: &[f64], atoms: u32) -> RunLog {
-        let header = sample::header(speeds, atoms);
-        let mut log = RunLog::new(header.clone());
-        log.add(sample::records(&header));
-        log
-    }
+    use crate::time::Time;
 
     /// All that is seen of a moment at its own time.
     fn seen(moment: &Moment, at: Time) -> String {
@@ -132,7 +118,7 @@ mod tests {
         fn jumping_to_a_moment_and_going_there_show_the_same(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..900u32, jumps in prop::collection::vec(0.0..1.0f64, 1..9),
         ) {
-            let log = run(&speeds, atoms);
+            let log = sample::log(&speeds, atoms);
             let mut past = Past::default();
             let mut jumped = Moment::new(&log.header);
             for jump in jumps {
@@ -147,7 +133,7 @@ mod tests {
 
         #[test]
         fn what_comes_late_is_not_forgotten(atoms in 100..2000u32, late in 0..50usize, records in 0.0..1.0f64) {
-            let whole = run(&[1.0, 0.5, 0.1], atoms);
+            let whole = sample::log(&[1.0, 0.5, 0.1], atoms);
             let mut told = whole.records().to_vec();
             // One record is told when later ones already were.
             let held_back = told.remove((told.len() / 2).saturating_sub(late));
@@ -156,7 +142,7 @@ mod tests {
             let mut past = Past::default();
             let mut moment = Moment::new(&whole.header);
             past.go(&log, usize::MAX, &mut moment);
-            let before = log.records().partition_point(|record| record.at <= held_back.at);
+            let before = log.until(held_back.at);
             log.add(vec![held_back]);
             past.forget_after(before);
             let records = (records * log.records().len() as f64) as usize;
@@ -171,7 +157,7 @@ mod tests {
 
     #[test]
     fn what_is_kept_has_a_bound() {
-        let log = run(&[1.0, 0.7, 0.1], 60_000);
+        let log = sample::log(&[1.0, 0.7, 0.1], 60_000);
         let mut past = Past::default();
         past.go(&log, usize::MAX, &mut Moment::new(&log.header));
         let bytes = past.kept.len() * 60_000 * size_of::<Place>();

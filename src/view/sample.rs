@@ -5,7 +5,7 @@ use std::time::Duration;
 use crate::balance::Strategy;
 use crate::picture::Size;
 use crate::record::Record;
-use crate::runlog::{Driver, Header, Link};
+use crate::runlog::{Driver, Header, Link, RunLog};
 use crate::sim::Sim;
 
 /// What an atom costs on this computer; a node of speed 1 at pace 0.1 needs ten times as long.
@@ -24,4 +24,12 @@ pub fn records(header: &Header) -> Vec<Record> {
     let mut records = Vec::new();
     Sim::new(header, &[], |_| COST).run(&mut |record| records.push(record));
     records
+}
+
+/// A whole run with these speeds on a picture of `atoms` atoms.
+pub fn log(speeds: &[f64], atoms: u32) -> RunLog {
+    let header = header(speeds, atoms);
+    let mut log = RunLog::new(header.clone());
+    log.add(records(&header));
+    log
 }

@@ -74,10 +74,9 @@ impl RunState {
 
     /// The message in which `atom` is on its way to a node.
     pub fn carrier(&self, atom: Atom) -> Option<&Flight> {
-        let carries = |flight: &&Flight| match &flight.cargo {
-            Cargo::Band(atoms) | Cargo::Part(atoms) => atoms.contains(&atom),
-            Cargo::Transfer(ranges) => ranges.iter().any(|range| range.contains(&atom)),
-            Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => false,
+        let carries = |flight: &&Flight| {
+            let goes_to_a_node = !matches!(flight.cargo, Cargo::Results(_));
+            goes_to_a_node && flight.cargo.ranges().iter().any(|range| range.contains(&atom))
         };
         self.pending.values().find(carries)
     }

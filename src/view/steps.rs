@@ -161,17 +161,10 @@ mod tests {
     use super::super::sample;
     use super::*;
 
-    fn run(speeds: &[f64], atoms: u32) -> RunLog {
-        let header = sample::header(speeds, atoms);
-        let mut log = RunLog::new(header.clone());
-        log.add(sample::records(&header));
-        log
-    }
-
     proptest! {
         #[test]
         fn steps_back_are_the_steps_forward(speeds in prop::collection::vec(0.1..1.0f64, 1..5), atoms in 1..200u32) {
-            let log = run(&speeds, atoms);
+            let log = sample::log(&speeds, atoms);
             for by in Step::ALL {
                 let mut places = vec![0];
                 while let Some(next) = step(&log, places[places.len() - 1], by, true) {
@@ -190,7 +183,7 @@ mod tests {
 
     #[test]
     fn every_atom_is_a_step() {
-        let log = run(&[1.0, 0.3], 57);
+        let log = sample::log(&[1.0, 0.3], 57);
         let ends = |by: Step| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
         assert_eq!(ends(Step::Atom), 57);
         assert!(ends(Step::Lap) >= 2 && ends(Step::Event) > ends(Step::Lap));
@@ -198,7 +191,7 @@ mod tests {
 
     #[test]
     fn what_one_asks_for_is_found() {
-        let mut log = run(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
+        let mut log = sample::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
         // There the last atoms keep everybody busy.
         log.add(vec![Record { at: Time::from_secs(9e3), what: What::Retired { node: 0 } }]);
         let found = landmarks(&log);

@@ -79,6 +79,11 @@ impl LanePlan {
         (window.share(time).clamp(-1.0, 2.0) * f64::from(self.width)) as f32
     }
 
+    /// Where what lasted from one time to another is seen: its left and its right.
+    fn span(&self, window: &TimeWindow, from: Time, to: Time) -> [f32; 2] {
+        [self.x(window, from).max(0.0), self.x(window, to).min(self.width)]
+    }
+
     fn middle(&self, node: NodeId) -> f32 {
         let [top, bottom] = self.lane(node);
         (top + bottom) / 2.0
@@ -151,25 +156,22 @@ fn usage(used: &[f32], plan: &LanePlan, quads: &mut Vec<Quad>) {
 
 /// What a machine is about while it traces nothing.
 fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: Time, quads: &mut Vec<Quad>) {
-    let [top, bottom] = plan.lane(node);
+    let middle = plan.middle(node);
     let first = lane.stays().partition_point(|(at, _)| *at <= window.from()).saturating_sub(1);
     for (i, &(from, stay)) in lane.stays().iter().enumerate().skip(first) {
         if from > window.to() {
             break;
         }
         let to = lane.stays().get(i + 1).map_or(head, |(next, _)| *next);
-        let [left, right] = [plan.x(window, from).max(0.0), plan.x(window, to).min(plan.width)];
-        let middle = (top + bottom) / 2.0;
-        let quad = match stay {
+        let [left, right] = plan.span(window, from, to);
+        let (half, ink) = match stay {
             Stay::Waits | Stay::Works => continue,
-            Stay::Offers => Quad { place: [left, middle - 2.5, right, middle + 2.5], ink: Hue::Node(node).faint(0.45) },
-            Stay::Receives => {
-                Quad { place: [left, middle - 2.5, right, middle + 2.5], ink: Hue::Node(node).faint(0.75) }
-            }
-            Stay::Retired => Quad { place: [left, middle - 0.75, right, middle + 0.75], ink: Hue::Quiet.faint(0.6) },
+            Stay::Offers => (2.5, Hue::Node(node).faint(0.45)),
+            Stay::Receives => (2.5, Hue::Node(node).faint(0.75)),
+            Stay::Retired => (0.75, Hue::Quiet.faint(0.6)),
         };
         if right > left {
-            quads.push(quad);
+            quads.push(Quad { place: [left, middle - half, right, middle + half], ink });
         }
     }
 }
@@ -199,12 +201,12 @@ fn bars(
         let ink = |i: usize| Hue::Node(node).faint(if i.is_multiple_of(2) { 0.95 } else { 0.75 });
         for bar in seen {
             // Atoms keep their shade while one pans.
-            let place = [plan.x(window, bar.from).max(0.0), top, plan.x(window, bar.to).min(plan.width), bottom];
-            quads.push(Quad { place, ink: ink(bar.atom as usize) });
+            let [left, right] = plan.span(window, bar.from, bar.to);
+            quads.push(Quad { place: [left, top, right, bottom], ink: ink(bar.atom as usize) });
         }
         if let Some((from, to)) = open {
-            let place = [plan.x(window, from).max(0.0), top, plan.x(window, to).min(plan.width), bottom];
-            quads.push(Quad { place, ink: Hue::Node(node).faint(0.55) });
+            let [left, right] = plan.span(window, from, to);
+            quads.push(Quad { place: [left, top, right, bottom], ink: Hue::Node(node).faint(0.55) });
         }
         return;
     }
@@ -216,11 +218,10 @@ fn bars(
 
 /// A worker that was made to stand still: the lane is struck out.
 fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: Time, quads: &mut Vec<Quad>) {
-    let [top, bottom] = plan.lane(node);
+    let middle = plan.middle(node);
     for &(from, to) in lane.pauses() {
-        let [left, right] = [plan.x(window, from).max(0.0), plan.x(window, to.unwrap_or(head)).min(plan.width)];
+        let [left, right] = plan.span(window, from, to.unwrap_or(head));
         if right > left {
-            let middle = (top + bottom) / 2.0;
             quads.push(Quad { place: [left, middle - 1.0, right, middle + 1.0], ink: Hue::Text.faint(0.9) });
         }
     }
@@ -254,10 +255,11 @@ fn messages(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, lines: &mut Vec
         _ => None,
     };
     let ticks: Vec<_> = trips_in(lanes, window).filter_map(of_parent).take(MOST_LINES + 1).collect();
-    for (node, at) in ticks.iter().filter(|_| ticks.len() <= MOST_LINES) {
-        let [_, bottom] = plan.lane(*node);
-        let x = plan.x(window, *at);
-        lines.push(([x, bottom - 5.0], [x, bottom], Hue::Text.faint(0.8)));
+    if ticks.len() <= MOST_LINES {
+        lines.extend(ticks.into_iter().map(|(node, at)| {
+            let ([_, bottom], x) = (plan.lane(node), plan.x(window, at));
+            ([x, bottom - 5.0], [x, bottom], Hue::Text.faint(0.8))
+        }));
     }
 }
 

@@ -31,6 +31,12 @@ impl Layer {
         }
     }
 
+    /// The colour of something that is a `share`, 0 to 1, of what a layer with two ends shows: neither black nor white, which
+    /// tell nothing.
+    pub fn ramp(share: f64) -> Rgb {
+        ramp(0.12 + 0.8 * share)
+    }
+
     /// What its darkest and its lightest colour mean, if it has such.
     pub fn ends(self) -> Option<[&'static str; 2]> {
         match self {
@@ -56,9 +62,8 @@ impl Tones {
     pub(super) fn new(layer: Layer, colours: &[Rgb]) -> Self {
         let tones = match layer {
             Layer::Owners => colours.iter().map(|&colour| tones(colour)).collect(),
-            // Neither black nor white, which tell nothing.
             Layer::Costs | Layer::Arrival => {
-                (0..STEPS).map(|step| tones(ramp(0.12 + 0.8 * step as f64 / (STEPS - 1) as f64))).collect()
+                (0..STEPS).map(|step| tones(Layer::ramp(step as f64 / (STEPS - 1) as f64))).collect()
             }
         };
         Self { layer, tones }

@@ -19,6 +19,10 @@ impl App {
             Command::Live => session.stage_mut().follow(),
             Command::Beginning => session.stage_mut().seek(Time::ZERO, true),
             Command::Find => self.time.toggle_find(),
+            Command::Jump(records, about) => {
+                session.stage_mut().show_after(records);
+                self.focus.selected = Some(about);
+            }
             Command::Timeline => self.shows_timeline = !self.shows_timeline,
             Command::Zoom(nearer) => {
                 self.shows_timeline = true;

@@ -157,7 +157,7 @@ impl Jobs {
         self.start("prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
-                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality)));
+                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
                     let found = probe(&tracer, division, PROBE);
                     let cpu = found.whole_with_rests(&tracer, division);
                     let virtual_time = RAY.mul_f64(found.rays as f64);
@@ -169,7 +169,7 @@ impl Jobs {
                     let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
                     let opened = opened.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
                     let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                    let tracer = Arc::new(with_preview(tracer));
+                    let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
                     let known = Arc::new(Known::of(&log));
                     let preview = guess(&tracer);
                     Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
@@ -286,15 +286,15 @@ const PROBE: Duration = Duration::from_millis(120);
 /// How often a file that is watched is looked at.
 const LOOK: Duration = Duration::from_millis(700);
 
-/// With as much of a preview as does not keep its user waiting.
+/// With a preview that is begun, and made finer until it has every `finest`th pixel or takes longer than `limit`.
 #[expect(clippy::disallowed_methods, reason = "how long a user waits is no matter of the run's clock")]
-fn with_preview(mut tracer: Tracer) -> Tracer {
+pub(super) fn with_preview(mut tracer: Tracer, finest: u32, limit: Duration) -> Tracer {
     let begun = Instant::now();
     loop {
         tracer.refine();
-        let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= FINEST);
+        let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= finest);
         // The next step takes three times as long as all before it.
-        if is_fine || 4 * begun.elapsed() > PREVIEW {
+        if is_fine || 4 * begun.elapsed() > limit {
             return tracer;
         }
     }
@@ -308,7 +308,7 @@ pub(super) fn guess(tracer: &Tracer) -> Arc<[Rgb]> {
     places.map(|(x, y)| srgb8(preview.guess(x, y))).collect()
 }
 
-/// How long a preview may take.
+/// How long a preview may take, so that it does not keep its user waiting.
 const PREVIEW: Duration = Duration::from_millis(200);
 
 /// Where most of the picture is known beforehand, there is little for the nodes to do.

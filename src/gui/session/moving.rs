@@ -1,11 +1,11 @@
 //! The camera in the user's hand: a coarse picture follows it, and when it rests the run starts anew from there.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::super::opening::Opening;
 use super::Session;
-use super::jobs::{Done, Jobs, guess};
+use super::jobs::{Done, Jobs, guess, with_preview};
 use crate::palette::Rgb;
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Scene};
@@ -136,14 +136,7 @@ impl Jobs {
     }
 }
 
-#[expect(clippy::disallowed_methods, reason = "how long the first look takes")]
 fn look(scene: &Scene, size: Size, quality: Quality) -> Moved {
-    let began = Instant::now();
-    let mut tracer = Tracer::new(scene, size, Quality { samples: 1, ..quality });
-    tracer.refine();
-    // The next step takes about four times as long as all before.
-    while began.elapsed() * 4 < LOOK && tracer.preview().is_some_and(|preview| preview.step() > 1) {
-        tracer.refine();
-    }
-    Moved { size, pixels: guess(&tracer) }
+    let tracer = Tracer::new(scene, size, Quality { samples: 1, ..quality });
+    Moved { size, pixels: guess(&with_preview(tracer, 1, LOOK)) }
 }

@@ -12,7 +12,7 @@ use crate::runlog::{Driver, Header, RunLog, Tally};
 use crate::time::Time;
 use crate::view::{
     About, Canvas, Dossier, Known, Lanes, Layer, Moment, Narrator, Outcome, Past, Playback, RATES, RunState, Signs,
-    Step, parts_words, records_until, result_words, step,
+    Step, parts_words, result_words, step,
 };
 
 /// A run, and everything that is known of it.
@@ -113,8 +113,7 @@ impl Stage {
 
     /// Shows what is known of the picture beforehand where nothing is traced yet.
     pub fn show_preview(&mut self, preview: Arc<[Rgb]>) {
-        let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
-        self.canvas.preview(preview, state);
+        self.canvas.preview(preview, &shown(&self.earlier, &self.known).state);
     }
 
     /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns whether the run has just come
@@ -132,11 +131,11 @@ impl Stage {
                 }
                 Update::Placed { atoms, pixels } => {
                     let division = self.log.header.division;
-                    let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
+                    let state = &shown(&self.earlier, &self.known).state;
                     for (range, (place, colours)) in atoms.iter().zip(division.placed(&atoms, &pixels)) {
                         self.frame.place(place, colours);
                         self.canvas.take(range.clone(), colours);
-                        self.canvas.paint(range.clone(), state);
+                        self.canvas.show(range.clone(), state);
                     }
                 }
                 Update::Rays(_) => {}
@@ -213,8 +212,7 @@ impl Stage {
 
     /// The picture as it is shown, after what it is to look like.
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
-        let state = self.earlier.as_ref().map_or(&self.known.latest.state, |moment| &moment.state);
-        self.canvas.set_look(look, ground, state);
+        self.canvas.set_look(look, ground, &shown(&self.earlier, &self.known).state);
         &mut self.canvas
     }
 
@@ -301,7 +299,7 @@ impl Stage {
     }
 
     fn shown(&self) -> &Moment {
-        self.earlier.as_ref().unwrap_or(&self.known.latest)
+        shown(&self.earlier, &self.known)
     }
 
     /// How far the run's own clock has come.
@@ -340,12 +338,12 @@ impl Stage {
         let records = match self.stepped_to {
             Some(records) => records,
             _ if self.time.is_live() => usize::MAX,
-            _ => records_until(&self.log, self.now()),
+            _ => self.log.until(self.now()),
         };
         if records >= self.log.records().len() {
             if self.earlier.take().is_some() {
                 self.known.latest.state.take_touched();
-                self.canvas.show(&self.known.latest.state);
+                self.canvas.show_all(&self.known.latest.state);
             }
         } else if self.earlier.as_ref().is_none_or(|earlier| earlier.records() != records) {
             let is_first = self.earlier.is_none();
@@ -353,15 +351,20 @@ impl Stage {
             let went_on = self.past.go(&self.log, records, moment);
             if is_first || !went_on {
                 moment.state.take_touched();
-                self.canvas.show(&moment.state);
+                self.canvas.show_all(&moment.state);
             }
         }
         let state = &mut self.earlier.as_mut().unwrap_or(&mut self.known.latest).state;
         state.set_rate(self.time.rate());
         for atoms in state.take_touched() {
-            self.canvas.paint(atoms, state);
+            self.canvas.show(atoms, state);
         }
     }
+}
+
+/// The moment that is shown: of its own, so that what is drawn of it can be changed meanwhile.
+fn shown<'a>(earlier: &'a Option<Moment>, known: &'a Known) -> &'a Moment {
+    earlier.as_ref().unwrap_or(&known.latest)
 }
 
 impl RunResult {

@@ -10,14 +10,13 @@ impl Session {
     pub fn toggle_pause(&mut self) {
         let stage = &mut self.stage;
         if stage.phase == Phase::Preparing {
+            // There is nothing yet that could.
         } else if stage.phase == Phase::Running && stage.is_live() {
             self.set_run_paused(!self.stage.paused);
         } else if stage.is_at_end() {
             stage.seek(Time::ZERO, false);
-        } else if stage.goes_on() {
-            stage.time.set_stands(true);
         } else {
-            stage.time.set_stands(false);
+            stage.time.set_stands(stage.goes_on());
         }
     }
 
@@ -35,16 +34,6 @@ impl Session {
             self.dragged_from = Some(self.stage.time.stands() && !self.stage.is_live());
         }
         self.stage.seek(time, stands);
-    }
-
-    /// Shows the moment after so many records, and stands still there.
-    pub fn look_after(&mut self, records: usize) {
-        self.stage.show_after(records);
-    }
-
-    /// Shows a moment, and stands still there.
-    pub fn look_at(&mut self, time: Time) {
-        self.stage.seek(time, true);
     }
 
     /// The hand lets go: time goes on if it did before.
