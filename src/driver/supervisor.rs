@@ -7,7 +7,7 @@ use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
 
-/// The thread that stands between whoever started a run or a replay and the threads that do it.
+/// The thread that stands between whoever started a run, or a picture that is traced again, and the threads that do it.
 pub(super) struct Supervisor {
     updates: Receiver<Update>,
     /// `None` if it could not be started.

@@ -192,7 +192,7 @@ impl PicturePanel {
                     session.camera_home();
                 }
                 if self.moves_camera {
-                    let text = "Drag to turn, Shift-drag to move, wheel to come nearer, C to finish";
+                    let text = "Drag to turn, Shift to move, wheel: nearer";
                     let text = egui::RichText::new(text).font(theme::regular(theme::SMALL)).color(look.text);
                     ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                         ui.add(egui::Label::new(text).truncate());
