@@ -241,7 +241,8 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
     let each = (13.0 / row.height().max(1.0)).ceil() as u16;
     if each == 1 {
         let ink = theme::colour(text_on(own));
-        ui.painter().text(chip.center(), Align2::CENTER_CENTER, node_name(node), theme::strong(theme::SMALL), ink);
+        let font = theme::strong(theme::SMALL.min(row.height()));
+        ui.painter().text(chip.center(), Align2::CENTER_CENTER, node_name(node), font, ink);
     } else if node.is_multiple_of(each) {
         let place = pos2(chip.right() + GRID, row.center().y);
         ui.painter().text(place, Align2::LEFT_CENTER, node_name(node), theme::regular(11.0), look.quiet);
