@@ -8,7 +8,7 @@ use super::session::Session;
 use super::theme::{self, Look};
 use super::widgets;
 use crate::view::{
-    About, Lit, Overlay, Point, Spot, activity_word, flight_words, node_name, node_words, parcel_at, parent_words,
+    About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
     ring, ring_at, small_print,
 };
 
@@ -35,22 +35,22 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
 
     let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
     let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at));
-    let parcel = pointed.and_then(|at| parcel_at(state, now, rect.size().into(), at));
+    let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at));
     if response.clicked() {
-        match (parcel, spot) {
-            (Some(parcel), _) => focus.toggle(About::Message(parcel.id)),
+        match (message, spot) {
+            (Some(message), _) => focus.toggle(About::Message(message.id)),
             (None, Some(Spot::Node(node))) => focus.toggle(About::Node(node)),
             (None, _) => focus.selected = None,
         }
     }
-    match (parcel, spot) {
-        (Some(parcel), _) => focus.hover(About::Message(parcel.id)),
+    match (message, spot) {
+        (Some(message), _) => focus.hover(About::Message(message.id)),
         (None, Some(Spot::Node(node))) => focus.hover(About::Node(node)),
         (None, _) => {}
     }
-    // Parcels fly over everything else.
-    let more = match (parcel, spot) {
-        (Some(parcel), _) => Some((flight_words(parcel), Vec::new())),
+    // Messages fly over everything else.
+    let more = match (message, spot) {
+        (Some(message), _) => Some((flight_words(message), Vec::new())),
         (None, Some(Spot::Node(node))) => Some((format!("Machine {}", node_name(node)), node_words(state, node, now))),
         (None, Some(Spot::Parent)) => Some(("The parent".to_owned(), parent_words(state, now))),
         (None, None) => None,

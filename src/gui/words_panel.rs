@@ -88,7 +88,7 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
 /// The last events before that of the moment.
 fn events(ui: &mut Ui, session: &Session, most: usize, look: Look) {
     let font = theme::regular(theme::SMALL);
-    for (at, event) in session.stage().narrator().earlier(session.now()).rev().take(most) {
+    for (at, event) in session.stage().narrator().earlier(session.stage().state(), session.now()).rev().take(most) {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, "Event", || event.to_owned());
         let y = line.center().y;

@@ -146,7 +146,7 @@ mod tests {
 
     use super::super::hover::flight_words;
     use super::super::node::Activity;
-    use super::super::ring::{Overlay, parcel_at, ring};
+    use super::super::ring::{Overlay, message_at, ring};
     use super::super::sample;
     use super::*;
     use crate::balance::{Rules, Strategy};
@@ -195,7 +195,7 @@ mod tests {
         moments(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
             let plan = Plan::new(3, SIZE);
             for token in tokens(&plan, state, now) {
-                told.extend(parcel_at(state, now, SIZE, token.centre).map(flight_words));
+                told.extend(message_at(state, now, SIZE, token.centre).map(flight_words));
             }
         });
         for words in

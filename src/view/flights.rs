@@ -23,7 +23,12 @@ impl Flights {
             self.flights.retain(|earlier| earlier.gone_at_last() > flight.sent);
             self.swept = self.flights.len();
         }
-        self.flights.push(Flight { rate: self.rate.unwrap_or(1.0), ..flight });
+        self.flights.push(Flight { rate: self.rate(), ..flight });
+    }
+
+    /// How many of the run's seconds go by in a second, at most one.
+    pub fn rate(&self) -> f64 {
+        self.rate.unwrap_or(1.0)
     }
 
     /// From now on so many of the run's seconds go by in a second; where that is more than one, flights are as long as

@@ -1,5 +1,6 @@
 //! The run in sentences: one large at a time, and the last ones in a list.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use super::events::{Events, is_done, jam};
@@ -16,7 +17,10 @@ use crate::time::Time;
 /// happens. Keeps the last events too.
 #[derive(Clone, Debug, Default)]
 pub struct Narrator {
+    /// What is told where time goes as it does.
     told: Option<Told>,
+    /// The last that were passed over since, for want of time to read them: where time goes slower there is some.
+    passed_over: VecDeque<Told>,
     events: Events,
 }
 
@@ -36,14 +40,15 @@ const BY_HAND: Weight = (4, 0);
 /// Of the end, which nothing follows.
 const END: Weight = (5, 0);
 
-/// How long an event is fresh.
+/// How long an event is fresh for whoever looks on.
 const FRESH: Duration = Duration::from_secs(3);
+
+/// How long a sentence stays when others like it follow.
+const READ: Duration = Duration::from_millis(1600);
 
 impl Narrator {
     /// Takes in a record; `state` already knows it.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
-        /// How long a sentence stays when others like it follow.
-        const READ: Duration = Duration::from_millis(1600);
         self.events.apply(record, state);
         let by_hand = matches!(
             record.what,
@@ -56,19 +61,21 @@ impl Narrator {
             tell(record, state)
         };
         let Some((weight, sentence)) = told else { return };
-        // What is done by hand is told at once, or the first of a slider's many speeds would stand there.
-        let free = self.told.as_ref().is_none_or(|told| {
-            weight > told.weight || weight == told.weight && by_hand || told.weight < END && record.at >= told.at + READ
-        });
-        if free {
-            self.told = Some(Told { at: record.at, weight, sentence });
+        let next = Told { at: record.at, weight, sentence };
+        if self.told.as_ref().is_none_or(|told| told.gives_way_to(&next, READ)) {
+            self.told = Some(next);
+            self.passed_over.clear();
+        } else {
+            self.passed_over.truncate(MOST_PASSED_OVER - 1);
+            self.passed_over.push_front(next);
         }
     }
 
     /// What is to be read at `now`: the last event while it is fresh, else how things stand.
     pub fn sentence(&self, state: &RunState, now: Time) -> String {
-        match &self.told {
-            Some(told) if now < told.at + FRESH || state.finished().is_some() => told.sentence.clone(),
+        match self.told_at(now, state.rate()) {
+            Some(told) => told.sentence.clone(),
+            None if state.finished().is_some() => sentences::COMPLETE.into(),
             // Nothing has been heard of it: its records begin when all costs are known.
             _ if state.is_virtual && state.head() == Time::ZERO => sentences::BEFORE_VIRTUAL_TIME.into(),
             _ => standing(state),
@@ -82,11 +89,37 @@ impl Narrator {
     }
 
     /// Those before what is to be read at `now`.
-    pub fn earlier(&self, now: Time) -> impl DoubleEndedIterator<Item = (Time, &str)> {
-        let told = self.told.as_ref().filter(|told| now < told.at + FRESH).map(|told| told.at);
+    pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+        let told = self.told_at(now, state.rate()).map(|told| told.at);
         self.events().filter(move |(at, _)| told.is_none_or(|told| *at < told))
     }
+
+    /// The event that is to be read at `now`, while it is fresh; `rate` of the run's seconds go by in one of whoever
+    /// looks on.
+    fn told_at(&self, now: Time, rate: f64) -> Option<&Told> {
+        let (read, fresh) = (READ.mul_f64(rate), FRESH.mul_f64(rate));
+        let mut told = self.told.as_ref()?;
+        for next in self.passed_over.iter().rev() {
+            if told.gives_way_to(next, read) {
+                told = next;
+            }
+        }
+        (now < told.at + fresh).then_some(told)
+    }
 }
+
+impl Told {
+    /// Whether it has been there so long, or weighs so little, that `next` is told in its stead. What is done by hand is
+    /// told at once, or the first of a slider's many speeds would stand there.
+    fn gives_way_to(&self, next: &Self, read: Duration) -> bool {
+        next.weight > self.weight
+            || next.weight == self.weight && next.weight == BY_HAND
+            || self.weight < END && next.at >= self.at + read
+    }
+}
+
+/// More of them nobody could follow.
+const MOST_PASSED_OVER: usize = 64;
 
 fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
     let told = match &record.what {
@@ -165,6 +198,24 @@ mod tests {
         assert!(say(2100, What::Retired { node: 1 }).starts_with("2's offer"));
         assert!(say(2200, What::Finished).starts_with("The picture"));
         assert!(say(9000, What::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
+    }
+
+    #[test]
+    fn where_time_goes_slowly_there_is_time_to_read_what_would_be_passed_over() {
+        let mut state = RunState::new(&sample::header(&[1.0, 1.0, 1.0], 9));
+        let mut narrator = Narrator::default();
+        let at = |ms: u64| Time(ms * 1_000_000);
+        for (ms, node) in [(0, 0), (100, 1), (200, 2)] {
+            narrator.apply(&Record { at: at(ms), what: What::Retired { node } }, &state);
+        }
+        let mut says = |rate, ms| {
+            state.set_rate(rate);
+            narrator.sentence(&state, at(ms))
+        };
+        assert!(says(1.0, 250).starts_with("1's offer"));
+        assert!(says(0.01, 210).starts_with("3's offer"));
+        assert!(says(0.1, 250).starts_with("3's offer"), "the second is being read for 160 ms");
+        assert_eq!(says(0.01, 250), "Waiting for the parent", "what was fresh for 30 ms");
     }
 
     #[test]

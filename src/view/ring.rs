@@ -52,7 +52,7 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
         spokes(&plan, state.sharing.is_farm(), &mut marks);
     }
     traffic::results(&plan, state, now, &mut marks);
-    traffic::offers(&plan, state, now, &mut marks);
+    traffic::offers(&plan, state, now, overlay.message, &mut marks);
     for node in 0..state.nodes().len() as NodeId {
         let of = &*state.seen(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
@@ -82,10 +82,12 @@ pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<Spot> {
     }
 }
 
-/// The message that is drawn at `point` at `now`, in an area of `size`: a parcel of atoms, a request, or its answer.
-pub fn parcel_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
+/// The message that is drawn at `point` at `now`, in an area of `size`: atoms, an offer, a request, or its answer.
+pub fn message_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
     let plan = Plan::new(state.nodes().len(), size);
-    traffic::parcel_at(&plan, state, now, point).or_else(|| asking::token_at(&plan, state, now, point))
+    traffic::parcel_at(&plan, state, now, point)
+        .or_else(|| asking::token_at(&plan, state, now, point))
+        .or_else(|| traffic::offer_at(&plan, state, now, point))
 }
 
 /// Arrowheads on the rail, and spokes.
@@ -191,6 +193,8 @@ mod tests {
 
     use proptest::prelude::*;
 
+    use super::super::display::Ink;
+    use super::super::flight::Cargo;
     use super::super::sample;
     use super::*;
     use crate::record::{Record, What};
@@ -314,9 +318,21 @@ mod tests {
             _ => None,
         };
         let (at, text) = marks.iter().rev().find_map(label).expect("a parcel");
-        let flight = parcel_at(&state, now, SIZE, at).expect("the parcel");
+        let flight = message_at(&state, now, SIZE, at).expect("the parcel");
         assert_eq!(text, format!("×{}", flight.cargo.atoms()));
-        assert_eq!(parcel_at(&state, now, SIZE, [1.0, 1.0]), None);
+        assert_eq!(message_at(&state, now, SIZE, [1.0, 1.0]), None);
+    }
+
+    #[test]
+    fn an_offer_is_found_where_its_token_runs() {
+        let (state, now) = moment(&[1.0, 1.0, 0.1], 0.7);
+        let offer = |mark: &Mark| match mark {
+            Mark::Label { at, ink: Ink { hue: Hue::OnNode(who), .. }, text, .. } if !text.starts_with('×') => {
+                message_at(&state, now, SIZE, *at).filter(|flight| flight.cargo == Cargo::Offer { who: *who })
+            }
+            _ => None,
+        };
+        assert!(ring(&state, &Overlay::default(), now, SIZE).iter().any(|mark| offer(mark).is_some()));
     }
 
     #[test]

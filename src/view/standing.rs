@@ -69,7 +69,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>]) -> Str
         format!("{compute}; {name} has most left, {left}, but {who} {help} and will not help")
     } else if last.speed < 0.5 {
         format!("{compute}; {name} is slow ({}) and has most left: {left}", fraction(last.speed))
-    } else if busy.len() == machines {
+    } else if busy.len() == machines && busy.iter().all(|(_, node)| node.got.count == 0) {
         format!("{compute} their own atoms")
     } else {
         format!("{compute}; {name} has most left")

@@ -218,6 +218,11 @@ impl RunState {
         self.flights.set_rate(rate);
     }
 
+    /// How many of the run's seconds go by in a second of whoever looks on, at most one.
+    pub(super) fn rate(&self) -> f64 {
+        self.flights.rate()
+    }
+
     fn node(&mut self, node: NodeId) -> Option<&mut NodeState> {
         self.nodes.get_mut(usize::from(node))
     }

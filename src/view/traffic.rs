@@ -25,35 +25,74 @@ pub(super) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
 }
 
 /// Offers run along the rail; where an offer has been, its trail fades. Each has a lane of its own.
-pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    let mut offerers: Vec<(NodeId, &Flight)> = Vec::new();
-    let seen = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0;
-    for flight in state.flights().iter().filter(seen) {
-        let Cargo::Offer { who } = flight.cargo else { continue };
-        let lane = match offerers.iter().position(|(other, _)| *other == who) {
-            Some(lane) => lane,
-            None => {
-                offerers.push((who, flight));
-                offerers.len() - 1
-            }
-        };
-        offerers[lane].1 = flight;
-        let Party::Node(from) = flight.from else { continue };
+pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
+    for (lane, flight) in in_lanes(state, now) {
+        let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { continue };
         let radius = plan.rail + lane_offset(plan, lane);
         let sweep = -plan.step() * flight.progress(now);
         let strength = if lane < FOLLOWED { 0.9 } else { HINT };
         marks.push(Mark::Line {
             points: Plan::arc(plan.centre, radius, plan.angle(from), sweep),
             width: lane_width(plan),
-            ink: Hue::Node(who).faint(strength * seen_at(state, flight, now)),
+            ink: Hue::Node(*who).faint(strength * seen_at(state, flight, now)),
         });
     }
-    for (lane, (who, flight)) in offerers.into_iter().enumerate().take(FOLLOWED) {
-        let Party::Node(from) = flight.from else { continue };
+    for token in tokens(plan, state, now) {
+        token.draw(state, now, lit == Some(token.flight.id), marks);
+    }
+}
+
+/// The offer whose token is drawn at `point`.
+pub(super) fn offer_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+    let covers = |token: &Token<'_>| {
+        let [u, v] = token.centre;
+        token.flight.shown().contains(&now) && (x - u).hypot(y - v) <= token.radius + 2.0
+    };
+    tokens(plan, state, now).into_iter().rev().find(covers).map(|token| token.flight)
+}
+
+/// The disc of an offer that is on its way, or has just been: it lies where its last hop is.
+struct Token<'a> {
+    flight: &'a Flight,
+    who: NodeId,
+    centre: Point,
+    radius: f32,
+}
+
+fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
+    let hops = in_lanes(state, now);
+    let last = |lane| hops.iter().rfind(|(other, _)| *other == lane).map(|(_, flight)| *flight);
+    let token = |lane| {
+        let flight = last(lane)?;
+        let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { return None };
         let angle = plan.angle(from) - plan.step() * flight.progress(now);
-        let (centre, alpha) = (plan.at(angle, plan.rail + lane_offset(plan, lane)), seen_at(state, flight, now));
-        let radius = (plan.node * 0.42).clamp(7.0, 13.0);
-        marks.push(Mark::Disc { centre, radius: radius + 2.0, ink: Hue::Ground.faint(alpha) });
+        let centre = plan.at(angle, plan.rail + lane_offset(plan, lane));
+        Some(Token { flight, who: *who, centre, radius: (plan.node * 0.42).clamp(7.0, 13.0) })
+    };
+    (0..FOLLOWED).filter_map(token).collect()
+}
+
+/// The hops of offers that are seen, each with the lane of its offerer.
+fn in_lanes(state: &RunState, now: Time) -> Vec<(usize, &Flight)> {
+    let mut offerers: Vec<NodeId> = Vec::new();
+    let seen = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0;
+    let hop = |flight| {
+        let &Flight { cargo: Cargo::Offer { who }, from: Party::Node(_), .. } = flight else { return None };
+        let lane = offerers.iter().position(|other| *other == who).unwrap_or_else(|| {
+            offerers.push(who);
+            offerers.len() - 1
+        });
+        Some((lane, flight))
+    };
+    state.flights().iter().filter(seen).filter_map(hop).collect()
+}
+
+impl Token<'_> {
+    fn draw(&self, state: &RunState, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
+        let &Token { flight, who, centre, radius } = self;
+        let alpha = seen_at(state, flight, now);
+        let (wide, border) = if is_lit { (3.0, Hue::Text) } else { (2.0, Hue::Ground) };
+        marks.push(Mark::Disc { centre, radius: radius + wide, ink: border.faint(alpha) });
         marks.push(Mark::Disc { centre, radius, ink: Hue::Node(who).faint(alpha) });
         marks.push(Mark::Label {
             at: centre,

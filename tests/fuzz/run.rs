@@ -128,7 +128,7 @@ fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Outcome>, now: Ti
     state.flights().iter().take(40).for_each(|flight| said += &flight_words(flight));
     said += &format!("{:?}{:?}{:?}", parent_words(state, now), small_print(state), parts_words(state));
     said += &narrator.sentence(state, now);
-    narrator.earlier(now).for_each(|(_, sentence)| said += sentence);
+    narrator.earlier(state, now).for_each(|(_, sentence)| said += sentence);
     said += &outcome.map(|outcome| result_words(state, &outcome)).unwrap_or_default();
     assert!(!said.contains("NaN") && !said.contains("inf,"), "{said}");
     assert_eq!(rows(state, now).len(), state.nodes().len());
