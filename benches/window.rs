@@ -106,7 +106,7 @@ fn long_log() -> std::sync::Arc<RunLog> {
 
 fn harness(settings: &str, opening: Opening) -> Harness<'static, App> {
     let storage = Storage(settings.into());
-    let launch = Launch { opening: Some(opening), log: None };
+    let launch = Launch { opening: Some(opening), ..Launch::default() };
     let build =
         move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, Some(&storage), launch);
     Harness::builder().with_size([1280.0, 800.0]).build_eframe(build)

@@ -5,6 +5,7 @@
 
 // Floor 0: words that everything else is made of.
 pub mod geometry; // rays, boxes, rotations in degrees
+pub mod language; // English or Portuguese, beside each other
 pub mod output; // files that are either whole or not there
 pub mod palette; // the nodes' colours, and what is not coloured
 pub mod sentence; // a file's words, where a sentence repeats them

@@ -36,7 +36,7 @@ fn until(window: &mut Harness<'_, App>, what: &str, come: impl Fn(&Harness<'_, A
 
 #[test]
 fn fifty_restarts_and_thirty_two_nodes_made_one_leave_no_thread_behind() {
-    let launch = Launch { opening: Some(Opening::read("glass").expect("a built-in scene")), log: None };
+    let launch = Launch { opening: Some(Opening::read("glass").expect("a built-in scene")), ..Launch::default() };
     let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
     let mut window = Harness::builder().with_size([1280.0, 800.0]).build_eframe(build);
     until(&mut window, "a run", |window| window.state().session().now().0 > 0);

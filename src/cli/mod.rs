@@ -7,6 +7,7 @@ mod report;
 mod sharing;
 mod study;
 
+use std::env;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -18,6 +19,7 @@ use clap::Parser;
 use crate::driver::{auto_pace, cores};
 use crate::export::to_pov;
 use crate::gui::{self, Opening, Settings};
+use crate::language::Language;
 use crate::output::{as_file_name, check_writable, is_same_file, write_whole};
 use crate::picture::{Quality, Size};
 use crate::runlog::{Header, RunLog};
@@ -93,7 +95,7 @@ fn usage(error: clap::Error) -> Failure {
     let text = error.to_string();
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
-    let command = std::env::args_os().nth(1).and_then(|first| first.into_string().ok());
+    let command = env::args_os().nth(1).and_then(|first| first.into_string().ok());
     let command = command.filter(|first| ["render", "inspect", "export", "study", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
     Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
@@ -113,7 +115,11 @@ fn replay(path: &Path) -> Result<(), Failure> {
 }
 
 fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
-    let Err(why) = gui::open(gui::Launch { opening: opening.clone(), log: log.clone() }) else { return Ok(()) };
+    // As other programs ask, in this order.
+    let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(|name| env::var(name).ok());
+    let language = locale.map(|locale| Language::of_locale(&locale)).next().unwrap_or_default();
+    let launch = gui::Launch { opening: opening.clone(), log: log.clone(), language };
+    let Err(why) = gui::open(launch) else { return Ok(()) };
     tell(&format!("no window can be opened ({why}); the same run goes on without one."));
     let opening = opening.map_or_else(|| Opening::read("ten-objects"), Ok).map_err(Failure::Refused)?;
     let (scene, mut header) = match opening {

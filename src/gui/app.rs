@@ -2,11 +2,14 @@
 
 mod commands;
 
+use std::time::Duration;
+
 use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
+use super::compare::Compare;
 use super::focus::Focus;
 use super::gallery::Gallery;
 use super::keys;
@@ -20,6 +23,7 @@ use super::time_panel::{self, TimePanel};
 use super::timeline_panel::{self, TimelinePanel};
 use super::{Launch, frames, help, inspector, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
 use crate::balance::NodeId;
+use crate::language::Language;
 use crate::time::Time;
 use crate::view::{About, Dossier, Lit};
 
@@ -32,6 +36,7 @@ pub struct App {
     setup: SetupPanel,
     gallery: Gallery,
     accuracy: Accuracy,
+    compare: Compare,
     help: bool,
     timeline: TimelinePanel,
     /// The timeline stands in the machines' place.
@@ -42,6 +47,7 @@ pub struct App {
     selected: Option<Dossier>,
     lit: Lit,
     begun: usize,
+    language: Language,
 }
 
 /// What is remembered from one window to the next, beside what egui itself remembers.
@@ -54,6 +60,7 @@ struct Remembered {
     blend: Option<f64>,
     setup: bool,
     timeline: bool,
+    language: Option<Language>,
 }
 
 const REMEMBERED: &str = "anel";
@@ -61,11 +68,13 @@ const REMEMBERED: &str = "anel";
 impl App {
     /// The window's content, with what `storage` remembers; a run starts as soon as its scene is compiled.
     pub fn new(ctx: &Context, storage: Option<&dyn Storage>, launch: Launch) -> Self {
+        let remembered: Remembered =
+            storage.and_then(|storage| eframe::get_value(storage, REMEMBERED)).unwrap_or_default();
+        let language = remembered.language.unwrap_or(launch.language);
+        language.speak();
         theme::install(ctx);
         places::install(ctx);
         zoom::install(ctx);
-        let remembered: Remembered =
-            storage.and_then(|storage| eframe::get_value(storage, REMEMBERED)).unwrap_or_default();
         let settings = if remembered.settings.check().is_ok() { remembered.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_recent(remembered.recent);
@@ -84,6 +93,7 @@ impl App {
             setup: SetupPanel::new(remembered.setup),
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
+            compare: Compare::default(),
             help: false,
             timeline: TimelinePanel::default(),
             shows_timeline: remembered.timeline,
@@ -92,6 +102,7 @@ impl App {
             selected: None,
             lit: Lit::default(),
             begun: 0,
+            language,
         }
     }
 
@@ -103,6 +114,11 @@ impl App {
     /// Of how many qualities it is known what they cost, for tests.
     pub fn points_measured(&self) -> usize {
         self.accuracy.points()
+    }
+
+    /// What is compared, for tests.
+    pub fn compared(&self) -> Vec<(String, Option<Duration>)> {
+        self.compare.runs()
     }
 
     /// The selected machine, for tests.
@@ -137,6 +153,7 @@ impl App {
         let open = top_bar::Open {
             scenes: self.gallery.is_open(),
             accuracy: self.accuracy.is_open(),
+            compare: self.compare.is_open(),
             setup: self.setup.open,
             save: self.save_bar.is_open(),
         };
@@ -149,11 +166,13 @@ impl App {
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown);
             Panel::top("save bar").frame(panel(8, 8)).show(ui, bar);
         }
-        if self.gallery.is_open() || self.accuracy.is_open() {
+        if self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
             ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
                 if self.gallery.is_open() {
                     self.gallery.show(ui, &mut self.session);
+                } else if self.compare.is_open() {
+                    self.compare.show(ui, &mut self.session);
                 } else {
                     self.accuracy.show(ui, &mut self.session);
                 }
@@ -245,6 +264,7 @@ impl eframe::App for App {
                 Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
                 Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
+                Done::Compared(job, compared) => self.compare.take(job, compared),
                 Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
@@ -256,6 +276,7 @@ impl eframe::App for App {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.language.speak();
         zoom::keys(ui.ctx());
         let types = ui.ctx().egui_wants_keyboard_input();
         // Whoever is about to type a path means letters, wherever the focus is just then.
@@ -286,6 +307,7 @@ impl eframe::App for App {
             blend: Some(self.picture.blend),
             setup: self.setup.open,
             timeline: self.shows_timeline,
+            language: Some(self.language),
         };
         eframe::set_value(storage, REMEMBERED, &remembered);
     }

@@ -23,6 +23,8 @@ pub enum Icon {
     Sliders,
     /// What was measured.
     Chart,
+    /// Runs beside each other.
+    Compare,
     /// Take back.
     Undo,
     /// To what happened before.
@@ -110,6 +112,12 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             line(&[(0.1, 0.08), (0.1, 0.9), (0.94, 0.9)]);
             for (x, y) in [(0.3, 0.22), (0.46, 0.52), (0.82, 0.68)] {
                 painter.circle_filled(at(x, y), rect.width() * 0.1, colour);
+            }
+        }
+        Icon::Compare => {
+            for (y, length) in [(0.2, 0.55), (0.5, 0.9), (0.8, 0.35)] {
+                let bar = Rect::from_min_max(at(0.06, y - 0.09), at(0.06 + length, y + 0.09));
+                painter.rect_filled(bar, 1.0, colour);
             }
         }
         Icon::StepBack => {

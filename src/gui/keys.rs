@@ -36,6 +36,8 @@ pub enum Command {
     Scenes,
     /// Speed against accuracy.
     Accuracy,
+    /// Runs beside each other.
+    Compare,
     /// The scene's file once more.
     Reload,
     /// What can be set.
@@ -67,6 +69,8 @@ pub enum Command {
     Dolly(bool),
     /// Dark or light.
     Theme,
+    /// English or Portuguese.
+    Language,
     /// The whole screen, or a window.
     FullScreen,
     /// This table.
@@ -158,6 +162,7 @@ pub const TABLE: &[Line] = &[
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
     Line { shown: "A", what: "Accuracy: what other qualities cost", keys: &[(NONE, Key::A, Command::Accuracy)] },
+    Line { shown: "K", what: "Compare: the same by other strategies", keys: &[(NONE, Key::K, Command::Compare)] },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
     Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
     Line {
@@ -216,6 +221,7 @@ pub const TABLE: &[Line] = &[
     // The keys of the zoom are egui's own.
     Line { shown: "Ctrl +  −  0", what: "Everything larger, smaller, as usual", keys: &[] },
     Line { shown: "D", what: "Dark or light", keys: &[(NONE, Key::D, Command::Theme)] },
+    Line { shown: "Shift L", what: "English, or Portuguese", keys: &[(SHIFT, Key::L, Command::Language)] },
     Line { shown: "F11", what: "Full screen, or a window again", keys: &[(NONE, Key::F11, Command::FullScreen)] },
     Line { shown: "Esc", what: "Close what is open", keys: &[(NONE, Key::Escape, Command::Back)] },
     Line { shown: "F1", what: "This list of keys", keys: &[(NONE, Key::F1, Command::Help)] },

@@ -2,6 +2,8 @@
 
 mod accuracy;
 mod app;
+mod canvas_texture;
+mod compare;
 mod focus;
 mod frames;
 mod gallery;
@@ -45,6 +47,8 @@ pub use session::{Phase, Session, Stage};
 pub use settings::Settings;
 pub use tempo::Tempo;
 
+use crate::language::Language;
+
 /// What the window opens with.
 #[derive(Clone, Debug, Default)]
 pub struct Launch {
@@ -52,6 +56,8 @@ pub struct Launch {
     pub opening: Option<Opening>,
     /// Where each run's records are written when it ends or the window closes.
     pub log: Option<PathBuf>,
+    /// What is spoken until the user chooses otherwise.
+    pub language: Language,
 }
 
 /// The smallest window in which everything has its place, in points.

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Vec2, pos2};
 
 use super::theme::{self, Look};
 use crate::palette::{Rgb, text_on};
-use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
+use crate::view::{Anchor, Hue, Ink, Mark, Point, Quad, TextSize};
 
 /// What the names in a display list stand for.
 pub struct Inks<'a> {
@@ -31,6 +31,21 @@ impl Inks<'_> {
         };
         full.gamma_multiply(ink.alpha)
     }
+}
+
+/// Rectangles as one mesh, whose corner 0, 0 comes to `origin`: there may be thousands. None is so narrow that it is lost.
+pub fn quads(quads: &[Quad], origin: Pos2, inks: &Inks<'_>) -> Mesh {
+    let mut mesh = Mesh::default();
+    for Quad { place: [left, top, right, bottom], ink } in quads {
+        let (min, max) = (pos2(*left, *top), pos2(right.max(left + 0.5), *bottom));
+        let rect = Rect { min: origin + min.to_vec2(), max: origin + max.to_vec2() };
+        let (first, color) = (mesh.vertices.len() as u32, inks.colour(*ink));
+        for pos in [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()] {
+            mesh.vertices.push(Vertex { pos, uv: egui::epaint::WHITE_UV, color });
+        }
+        mesh.indices.extend([first, first + 1, first + 2, first, first + 2, first + 3]);
+    }
+    mesh
 }
 
 /// Paints `marks`, whose corner 0, 0 comes to `origin`.

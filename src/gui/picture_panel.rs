@@ -8,6 +8,7 @@ use egui::{
     TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
+use super::canvas_texture::CanvasTexture;
 use super::focus::Focus;
 use super::icons::{self, Icon};
 use super::picture_view::PictureView;
@@ -15,16 +16,14 @@ use super::session::{Moved, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::picture::Atom;
-use crate::view::{About, Canvas, Layer, Lit, atom_words, outlines, percent};
+use crate::view::{About, Layer, Lit, atom_words, outlines, percent};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
 
 /// The picture's texture, which lives as long as the window, and how the picture is looked at.
 pub struct PicturePanel {
-    texture: Option<TextureHandle>,
-    /// Whether pixels of the texture are to be told apart.
-    shows_pixels: bool,
+    texture: CanvasTexture,
     view: PictureView,
     /// What lies over the render.
     pub layer: Layer,
@@ -41,8 +40,7 @@ pub struct PicturePanel {
 impl Default for PicturePanel {
     fn default() -> Self {
         Self {
-            texture: None,
-            shows_pixels: false,
+            texture: CanvasTexture::default(),
             view: PictureView::default(),
             layer: Layer::Owners,
             blend: 70.0,
@@ -75,14 +73,14 @@ impl PicturePanel {
             self.look_about(ui, &response, size, frame);
         }
         let (place, scale) = self.view.place(size, frame);
-        self.upload(ui, canvas, scale >= SQUARE);
+        let texture = self.texture.upload(ui.ctx(), canvas, scale >= SQUARE);
         self.move_camera(ui, &response, frame, session);
         let state = session.stage().state();
         widgets::describe(&response, "Picture", || format!("{} done", percent(state.done(), state.atoms())));
         let painter = ui.painter_at(frame);
-        if let Some(texture) = &self.texture {
+        if let Some(texture) = texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.image(texture.id(), place, whole, Color32::WHITE);
+            painter.image(texture, place, whole, Color32::WHITE);
         }
         if let Some((_, texture)) = &self.moved {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -297,32 +295,6 @@ impl PicturePanel {
             self.blend = 70.0;
         }
     }
-
-    /// Hands the changed rows to the graphics card; the whole picture only once. A picture that is larger than a texture
-    /// can be is shown with fewer pixels.
-    fn upload(&mut self, ui: &Ui, canvas: &mut Canvas, shows_pixels: bool) {
-        let (width, height) = (canvas.size().width(), canvas.size().height());
-        let most = ui.input(|input| input.max_texture_side).max(1) as u32;
-        let step = width.max(height).div_ceil(most);
-        let shown = [width.div_ceil(step) as usize, height.div_ceil(step) as usize];
-        let dirty = canvas.take_dirty();
-        let is_same = std::mem::replace(&mut self.shows_pixels, shows_pixels) == shows_pixels;
-        let options = if shows_pixels { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
-        match &mut self.texture {
-            Some(texture) if texture.size() == shown && is_same => {
-                for rows in dirty {
-                    let first = rows.start.div_ceil(step);
-                    if let Some(image) = image(canvas, first..rows.end.div_ceil(step), step) {
-                        texture.set_partial([0, first as usize], image, options);
-                    }
-                }
-            }
-            texture => {
-                let image = image(canvas, 0..height.div_ceil(step), step);
-                *texture = image.map(|image| ui.ctx().load_texture("picture", image, options));
-            }
-        }
-    }
 }
 
 /// What is about seen by a camera that moves, for the graphics card; nothing if that is too large for it.
@@ -331,20 +303,6 @@ fn texture_of(ui: &Ui, moved: &Moved) -> Option<TextureHandle> {
     let most = ui.input(|input| input.max_texture_side);
     let image = || ColorImage::new([width, height], moved.pixels.iter().map(|&pixel| theme::colour(pixel)).collect());
     (width.max(height) <= most).then(|| ui.ctx().load_texture("moved", image(), TextureOptions::LINEAR))
-}
-
-/// Some rows of the texture, each `step`th of the picture's, and of those each `step`th pixel.
-fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
-    let width = canvas.size().width();
-    let pixels: Vec<_> = if step == 1 {
-        // The usual case, at once for all rows: there are many pixels, and frames.
-        canvas.rows(rows.clone()).iter().map(|&pixel| theme::colour(pixel)).collect()
-    } else {
-        let every = rows.clone().flat_map(|row| canvas.rows(row * step..row * step + 1).iter().step_by(step as usize));
-        every.map(|&pixel| theme::colour(pixel)).collect()
-    };
-    let size = [width.div_ceil(step) as usize, rows.len()];
-    (!pixels.is_empty()).then(|| ColorImage::new(size, pixels))
 }
 
 /// The pixel at a place in the picture, in pixels.

@@ -1,11 +1,10 @@
 //! A lane a machine: what it traced and when, what it waited for, and which messages went from one to another.
 
-use egui::epaint::{Mesh, Vertex};
 use egui::{Align2, Painter, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::focus::Focus;
 use super::nodes_panel;
-use super::paint::Inks;
+use super::paint::{Inks, quads};
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets;
@@ -165,16 +164,7 @@ impl TimelinePanel {
             let lane = Rect::from_min_max(at([0.0, top - 1.0]), at([plan.width, bottom + 1.0]));
             painter.rect_filled(lane, 2.0, look.raised);
         }
-        let mut mesh = Mesh::default();
-        for quad in &drawn.quads {
-            let [left, top, right, bottom] = quad.place;
-            add_rect(
-                &mut mesh,
-                Rect::from_min_max(at([left, top]), at([right.max(left + 0.5), bottom])),
-                inks.colour(quad.ink),
-            );
-        }
-        painter.add(Shape::mesh(mesh));
+        painter.add(Shape::mesh(quads(&drawn.quads, place.min, &inks)));
         for (from, to, ink) in &drawn.lines {
             painter.line_segment([at(*from), at(*to)], Stroke::new(1.25, inks.colour(*ink)));
         }
@@ -297,12 +287,4 @@ fn describe(response: &Response, stage: &Stage) {
         let of = if stage.phase == Phase::Finished { "in all" } else { "so far" };
         format!("{until} of {} {of}: {}", time_words(stage.length(), stage.grain()), usage_words(stage))
     });
-}
-
-fn add_rect(mesh: &mut Mesh, rect: Rect, colour: egui::Color32) {
-    let first = mesh.vertices.len() as u32;
-    for pos in [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()] {
-        mesh.vertices.push(Vertex { pos, uv: egui::epaint::WHITE_UV, color: colour });
-    }
-    mesh.indices.extend([first, first + 1, first + 2, first, first + 2, first + 3]);
 }

@@ -7,6 +7,7 @@ use super::keys::Command;
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button};
+use crate::language::{Language, word};
 use crate::runlog::Driver;
 use crate::view::{Sharing, count, time_words};
 
@@ -17,6 +18,8 @@ pub struct Open {
     pub scenes: bool,
     /// Speed against accuracy.
     pub accuracy: bool,
+    /// Runs beside each other.
+    pub compare: bool,
     /// What can be set.
     pub setup: bool,
     /// Saving.
@@ -72,9 +75,21 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     };
     let shown = |open: bool| if open { Weight::On } else { Weight::Quiet };
     press(Icon::Help, "Help", false, Weight::Quiet, Command::Help, "Which key does what (F1)");
+    let other = Language::spoken().other();
+    let language = named_button(ui, None, other.name(), Some(other.short_name()), Weight::Quiet);
+    if language.on_hover_text(word!("Em português (Shift L)", "In English (Shift L)")).clicked() {
+        clicked = Some(Command::Language);
+    }
+    let mut press = |icon, name, words, weight, command, hint: &str| {
+        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+            clicked = Some(command);
+        }
+    };
     press(Icon::Contrast, "Dark or light", false, Weight::Quiet, Command::Theme, "Dark or light (D)");
     press(Icon::Save, "Save…", words, shown(open.save), Command::Save, "Save a picture, or the run (S)");
     press(Icon::Chart, "Accuracy", words, shown(open.accuracy), Command::Accuracy, "What other qualities cost (A)");
+    let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
+    press(Icon::Compare, word!("Compare", "Comparar"), words, shown(open.compare), Command::Compare, hint);
     press(Icon::Sliders, "Set up", words, shown(open.setup), Command::Setup, "Machines, picture, strategy (E)");
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
         let button = button(ui, Some(Icon::Undo), "Undo", false, Weight::Quiet);

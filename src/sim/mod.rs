@@ -6,7 +6,9 @@ mod link;
 mod machine;
 mod party;
 mod simulation;
+mod trial;
 
 pub use link::{Link, Wire};
 pub use machine::Machine;
 pub use simulation::Sim;
+pub use trial::{Change, PixelCosts, Trial};

@@ -14,7 +14,7 @@ mod workbench;
 
 pub use accuracy::accuracy;
 pub use needs::needs;
-pub use paper::paper;
+pub use paper::{article_over_ideal, paper};
 pub use peer::peer;
 pub use progress::Tell;
 pub use rivals::rivals;

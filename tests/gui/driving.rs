@@ -21,7 +21,7 @@ pub fn open(size: [f32; 2]) -> Window {
 
 /// Opens a window with a scene or a run file and waits until its run goes on.
 pub fn open_with(size: [f32; 2], argument: &str) -> Window {
-    let launch = Launch { opening: Some(Opening::read(argument).expect("it can be read")), log: None };
+    let launch = Launch { opening: Some(Opening::read(argument).expect("it can be read")), ..Launch::default() };
     let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
     let mut window = Harness::builder().with_size(size).build_eframe(build);
     until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);

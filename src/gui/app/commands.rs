@@ -10,6 +10,9 @@ use crate::view::{About, Step};
 
 impl App {
     pub(super) fn obey(&mut self, command: Command, ctx: &Context) {
+        if self.compare.is_open() && !self.gallery.is_open() && self.compare.obey(command) {
+            return;
+        }
         let session = &mut self.session;
         match command {
             Command::Pause => session.toggle_pause(),
@@ -32,11 +35,18 @@ impl App {
             Command::SaveRun => self.save_bar.open_for_run(session),
             Command::Scenes => {
                 self.accuracy.close(session);
+                self.compare.close(session);
                 self.gallery.toggle(session);
             }
             Command::Accuracy => {
                 self.gallery.close();
+                self.compare.close(session);
                 self.accuracy.toggle(session);
+            }
+            Command::Compare => {
+                self.gallery.close();
+                self.accuracy.close(session);
+                self.compare.toggle(session);
             }
             Command::Reload => session.reload(),
             Command::Setup => self.setup.open = !self.setup.open,
@@ -60,6 +70,10 @@ impl App {
             Command::Outlines => self.picture.outlines = !self.picture.outlines,
             Command::Theme => {
                 ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
+            }
+            Command::Language => {
+                self.language = self.language.other();
+                self.language.speak();
             }
             Command::FullScreen => {
                 let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
@@ -95,6 +109,8 @@ impl App {
             self.gallery.close();
         } else if self.accuracy.is_open() {
             self.accuracy.close(&mut self.session);
+        } else if self.compare.is_open() {
+            self.compare.close(&mut self.session);
         } else if self.save_bar.is_open() {
             self.save_bar.close();
         } else if self.session.notice().is_some() {

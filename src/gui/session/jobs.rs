@@ -11,6 +11,7 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::super::opening::Opening;
 use super::super::settings::Settings;
+use super::comparing::Compared;
 use super::measuring::Finding;
 use super::moving::Moved;
 use crate::driver::{RAY, probe};
@@ -34,6 +35,8 @@ pub enum Done {
     Thumbnail(String, Result<Thumbnail, String>),
     /// The job of this number has found out something about speed and accuracy.
     Found(u64, Finding),
+    /// What has come of a comparison, and the number of its job.
+    Compared(u64, Compared),
     /// A pixel, with all that is known of it; nothing if there is no such pixel.
     Inspected(Option<Box<Inspected>>),
     /// What is about seen by a camera that was moved.

@@ -1,6 +1,7 @@
 //! One run after the other, as the window sees them. Here, and nowhere else in `gui`, are threads, channels and clocks:
 //! those of runs behind [`Performer`], those of everything else in [`jobs`].
 
+mod comparing;
 mod files;
 mod inspecting;
 pub mod jobs;
@@ -26,6 +27,7 @@ use crate::runlog::Header;
 use crate::scene::{Camera, Opened};
 use crate::time::Time;
 
+pub use comparing::{Compared, Grown, Growth, Pictured, Subject};
 use inspecting::Inspecting;
 pub use jobs::{Done, Prepared, Purpose};
 use jobs::{Jobs, Ready, Recorded};
@@ -150,7 +152,7 @@ impl Session {
                 }
                 Done::Inspected(inspected) => self.take_inspected(inspected),
                 Done::Moved(moved) => self.take_moved(moved),
-                done @ (Done::Chosen(..) | Done::Thumbnail(..)) => others.push(done),
+                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Compared(..)) => others.push(done),
             }
         }
         others

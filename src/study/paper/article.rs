@@ -32,7 +32,7 @@ pub(super) fn slow_speed() -> f64 {
 }
 
 /// The article's time over the ideal one, for so many machines of which the last may be slow.
-pub(super) fn over_ideal(strategy: Strategy, nodes: usize, slow: bool) -> Option<f64> {
+pub fn over_ideal(strategy: Strategy, nodes: usize, slow: bool) -> Option<f64> {
     let column = match strategy {
         Strategy::Farm => 0,
         Strategy::Static => 1,

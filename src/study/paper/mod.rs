@@ -18,6 +18,7 @@ use crate::driver::cores;
 use crate::picture::{Quality, Size};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
+pub use article::over_ideal as article_over_ideal;
 use measure::Measuring;
 use rows::Row;
 

@@ -1,0 +1,176 @@
+//! The jobs that run trials beside each other, in virtual time.
+
+use std::sync::Arc;
+
+use super::super::settings::Settings;
+use super::Session;
+use super::jobs::{Done, Jobs, Prepared};
+use crate::balance::Strategy;
+use crate::driver::{RAY, Whole};
+use crate::palette::Rgb;
+use crate::picture::{Colour, Division};
+use crate::runlog::{Driver, Tally};
+use crate::sim::{Change, PixelCosts, Trial};
+use crate::tracer::Tracer;
+use crate::view::Contender;
+
+/// A picture that is traced once for all trials of it.
+pub struct Pictured {
+    /// All pixels in scan order.
+    pub pixels: Vec<Colour>,
+    /// What each costs the reference machine, by its rays.
+    pub costs: PixelCosts,
+}
+
+/// What a comparison is of.
+#[derive(Clone)]
+pub struct Subject {
+    tracer: Arc<Tracer>,
+    /// The run on the stage, in virtual time.
+    pub trial: Trial,
+}
+
+impl Subject {
+    /// Whether it is the same.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.has_picture_of(other) && self.trial == other.trial
+    }
+
+    /// Whether what was traced for this subject serves the other, too.
+    pub fn has_picture_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.tracer, &other.tracer)
+    }
+}
+
+/// How well strategies do with more and more machines.
+pub struct Growth {
+    /// By strategy: machines, the power of all beside one at full speed, and the makespan in seconds.
+    pub of: Vec<(Strategy, Vec<Grown>)>,
+    /// The last machine is a slow one.
+    pub slow: Option<f64>,
+}
+
+/// A run of so many machines.
+#[derive(Clone, Copy, Debug)]
+pub struct Grown {
+    /// How many.
+    pub machines: usize,
+    /// How many times as long one machine at full speed would take.
+    pub speedup: f64,
+    /// The ideal makespan over this one.
+    pub efficiency: f64,
+}
+
+/// What has come of a comparison.
+pub enum Compared {
+    /// The traced picture.
+    Picture(Arc<Pictured>),
+    /// A trial, by its number.
+    Run(u64, Box<Contender>),
+    /// How strategies do with more machines.
+    Growth(Growth),
+    /// Nothing comes, for this reason.
+    Failed(String),
+}
+
+/// A trial that is to be run, its number and its name.
+pub type Entry = (u64, String, Trial);
+
+impl Session {
+    /// What can be compared now: the run on the stage, as it would be in virtual time, with all that was done to it so
+    /// far. Nothing until the scene is compiled.
+    pub fn subject(&self) -> Option<Subject> {
+        let recorded = self.recorded.as_ref().map(|recorded| Arc::clone(&recorded.tracer));
+        let tracer = recorded.or_else(|| self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.tracer)))?;
+        let mut trial = Trial::of(&self.stage.log);
+        if let (Some(prepared), None) = (&self.prepared, &self.recorded) {
+            trial.header.pace = self.virtual_pace(prepared);
+        }
+        // rayon shares by no rules of ours.
+        if self.header().driver == Driver::WorkStealing {
+            trial = trial.with(Change::Strategy(Strategy::Ring));
+        }
+        (tracer.size() == trial.header.size).then_some(Subject { tracer, trial })
+    }
+
+    /// Traces the picture, if it is not known, and runs trials of it; returns the job's number.
+    pub fn compare(&mut self, subject: &Subject, known: Option<Arc<Pictured>>, entries: Vec<Entry>) -> u64 {
+        self.jobs.compare(Arc::clone(&subject.tracer), known, entries, self.ground)
+    }
+
+    /// Runs the subject by each strategy with more and more machines; returns the job's number.
+    pub fn grow(&mut self, subject: &Subject, pictured: Arc<Pictured>) -> u64 {
+        self.jobs.grow(subject.trial.clone(), pictured)
+    }
+
+    /// Virtual time has a pace of its own, in which the whole lasts as long as is set.
+    fn virtual_pace(&self, prepared: &Prepared) -> f64 {
+        let settings = Settings { driver: Driver::Sim, ..self.settings.clone() };
+        settings.header("", "", prepared.work(Driver::Sim), 1).pace
+    }
+}
+
+impl Jobs {
+    fn compare(&mut self, tracer: Arc<Tracer>, known: Option<Arc<Pictured>>, entries: Vec<Entry>, ground: Rgb) -> u64 {
+        let number = self.number();
+        let failed = move |why| Done::Compared(number, Compared::Failed(why));
+        self.start_many("compare", failed, move |tell| {
+            let tell = |compared| tell(Done::Compared(number, compared));
+            let pictured = match known.map_or_else(|| pictured(&tracer, &tell), Ok) {
+                Ok(pictured) => pictured,
+                Err(why) => return tell(Compared::Failed(why)),
+            };
+            for (id, name, trial) in entries {
+                let log = Arc::new(trial.run(&pictured.costs));
+                tell(Compared::Run(id, Box::new(Contender::new(name, log, &pictured.pixels, ground))));
+            }
+        });
+        number
+    }
+
+    fn grow(&mut self, trial: Trial, pictured: Arc<Pictured>) -> u64 {
+        let number = self.number();
+        let failed = move |why| Done::Compared(number, Compared::Failed(why));
+        self.start_many("grow", failed, move |tell| {
+            tell(Done::Compared(number, Compared::Growth(grown(&trial, &pictured.costs))));
+        });
+        number
+    }
+}
+
+/// Traces the picture on all cores.
+fn pictured(tracer: &Arc<Tracer>, tell: &dyn Fn(Compared)) -> Result<Arc<Pictured>, String> {
+    // Pixel by pixel, so that it can be cut into atoms of any size.
+    let division = Division::new(tracer.size().pixels(), 1);
+    let whole = Whole::of(tracer, division, &|_| {})?;
+    let costs: Vec<_> = whole.rays.iter().map(|&rays| RAY * rays.max(1)).collect();
+    let costs = PixelCosts::new(tracer.size(), &costs);
+    let pictured = Arc::new(Pictured { pixels: whole.pixels, costs });
+    tell(Compared::Picture(Arc::clone(&pictured)));
+    Ok(pictured)
+}
+
+/// With one machine to eight, the last of which is slow where a machine of the trial is.
+fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
+    const MOST: usize = 8;
+    let slowest = trial.header.speeds.iter().copied().fold(1.0, f64::min);
+    let slow = (0.0 < slowest && slowest < 0.5).then_some(slowest);
+    // What was done to the run was done to its machines, which here are others.
+    let bare = Trial { script: Vec::new(), ..trial.clone() };
+    let one = bare.with(Change::Nodes(1)).with(Change::Equal).with(Change::Strategy(Strategy::Serial));
+    let alone = Tally::of(&one.run(costs)).makespan().unwrap_or_default();
+    let of = |strategy| {
+        let run = |machines: usize| {
+            let equal = bare.with(Change::Nodes(machines)).with(Change::Equal).with(Change::Strategy(strategy));
+            let grown = match slow {
+                Some(speed) if machines > 1 => equal.with(Change::Speed(machines as u16 - 1, speed)),
+                _ => equal,
+            };
+            let tally = Tally::of(&grown.run(costs));
+            let (makespan, efficiency) = (tally.makespan()?, tally.efficiency()?);
+            Some(Grown { machines, speedup: alone.div_duration_f64(makespan), efficiency })
+        };
+        (strategy, (1..=MOST).filter_map(run).collect())
+    };
+    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), slow }
+}

@@ -1,0 +1,215 @@
+//! A run that could be: what is asked of it and done to it, and the same with one thing changed.
+
+use std::time::Duration;
+
+use super::Sim;
+use crate::balance::{NodeId, Rules, Strategy};
+use crate::picture::{Division, Size};
+use crate::record::What;
+use crate::runlog::{Driver, Header, RunLog};
+use crate::scenario::{Command, Script};
+use crate::time::Time;
+
+/// A run in virtual time: what is asked of it, and what is done to it while it goes on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// What is asked of it.
+    pub header: Header,
+    /// What is done to it.
+    pub script: Script,
+}
+
+/// One thing that is changed, all else being the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// How the atoms are shared, with what is usual then.
+    Strategy(Strategy),
+    /// As many machines; new ones run at full speed.
+    Nodes(usize),
+    /// A machine's speed from the beginning on.
+    Speed(NodeId, f64),
+    /// A machine's speed from some time on.
+    SpeedAt(Time, NodeId, f64),
+    /// All machines run at full speed.
+    Equal,
+    /// Pixels in an atom.
+    Atom(u32),
+    /// How long a message travels.
+    Latency(Duration),
+    /// How long the parent is busy with a message.
+    Handling(Duration),
+}
+
+impl Trial {
+    /// The run that a log is of, in virtual time, with all that was done to it.
+    pub fn of(log: &RunLog) -> Self {
+        let command = |what: &What| match *what {
+            What::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
+            What::Paused { node } => Some(Command::Pause { node, paused: true }),
+            What::Resumed { node } => Some(Command::Pause { node, paused: false }),
+            What::LatencySet { latency } => Some(Command::Latency(latency)),
+            _ => None,
+        };
+        let script = log.records().iter().filter_map(|record| Some((record.at, command(&record.what)?))).collect();
+        Self::new(log.header.clone(), script)
+    }
+
+    /// The run of a header in virtual time.
+    pub fn new(header: Header, script: Script) -> Self {
+        Self { header: Header { driver: Driver::Sim, cores: header.speeds.len(), ..header }, script }
+    }
+
+    /// The same with one thing changed.
+    pub fn with(&self, change: Change) -> Self {
+        let mut trial = self.clone();
+        let header = &mut trial.header;
+        match change {
+            Change::Strategy(strategy) => header.rules.strategy = strategy,
+            Change::Nodes(nodes) => header.speeds.resize(nodes.max(1), 1.0),
+            Change::Speed(node, speed) => {
+                if let Some(known) = header.speeds.get_mut(usize::from(node)) {
+                    *known = speed;
+                }
+            }
+            Change::SpeedAt(at, node, speed) => {
+                let later = trial.script.partition_point(|(other, _)| *other <= at);
+                trial.script.insert(later, (at, Command::Speed { node, speed }));
+                // What was done to the machine afterwards would take it back.
+                let of_it = |command: &Command| matches!(command, Command::Speed { node: of, .. } if *of == node);
+                let mut place = 0;
+                trial.script.retain(|(_, command)| {
+                    place += 1;
+                    place <= later + 1 || !of_it(command)
+                });
+            }
+            Change::Equal => header.speeds.fill(1.0),
+            Change::Atom(pixels) => header.division = Division::new(header.size.pixels(), pixels.max(1)),
+            Change::Latency(latency) => header.link.latency = latency,
+            Change::Handling(handling) => header.handling = handling,
+        }
+        if matches!(change, Change::Strategy(_) | Change::Nodes(_) | Change::Atom(_)) {
+            let Rules { strategy, .. } = header.rules;
+            header.rules.part = strategy.usual_part(header.division, header.speeds.len());
+        }
+        header.cores = header.speeds.len();
+        trial
+    }
+
+    /// The whole run, if pixels cost so much. Its picture is not completed if machines that have atoms stand still for good.
+    ///
+    /// # Panics
+    /// If the costs are those of a picture of another size.
+    pub fn run(&self, costs: &PixelCosts) -> RunLog {
+        let costs = costs.of_atoms(self.header.division);
+        let mut sim = Sim::new(&self.header, &self.script, move |atom| costs[atom as usize]);
+        let (mut log, mut records) = (RunLog::new(self.header.clone()), Vec::new());
+        sim.run(&mut |record| records.push(record));
+        log.add(records);
+        log
+    }
+}
+
+/// What each pixel of a picture costs the reference machine, so that it can be cut into atoms of any size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelCosts {
+    size: Size,
+    /// By pixel: the cost of all before it.
+    before: Vec<Duration>,
+}
+
+impl PixelCosts {
+    /// A pixel a cost, in scan order.
+    ///
+    /// # Panics
+    /// If they are not as many as the picture has pixels.
+    pub fn new(size: Size, costs: &[Duration]) -> Self {
+        assert_eq!(costs.len(), size.pixels() as usize, "a cost for each pixel");
+        let mut sum = Duration::ZERO;
+        let before = std::iter::once(Duration::ZERO).chain(costs.iter().map(|&cost| {
+            sum += cost;
+            sum
+        }));
+        Self { size, before: before.collect() }
+    }
+
+    /// The whole picture's.
+    pub fn whole(&self) -> Duration {
+        self.before[self.size.pixels() as usize]
+    }
+
+    /// What atoms cost.
+    fn of_atoms(&self, division: Division) -> Vec<Duration> {
+        let cost = |atom| {
+            let pixels = division.pixels(atom);
+            self.before[pixels.end as usize] - self.before[pixels.start as usize]
+        };
+        (0..division.atoms()).map(cost).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::{prop, prop_assert_eq, proptest};
+
+    use super::*;
+    use crate::runlog::Tally;
+    use crate::runlog::examples::header;
+
+    fn costs(size: Size) -> PixelCosts {
+        let costs: Vec<_> = (0..size.pixels()).map(|pixel| Duration::from_micros(20 + u64::from(pixel % 50))).collect();
+        PixelCosts::new(size, &costs)
+    }
+
+    fn makespan(trial: &Trial) -> Duration {
+        Tally::of(&trial.run(&costs(trial.header.size))).makespan().expect("it ends")
+    }
+
+    #[test]
+    fn one_thing_is_changed_and_all_else_is_the_same() {
+        let trial = Trial::new(header(&[1.0, 1.0, 1.0, 0.1]), Vec::new());
+        let bands = trial.with(Change::Strategy(Strategy::Static));
+        assert!(makespan(&bands) > 2 * makespan(&trial), "{:?} {:?}", makespan(&bands), makespan(&trial));
+        assert_eq!(bands.with(Change::Strategy(trial.header.rules.strategy)), trial);
+        let equal = trial.with(Change::Equal);
+        assert_eq!(equal, trial.with(Change::Speed(3, 1.0)));
+        assert!(makespan(&equal) < makespan(&trial));
+        assert_eq!(trial.with(Change::Nodes(6)).header.speeds, [1.0, 1.0, 1.0, 0.1, 1.0, 1.0]);
+        assert_eq!(trial.with(Change::Nodes(6)).header.cores, 6);
+        let later = trial.with(Change::Latency(Duration::from_millis(300)));
+        assert!(makespan(&later) > makespan(&trial));
+    }
+
+    #[test]
+    fn a_fork_is_the_same_until_it_parts() {
+        let trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
+        let half = Time::ZERO + makespan(&trial) / 2;
+        let (one, other) = (trial.run(&costs(trial.header.size)), trial.with(Change::SpeedAt(half, 1, 0.05)));
+        let other = other.run(&costs(trial.header.size));
+        let until = one.until(half);
+        assert_eq!(one.records()[..until], other.records()[..until]);
+        assert!(other.records().last().map(|last| last.at) > one.records().last().map(|last| last.at));
+    }
+
+    #[test]
+    fn what_was_done_to_a_run_is_done_to_its_twin() {
+        let trial = Trial::new(header(&[1.0, 1.0]), vec![(Time(40_000_000), Command::Speed { node: 1, speed: 0.2 })]);
+        let log = trial.run(&costs(trial.header.size));
+        assert_eq!(Trial::of(&log), trial);
+        assert_eq!(Trial::of(&log).run(&costs(trial.header.size)), log);
+        let fork = trial.with(Change::SpeedAt(Time(10), 1, 0.5));
+        assert_eq!(fork.script, [(Time(10), Command::Speed { node: 1, speed: 0.5 })]);
+    }
+
+    proptest! {
+        #[test]
+        fn an_atom_costs_what_its_pixels_do(costs in prop::collection::vec(0..1000u64, 48), atom in 1..60u32) {
+            let costs: Vec<_> = costs.into_iter().map(Duration::from_nanos).collect();
+            let size = Size::new(8, 6).expect("a picture");
+            let (pixels, division) = (PixelCosts::new(size, &costs), Division::new(48, atom));
+            let of_atoms = pixels.of_atoms(division);
+            prop_assert_eq!(of_atoms.iter().sum::<Duration>(), pixels.whole());
+            let first: Duration = costs.iter().take(atom as usize).sum();
+            prop_assert_eq!(of_atoms[0], first);
+        }
+    }
+}
