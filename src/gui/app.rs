@@ -190,7 +190,8 @@ impl App {
         let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
         below.show(ui, |ui| {
             if self.shows_timeline {
-                self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit);
+                let hovered = self.hovered.as_ref();
+                self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit, hovered);
             } else {
                 nodes_panel::show(ui, &mut self.session, &mut self.focus, &self.lit);
             }

@@ -16,6 +16,8 @@ pub enum Command {
     Step(Step, bool),
     /// The run's time goes faster (`true`) or slower.
     Rate(bool),
+    /// Time goes at this place of [`RATES`](crate::view::RATES).
+    SetRate(usize),
     /// What happens as it happens; or the end.
     Live,
     /// The run's beginning.

@@ -61,6 +61,10 @@ impl PicturePanel {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
         let look = Look::of(ui.ctx());
         let shown = self.shown();
+        if self.moves_camera && session.is_recorded() {
+            self.moves_camera = false;
+            session.refuse_camera();
+        }
         let canvas = session.stage_mut().canvas(shown, theme::rgb(look.ground));
         let size = vec2(canvas.size().width() as f32, canvas.size().height() as f32);
         let room = vec2(ui.available_width(), (ui.available_height() - BELOW).max(GRID));

@@ -13,7 +13,7 @@ use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button, next_of};
 use crate::time::Time;
-use crate::view::{Landmark, Sign, SignKind, Step, landmarks, rate_of_time_words, short_rate_words, time_words};
+use crate::view::{Landmark, RATES, Sign, SignKind, Step, landmarks, rate_of_time_words, short_rate_words, time_words};
 
 /// How high the panel is.
 pub const HEIGHT: f32 = 4.0 * GRID;
@@ -23,6 +23,8 @@ pub struct TimePanel {
     step: Step,
     /// What was found when the list was opened.
     found: Vec<Landmark>,
+    /// The version of the run's lanes that it was found in.
+    found_in: u64,
     /// The list is to be opened or closed.
     toggles: bool,
     is_finding: bool,
@@ -30,7 +32,7 @@ pub struct TimePanel {
 
 impl Default for TimePanel {
     fn default() -> Self {
-        Self { step: Step::Event, found: Vec::new(), toggles: false, is_finding: false }
+        Self { step: Step::Event, found: Vec::new(), found_in: 0, toggles: false, is_finding: false }
     }
 }
 
@@ -109,8 +111,9 @@ impl TimePanel {
         let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
         let popup = Popup::from_toggle_button_response(&find).frame(frame.inner_margin(GRID));
         let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-            if !was_open {
-                self.found = landmarks(&session.stage().log);
+            let known = session.stage().lanes().version();
+            if !was_open || self.found_in != known {
+                (self.found, self.found_in) = (landmarks(&session.stage().log), known);
             }
             ui.set_width(52.0 * GRID);
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
@@ -160,16 +163,45 @@ fn rate(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
     if button(ui, Some(Icon::Slower), "Slower", false, Weight::Quiet).on_hover_text("Time goes slower (,)").clicked() {
         pressed = Some(Command::Rate(false));
     }
-    let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, HEIGHT), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, rate_of_time_words(rate)));
+    let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, HEIGHT), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Time goes {}", rate_of_time_words(rate))));
     let colour = look.text;
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 6.0, look.raised);
+    }
     let words = ui.painter().layout_no_wrap(short_rate_words(rate), theme::regular(theme::SMALL), colour);
     ui.painter().galley(rect.center() - words.size() / 2.0, words, colour);
-    response.on_hover_text(format!("Time goes {}", rate_of_time_words(rate)));
+    pressed = pressed.or(rates(&response, rate, look));
+    response.on_hover_text(format!("Time goes {}; press for others", rate_of_time_words(rate)));
     if button(ui, Some(Icon::Faster), "Faster", false, Weight::Quiet).on_hover_text("Time goes faster (.)").clicked() {
         pressed = Some(Command::Rate(true));
     }
     pressed
+}
+
+/// All rates, from the slowest to the fastest.
+fn rates(opener: &Response, now: f64, look: Look) -> Option<Command> {
+    let frame = Frame::popup(&opener.ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
+    let popup = Popup::from_toggle_button_response(opener).frame(frame.inner_margin(GRID));
+    let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
+        ui.set_width(20.0 * GRID);
+        ui.spacing_mut().item_spacing.y = GRID / 4.0;
+        let mut chosen = None;
+        for (index, rate) in RATES.into_iter().enumerate() {
+            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 2.75 * GRID), Sense::click());
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, rate == now, rate_of_time_words(rate)));
+            if response.hovered() || response.has_focus() || rate == now {
+                ui.painter().rect_filled(rect, 6.0, look.raised);
+            }
+            let words = ui.painter().layout_no_wrap(rate_of_time_words(rate), theme::regular(theme::SMALL), look.text);
+            ui.painter().galley(pos2(rect.left() + GRID, rect.center().y - words.size().y / 2.0), words, look.text);
+            if response.clicked() {
+                chosen = Some(Command::SetRate(index));
+            }
+        }
+        chosen
+    });
+    shown.and_then(|shown| shown.inner)
 }
 
 /// Back to what happens now, or to the end.

@@ -12,7 +12,7 @@ use crate::balance::{NodeId, Party};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    About, LanePlan, Lit, TimeWindow, Timeline, activity_word, axis, bytes_words, count, fraction, node_name,
+    About, Dossier, LanePlan, Lit, TimeWindow, Timeline, activity_word, axis, bytes_words, count, fraction, node_name,
     time_words, timeline, timeline_at,
 };
 
@@ -53,7 +53,14 @@ impl TimelinePanel {
     }
 
     /// Shows all lanes.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        session: &mut Session,
+        focus: &mut Focus,
+        lit: &Lit,
+        hovered: Option<&Dossier>,
+    ) {
         let look = Look::of(ui.ctx());
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
@@ -70,6 +77,10 @@ impl TimelinePanel {
         self.point(&response, place, &plan, session, focus);
         let stage = session.stage();
         describe(&response, stage);
+        if let Some(about) = hovered.filter(|_| response.hovered() && !response.dragged()) {
+            let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
+            response.clone().on_hover_text_at_pointer(format!("{title}\n{more}"));
+        }
         let painter = ui.painter_at(place.expand(1.0));
         self.paint(&painter, place, &plan, stage, lit, look);
         usage(&ui.painter_at(area), area, &plan, stage, look);
@@ -197,7 +208,7 @@ impl TimelinePanel {
             painter.rect_filled(later, 0.0, look.ground.gamma_multiply(0.55));
         }
         painter.line_segment(
-            [pos2(now, place.top()), pos2(now, place.top() + plan.bottom())],
+            [pos2(now, place.top() + 0.5 * plan.head), pos2(now, place.top() + plan.bottom())],
             Stroke::new(1.5, look.accent),
         );
     }

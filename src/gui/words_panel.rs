@@ -6,6 +6,7 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::palette::text_on;
+use crate::time::Time;
 use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares};
 
 const SENTENCE: f32 = 3.25 * GRID;
@@ -82,13 +83,14 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
         ui.set_min_height(SENTENCE);
         ui.add(Label::new(text).wrap());
     });
-    events(ui, session, events_shown(ui), look);
+    let earlier = stage.narrator().earlier(stage.state(), session.now());
+    events(ui, earlier.rev().take(events_shown(ui)), look);
 }
 
-/// The last events before that of the moment.
-fn events(ui: &mut Ui, session: &Session, most: usize, look: Look) {
+/// Events and their times, a line each.
+fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a str)>, look: Look) {
     let font = theme::regular(theme::SMALL);
-    for (at, event) in session.stage().narrator().earlier(session.stage().state(), session.now()).rev().take(most) {
+    for (at, event) in events {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, "Event", || event.to_owned());
         let y = line.center().y;
@@ -124,7 +126,9 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     // Where there is more room than the figures need, the last events still stand there.
     let rest = area.with_min_y(area.top() + 7.0 * GRID);
     let lines = (rest.height().max(0.0) / EVENT) as usize;
-    ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| events(ui, session, lines, look));
+    ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| {
+        events(ui, stage.narrator().events().rev().take(lines), look);
+    });
     let height =
         |size: f32| ui.painter().layout(result.parts.clone(), theme::regular(size), look.text, place.width()).size().y;
     // Rather not at all than cut: the bar below tells it too.

@@ -134,7 +134,8 @@ impl Dossier {
                 let traced = self.bar.map(|(node, bar)| {
                     let took = duration(bar.to.since(bar.from));
                     let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01));
-                    format!(" · machine {} was at it from {from} to {to}, for {took} at its speed", node_name(node))
+                    let is = if bar.to <= now { "was" } else { "will be" };
+                    format!(" · machine {} {is} at it from {from} to {to}, for {took} at its speed", node_name(node))
                 });
                 (atom_words(state, atom, now), format!("{place}{}", traced.unwrap_or_default()))
             }
@@ -144,7 +145,8 @@ impl Dossier {
                     let [sent, arrives] = [flight.sent, flight.arrives].map(|time| time_words(time, grain * 0.01));
                     let took = duration(flight.arrives.since(flight.sent));
                     let why = self.why.as_ref().map(|why| format!("{why} · ")).unwrap_or_default();
-                    (flight_words(flight), format!("{why}left at {sent}, arrived at {arrives}, {took} later"))
+                    let arrived = if flight.arrives <= now { "arrived" } else { "arrives" };
+                    (flight_words(flight), format!("{why}left at {sent}, {arrived} at {arrives}, {took} later"))
                 }
             },
         }

@@ -24,7 +24,7 @@ impl RunState {
     pub fn presence(&self, now: Time) -> f32 {
         const FADE: Duration = Duration::from_millis(250);
         let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
-        1.0 - (after.as_secs_f64() / FADE.as_secs_f64()).min(1.0) as f32
+        1.0 - (after.as_secs_f64() / (FADE.as_secs_f64() * self.rate())).min(1.0) as f32
     }
 
     /// How many messages have arrived at the parent that it has not handled yet at `now`.

@@ -19,7 +19,12 @@ impl App {
             Command::Restart => session.restart(),
             Command::Step(by, forward) => session.step(by, forward),
             Command::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
-            Command::Live => session.stage_mut().follow(),
+            Command::SetRate(index) => session.stage_mut().set_rate(index),
+            Command::Live => {
+                session.stage_mut().follow();
+                // What was looked at is past, and what happens now is to be read.
+                self.focus.selected = self.focus.node().map(About::Node);
+            }
             Command::Beginning => session.stage_mut().seek(Time::ZERO, true),
             Command::Find => self.time.toggle_find(),
             Command::Jump(records, about) => {

@@ -42,7 +42,7 @@ impl Session {
     /// Moves the camera; a recorded run keeps its own.
     pub fn move_camera(&mut self, change: impl FnOnce(&Camera) -> Camera) {
         if self.is_recorded() {
-            return self.note("A recorded run keeps its camera: make it live first (E)");
+            return self.refuse_camera();
         }
         let Some(prepared) = &self.prepared else { return };
         let before = self.moving.as_ref().map_or(prepared.opened.scene.camera, |moving| moving.camera);
@@ -51,6 +51,11 @@ impl Session {
         let (is_busy, again) = (self.camera_jobs > 0, self.camera_jobs > 0);
         self.moving = Some(Moving { camera, since: self.clock, is_busy, again, is_settled: false, shown });
         self.look_from_there();
+    }
+
+    /// Says why the camera of a recorded run cannot be moved.
+    pub fn refuse_camera(&mut self) {
+        self.note("A recorded run keeps its camera: make it live first, under Set up (E)");
     }
 
     /// Goes back to the scene's own camera.

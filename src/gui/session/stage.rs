@@ -277,7 +277,9 @@ impl Stage {
     pub fn show_after(&mut self, records: usize) {
         let at =
             records.checked_sub(1).and_then(|last| self.log.records().get(last)).map_or(Time::ZERO, |last| last.at);
-        self.time.seek(at, true);
+        // What is still drawn on its way when the picture is complete would stand still there for good.
+        let is_end = records >= self.log.records().len() && self.known.latest.state.finished().is_some();
+        self.time.seek(if is_end { self.clock() } else { at }, true);
         self.stepped_to = Some(records);
         self.show_now();
     }
@@ -294,7 +296,12 @@ impl Stage {
 
     /// Time goes faster or slower by so many of [`RATES`](crate::view::RATES).
     pub fn change_rate(&mut self, by: isize) {
-        self.time.change_rate(by);
+        self.set_rate(self.time.rate_index().saturating_add_signed(by));
+    }
+
+    /// Time goes at one of [`RATES`](crate::view::RATES).
+    pub fn set_rate(&mut self, index: usize) {
+        self.time.set_rate(index);
         self.performer.set_rate(self.time.rate());
     }
 
