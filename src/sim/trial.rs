@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn what_was_done_to_a_run_is_done_to_its_twin() {
-        let trial = Trial::new(header(&[1.0, 1.0]), vec![(Time(40_000_000), Command::Speed { node: 1, speed: 0.2 })]);
+        let trial = Trial::new(header(&[1.0, 1.0]), vec![(Time(500_000), Command::Speed { node: 1, speed: 0.2 })]);
         let log = trial.run(&costs(trial.header.size));
         assert_eq!(Trial::of(&log), trial);
         assert_eq!(Trial::of(&log).run(&costs(trial.header.size)), log);

@@ -206,7 +206,9 @@ mod tests {
         let mut narrator = Narrator::default();
         let at = |ms: u64| Time(ms * 1_000_000);
         for (ms, node) in [(0, 0), (100, 1), (200, 2)] {
-            narrator.apply(&Record { at: at(ms), what: What::Retired { node } }, &state);
+            let record = Record { at: at(ms), what: What::Retired { node } };
+            state.apply(&record);
+            narrator.apply(&record, &state);
         }
         let mut says = |rate, ms| {
             state.set_rate(rate);

@@ -4,13 +4,16 @@ use std::time::Duration;
 
 use egui::{Frame, Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::super::icons::Icon;
 use super::super::settings::Settings;
 use super::super::theme::{self, GRID, Look};
+use super::super::widgets::{Weight, button};
 use super::columns::menu_button;
 use crate::balance::{NodeId, Strategy};
 use crate::language::{say, word};
 use crate::sim::{Change, Trial};
-use crate::view::change_words;
+use crate::time::Time;
+use crate::view::{change_words, count, duration, fraction, node_name, time_words};
 
 /// A menu of strategies; returns what was chosen.
 pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Change> {
@@ -19,15 +22,57 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
     }
     let opener = menu_button(ui, word!("Add a run", "Acrescentar uma execução"), word!("Add …", "Acrescentar …"));
     let changes = strategies.iter().map(|&strategy| Change::Strategy(strategy)).collect();
-    menu(&opener, vec![(String::new(), changes)], look)
+    menu(&opener, look, |ui| row(ui, "", changes, look))
 }
 
-/// A menu of what can be changed of a run, all else being the same; returns what was chosen.
-pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, look: Look) -> Option<Change> {
+/// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
+/// changed from the shown time on, too: until then both runs are the same.
+pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, look: Look) -> Option<Change> {
     let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
-    let opener = menu_button(ui, &name, word!("Change …", "Mudar …"));
-    let opener = opener.on_hover_text(&name);
-    menu(&opener, possible(trial), look)
+    let opener = menu_button(ui, &name, word!("Change …", "Mudar …")).on_hover_text(&name);
+    let nodes = trial.header.speeds.len();
+    menu(&opener, look, |ui| {
+        // Which machine: the last, unless somebody has gone on to another.
+        let id = opener.id.with("machine");
+        let last = nodes.saturating_sub(1);
+        let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
+        let mut chosen = None;
+        for (group, changes) in possible(trial) {
+            chosen = chosen.or(row(ui, &group, changes, look));
+        }
+        ui.horizontal(|ui| {
+            heading(ui, word!("A machine", "Uma máquina"), look);
+            let before = button(
+                ui,
+                Some(Icon::StepBack),
+                word!("The machine before", "A máquina anterior"),
+                false,
+                Weight::Quiet,
+            );
+            if before.clicked() {
+                node = (node + last) % nodes;
+            }
+            let number = RichText::new(node_name(node as NodeId).to_string());
+            ui.label(number.font(theme::strong(theme::BODY)).color(look.text));
+            if button(ui, Some(Icon::StepOn), word!("The next machine", "A próxima máquina"), false, Weight::Quiet)
+                .clicked()
+            {
+                node = (node + 1) % nodes;
+            }
+        });
+        ui.data_mut(|data| data.insert_temp(id, node));
+        let node = node as NodeId;
+        let speeds = [1.0, 0.5, 0.1, 0.05, 0.01, 0.0].into_iter();
+        let unlike = speeds.clone().filter(|speed| trial.header.speeds[usize::from(node)] != *speed);
+        let always = unlike.map(|speed| Change::Speed(node, speed)).collect();
+        chosen = chosen.or(row(ui, word!("all along", "o tempo todo"), always, look));
+        if now > Time::ZERO {
+            let at = time_words(now, 1.0);
+            let later = speeds.map(|speed| Change::SpeedAt(now, node, speed)).collect();
+            chosen = chosen.or(row(ui, &say!("from {at} on", "a partir de {at}"), later, look));
+        }
+        chosen
+    })
 }
 
 /// What can be changed, by what it is about.
@@ -36,12 +81,6 @@ fn possible(trial: &Trial) -> Vec<(String, Vec<Change>)> {
     let nodes = header.speeds.len();
     let strategies = Strategy::ALL.into_iter().filter(|&strategy| strategy != header.rules.strategy);
     let counts = [1, 2, 3, 4, 5, 8, 16, 32].into_iter().filter(|&count| count != nodes);
-    let last = nodes.saturating_sub(1) as NodeId;
-    let mut speeds: Vec<Change> =
-        [1.0, 0.5, 0.1, 0.05, 0.01].into_iter().map(|speed| Change::Speed(last, speed)).collect();
-    speeds
-        .retain(|change| !matches!(change, Change::Speed(node, speed) if header.speeds[usize::from(*node)] == *speed));
-    speeds.push(Change::Equal);
     let atom = header.division.atom_pixels();
     let most = Settings::MOST_ATOMS;
     let atoms = [5, 20, 50, 200, 1000, 5000].into_iter();
@@ -49,50 +88,78 @@ fn possible(trial: &Trial) -> Vec<(String, Vec<Change>)> {
     let ms = Duration::from_millis;
     let latencies = [0, 5, 40, 200, 1000].map(ms).into_iter().filter(|&latency| latency != header.link.latency);
     let handlings = [0, 2, 20, 100].map(ms).into_iter().filter(|&handling| handling != header.handling);
+    let machines =
+        counts.map(Change::Nodes).chain((header.speeds.iter().any(|&speed| speed < 1.0)).then_some(Change::Equal));
     vec![
         (word!("Strategy", "Estratégia").into(), strategies.map(Change::Strategy).collect()),
-        (word!("Machines", "Máquinas").into(), counts.map(Change::Nodes).collect()),
-        (word!("The last machine", "A última máquina").into(), speeds),
-        (word!("Atoms", "Átomos").into(), atoms.map(Change::Atom).collect()),
-        (word!("Network", "Rede").into(), latencies.map(Change::Latency).collect()),
-        (word!("Parent", "Pai").into(), handlings.map(Change::Handling).collect()),
+        (word!("Machines", "Máquinas").into(), machines.collect()),
+        (word!("Pixels in an atom", "Pixels por átomo").into(), atoms.map(Change::Atom).collect()),
+        (word!("A message takes", "Uma mensagem leva").into(), latencies.map(Change::Latency).collect()),
+        (word!("The parent takes", "O pai leva").into(), handlings.map(Change::Handling).collect()),
     ]
 }
 
-/// Groups of changes, each a line of buttons under its name.
-fn menu(opener: &Response, groups: Vec<(String, Vec<Change>)>, look: Look) -> Option<Change> {
+/// A menu that closes when something is chosen.
+fn menu(opener: &Response, look: Look, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
     let frame = Frame::popup(&opener.ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
     let popup = Popup::from_toggle_button_response(opener).frame(frame.inner_margin(GRID));
-    let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-        ui.set_width(34.0 * GRID);
-        ui.spacing_mut().item_spacing = vec2(GRID, 0.0);
-        let mut chosen = None;
-        for (group, changes) in groups.into_iter().filter(|(_, changes)| !changes.is_empty()) {
-            if !group.is_empty() {
-                ui.add_space(GRID / 2.0);
-                ui.label(RichText::new(group).font(theme::regular(theme::SMALL)).color(look.quiet));
-            }
-            ui.horizontal_wrapped(|ui| {
-                for change in changes {
-                    if item(ui, change, look).clicked() {
-                        chosen = Some(change);
-                    }
-                }
-            });
+    let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+        ui.set_width(62.0 * GRID);
+        ui.spacing_mut().item_spacing = vec2(GRID / 2.0, 0.0);
+        let chosen = content(ui);
+        if chosen.is_some() {
+            ui.close();
         }
         chosen
     });
     shown.and_then(|shown| shown.inner)
 }
 
+/// What a row is about.
+fn heading(ui: &mut Ui, words: &str, look: Look) {
+    let (rect, _) = ui.allocate_exact_size(vec2(17.0 * GRID, 4.0 * GRID), Sense::hover());
+    let galley = ui.painter().layout_no_wrap(words.to_owned(), theme::regular(theme::SMALL), look.quiet);
+    ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, look.quiet);
+}
+
+/// Changes of one thing, in a line.
+fn row(ui: &mut Ui, group: &str, changes: Vec<Change>, look: Look) -> Option<Change> {
+    let mut chosen = None;
+    if !changes.is_empty() {
+        ui.horizontal_wrapped(|ui| {
+            if !group.is_empty() {
+                heading(ui, group, look);
+            }
+            for change in changes {
+                if item(ui, change, look).clicked() {
+                    chosen = Some(change);
+                }
+            }
+        });
+    }
+    chosen
+}
+
+/// Says only what its row does not say.
+fn short(change: Change) -> String {
+    match change {
+        Change::Nodes(nodes) => nodes.to_string(),
+        Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
+        Change::Atom(pixels) => count(pixels),
+        Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!("no time", "nada").to_owned(),
+        Change::Latency(time) | Change::Handling(time) => duration(time),
+        Change::Strategy(_) | Change::Equal => change_words(change),
+    }
+}
+
 fn item(ui: &mut Ui, change: Change, look: Look) -> Response {
-    let words = change_words(change);
-    let galley = ui.painter().layout_no_wrap(words.clone(), theme::regular(theme::BODY), look.text);
-    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(GRID, GRID), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
+    let galley = ui.painter().layout_no_wrap(short(change), theme::regular(theme::BODY), look.text);
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, change_words(change)));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
-    ui.painter().galley(pos2(rect.left() + GRID / 2.0, rect.top() + GRID / 2.0), galley, look.text);
+    let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(place, galley, look.text);
     response
 }

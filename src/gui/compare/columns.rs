@@ -12,7 +12,9 @@ use super::{Entry, MOST, adding};
 use crate::language::{say, word};
 use crate::sim::Change;
 use crate::time::Time;
-use crate::view::{Contender, Layer, Playback, duration, fraction, percent, rate_of_time_words, short_rate_words};
+use crate::view::{
+    Contender, Layer, Playback, duration, fraction, percent, rate_of_time_words, short_rate_words, time_words,
+};
 
 /// What is to be done with a run.
 pub enum Asked {
@@ -23,7 +25,7 @@ pub enum Asked {
 }
 
 /// What stands above and below a picture.
-const ABOVE: f32 = 4.0 * GRID;
+const ABOVE: f32 = 4.5 * GRID;
 const BELOW: f32 = 5.0 * GRID;
 
 /// The letter of a run.
@@ -37,7 +39,7 @@ pub fn show(
     entries: &mut [Entry],
     now: Time,
     length: Time,
-    pair: &mut [usize; 2],
+    (pair, below): (&mut [usize; 2], f32),
     look: Look,
 ) -> Option<Asked> {
     let gap = 2.0 * GRID;
@@ -49,7 +51,7 @@ pub fn show(
         size.height() as f32 / size.width() as f32
     });
     // What explains them needs its room below.
-    let high = (wide * aspect).min(area.height() - ABOVE - BELOW - 26.0 * GRID).max(8.0 * GRID);
+    let high = (wide * aspect).min(area.height() - ABOVE - BELOW - below).max(8.0 * GRID);
     let wide = wide.min((high / aspect).max(24.0 * GRID));
     let (mut asked, many) = (None, entries.len() > 2);
     let is_full = entries.len() >= MOST;
@@ -58,7 +60,7 @@ pub fn show(
         let column = Rect::from_min_size(pos2(left, area.top()), vec2(wide, ABOVE + high + BELOW));
         let chosen = pair.iter().position(|&one| one == place);
         let row = column.with_max_y(column.top() + ABOVE);
-        asked = asked.or(heading(ui, row, (place, entry), (many, is_full), chosen.is_some(), look));
+        asked = asked.or(heading(ui, row, (place, entry), (many, is_full, now), chosen.is_some(), look));
         let frame = Rect::from_min_size(pos2(left, row.bottom()), vec2(wide, high));
         let response = picture(ui, frame, (place, entry), chosen.is_some(), look);
         if response.clicked() && chosen.is_none() {
@@ -88,6 +90,9 @@ pub fn rate(ui: &mut Ui, time: &mut Playback) {
     if faster.on_hover_text(word!("Time goes faster (.)", "O tempo passa mais depressa (.)")).clicked() {
         time.change_rate(1);
     }
+    ui.add_space(GRID);
+    let shown = time_words(time.now(), 1.0);
+    ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
 }
 
 /// What it is called, and what can be done with it.
@@ -95,20 +100,20 @@ fn heading(
     ui: &mut Ui,
     row: Rect,
     (place, entry): (usize, &Entry),
-    (can_go, is_full): (bool, bool),
+    (can_go, is_full, now): (bool, bool, Time),
     is_chosen: bool,
     look: Look,
 ) -> Option<Asked> {
     let mut asked = None;
     let layout = Layout::right_to_left(Align::Center);
-    ui.scope_builder(UiBuilder::new().max_rect(row.shrink2(vec2(0.0, 2.0))).layout(layout), |ui| {
+    ui.scope_builder(UiBuilder::new().max_rect(row).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         let letter = letter(place);
         let remove = say!("Take {letter} away", "Retirar {letter}");
         if can_go && button(ui, Some(Icon::Close), &remove, false, Weight::Quiet).clicked() {
             asked = Some(Asked::Remove(place));
         }
-        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, look) {
+        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, now, look) {
             asked = Some(Asked::Fork(place, change));
         }
         let left = Layout::left_to_right(Align::Center);

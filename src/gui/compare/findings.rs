@@ -44,7 +44,12 @@ impl Findings {
         matches!(self.tab, Tab::Speedup | Tab::Efficiency)
     }
 
-    /// Shows them in what room there is.
+    /// The height that they want.
+    pub fn height(&self) -> f32 {
+        if self.wants_growth() { 49.0 * GRID } else { 34.0 * GRID }
+    }
+
+    /// Shows them in what room there is. Returns the time that somebody points to with a button down.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -53,7 +58,8 @@ impl Findings {
         now: Time,
         length: Time,
         look: Look,
-    ) {
+    ) -> Option<Time> {
+        let mut sought = None;
         let area = ui.available_rect_before_wrap();
         let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID);
         let left = area.with_max_x(area.right() - right - 3.0 * GRID);
@@ -82,12 +88,13 @@ impl Findings {
             }
             ui.add_space(GRID);
             match self.tab {
-                Tab::Lanes => lanes(ui, entries, now, length, look),
+                Tab::Lanes => sought = lanes(ui, entries, now, length, look),
                 Tab::Spent => where_time_went(ui, entries, look),
                 Tab::Speedup | Tab::Efficiency => grown(ui, growth, self.tab == Tab::Speedup, look),
             }
         });
         ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look));
+        sought
     }
 
     /// Why two of them differ, and the figures of both.
@@ -100,7 +107,7 @@ impl Findings {
         let heading = say!("{a} and {b}: why they differ", "{a} e {b}: por que diferem");
         ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
         ui.add_space(GRID / 2.0);
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
             let text = match (&one.account, &other.account) {
                 (Some(first), Some(second)) => {
                     contrast(Named { name: &one.name, account: first }, Named { name: &other.name, account: second })
@@ -133,7 +140,8 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
     ];
     let font = theme::regular(theme::SMALL);
     let row = |ui: &mut Ui, name: &str, values: [String; 2]| {
-        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
+        ui.spacing_mut().item_spacing.y = 0.0;
         widgets::describe(&response, name, || values.join("; "));
         let painter = ui.painter();
         painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font.clone(), look.quiet);
@@ -148,8 +156,9 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
     }
 }
 
-/// All lanes of all runs on one axis.
-fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look) {
+/// All lanes of all runs on one axis, along which one can drag.
+fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look) -> Option<Time> {
+    let mut sought = None;
     let area = ui.available_rect_before_wrap();
     let left = 3.0 * GRID;
     let each = (area.height() / entries.len().max(1) as f32).min(14.0 * GRID);
@@ -181,7 +190,10 @@ fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look
             let at = |[x, y]: [f32; 2]| strip.min + vec2(x, y);
             ui.painter().line_segment([at(*from), at(*to)], Stroke::new(1.0, inks.colour(*ink)));
         }
-        let response = ui.interact(strip, ui.scope_id().with(("lanes", entry.id)), Sense::hover());
+        let response = ui.interact(strip, ui.scope_id().with(("lanes", entry.id)), Sense::click_and_drag());
+        if let Some(at) = response.interact_pointer_pos() {
+            sought = Some(window.at(f64::from(((at.x - strip.left()) / strip.width()).clamp(0.0, 1.0))));
+        }
         let name = &contender.name;
         widgets::describe(&response, name, || {
             contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(name, account)]))
@@ -194,6 +206,7 @@ fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look
     let bottom = area.top() + each * entries.len() as f32 - GRID;
     let x = area.left() + left + (area.width() - left) * window.share(now.min(length)) as f32;
     ui.painter().line_segment([pos2(x, area.top()), pos2(x, bottom)], Stroke::new(1.5, look.accent));
+    sought
 }
 
 /// Bars of what the machines' time was spent on.
@@ -204,7 +217,7 @@ fn where_time_went(ui: &mut Ui, entries: &[Entry], look: Look) {
     let accounts: Vec<Option<Account>> = entries.iter().map(account).collect();
     let runs: Vec<(&str, &Account)> =
         names.iter().zip(&accounts).filter_map(|(name, account)| Some((name.as_str(), account.as_ref()?))).collect();
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
         let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         widgets::describe(&response, word!("Where the time went", "Para onde foi o tempo"), || spent_words(&runs));
@@ -228,7 +241,7 @@ fn grown(ui: &mut Ui, growth: Option<&Growth>, is_speedup: bool, look: Look) {
             format!("{}: {}", series.name, points.join(", "))
         };
         let lines: Vec<_> = chart.series.iter().map(line).collect();
-        WidgetInfo::labeled(egui::Role::Image, true, format!("{}\n{}", chart.title, lines.join("\n")))
+        WidgetInfo::labeled(egui::Role::Image, true, format!("{}\n{}", chart.y.label, lines.join("\n")))
     });
     let colours: Vec<_> =
         (0..crate::palette::DISTINCT).map(|node| crate::palette::node_colour(node, crate::palette::DISTINCT)).collect();
@@ -260,13 +273,13 @@ fn chart(growth: &Growth, is_speedup: bool) -> Chart {
             say!("machines, the last of which runs at {speed}", "máquinas, a última a {speed}")
         }
     };
-    let (title, y) = if is_speedup {
-        (word!("Speedup", "Speedup"), word!("times as fast as one", "vezes mais rápido que uma"))
+    let y = if is_speedup {
+        word!("times as fast as one machine", "vezes mais rápido que uma máquina")
     } else {
-        (word!("Efficiency", "Eficiência"), word!("ideal time / time", "tempo ideal / tempo"))
+        word!("ideal time / time", "tempo ideal / tempo")
     };
     Chart {
-        title: title.to_owned(),
+        title: String::new(),
         note: word!("Dots without a line: what the article measured", "Pontos sem linha: o que o artigo mediu")
             .to_owned(),
         x: Axis { label: machines, ..Axis::default() },

@@ -167,14 +167,19 @@ impl Compare {
         for contender in self.entries.iter_mut().filter_map(|entry| entry.contender.as_mut()) {
             contender.show(now);
         }
-        if let Some(asked) = columns::show(ui, &mut self.entries, now, length, &mut self.findings.pair, look) {
+        if let Some(asked) = {
+            let below = self.findings.height();
+            columns::show(ui, &mut self.entries, now, length, (&mut self.findings.pair, below), look)
+        } {
             self.do_with(asked, session);
         }
         ui.add_space(2.0 * GRID);
         let area = ui.available_rect_before_wrap();
         ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
             let growth = self.growth.as_ref().and_then(|(_, growth)| growth.as_ref());
-            self.findings.show(ui, &mut self.entries, growth, now, length, look);
+            if let Some(time) = self.findings.show(ui, &mut self.entries, growth, now, length, look) {
+                self.time.seek(time, true);
+            }
         });
         if self.findings.wants_growth() && self.growth.is_none() {
             self.ask_for_growth(session);
