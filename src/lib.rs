@@ -13,6 +13,7 @@ pub mod time; // nanoseconds since the run began
 
 // Floor 1: what is shared out.
 pub mod picture; // size, division into atoms and bands, frame, PNG
+pub mod ron_file; // text files that people write, and errors that say where
 
 // Floor 2: the two hard problems, each without knowledge of the other.
 pub mod balance; // how atoms are shared: messages, parent, ring, serial; no thread, clock, channel or colour
@@ -35,8 +36,9 @@ pub mod driver; // executes the protocol on threads, as emulated machines on lin
 pub mod space; // the scene shared instead of the picture (§5): counted, not built
 pub mod view; // pure functions from records to what is drawn; no egui
 
-// Floor 7: what leaves the program.
+// Floor 7: what leaves the program, and what is taught with it.
 pub mod export; // scenes for POV-Ray, drawings as SVG
+pub mod lesson; // what is taught: text files with runs, steps, questions and claims
 
 // Floor 8: what many runs say.
 pub mod study; // the article's figures and claims, scaling: CSV, charts, reports

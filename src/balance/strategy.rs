@@ -76,6 +76,12 @@ impl Rules {
     /// How long a traced atom usually waits. *Ours:* in small batches the picture fills in while one watches.
     pub const BATCH: Duration = Duration::from_millis(15);
 
+    /// How long a traced atom waits for others, where somebody looks on. A parent that takes so long for a message is sent
+    /// fewer of them: all nodes' results take at most half of its time.
+    pub fn batch_for(handling: Duration, nodes: usize) -> Duration {
+        Self::BATCH.max(handling * 2 * nodes as u32)
+    }
+
     /// The rules of a strategy, unless somebody wants otherwise.
     pub fn usual(strategy: Strategy, division: Division, nodes: usize) -> Self {
         Self { strategy, part: strategy.usual_part(division, nodes), batch: Some(Self::BATCH) }

@@ -56,6 +56,12 @@ pub(super) enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Play a lesson's runs and check what it claims
+    Lesson {
+        /// A lesson's file, or the name of a built-in lesson [default: lists these]
+        #[arg(value_name = "LESSON")]
+        lesson: Option<String>,
+    },
     /// Show a recorded run again
     Replay {
         /// What `--log`, or Save in the window, has written

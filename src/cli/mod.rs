@@ -2,6 +2,7 @@
 
 mod args;
 mod inspect;
+mod lesson;
 mod render;
 mod report;
 mod sharing;
@@ -44,6 +45,7 @@ pub fn main() -> ExitCode {
         Some(Command::Inspect(inspect)) => inspect::inspect(&inspect),
         Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
         Some(Command::Study { kind, scene, out, json }) => study::study(kind, scene.as_deref(), &out, json),
+        Some(Command::Lesson { lesson }) => lesson::lesson(lesson.as_deref()),
         Some(Command::Replay { log }) => replay(&log),
         None => window(args.scene.as_deref(), args.log),
     });
@@ -96,7 +98,8 @@ fn usage(error: clap::Error) -> Failure {
     let paragraph: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
     let sentence = paragraph.join(" ");
     let command = env::args_os().nth(1).and_then(|first| first.into_string().ok());
-    let command = command.filter(|first| ["render", "inspect", "export", "study", "replay"].contains(&&**first));
+    let command =
+        command.filter(|first| ["render", "inspect", "export", "study", "lesson", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
     Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
 }

@@ -11,6 +11,7 @@ use super::pace::cores;
 use super::supervisor::Threads;
 use super::worker::trace_pieces;
 use crate::picture::{Atom, Colour, Division};
+use crate::sim::PixelCosts;
 use crate::tracer::{RayCounts, Scratch, Tracer};
 
 /// What a ray of any kind takes the reference machine, unless an atom's cost is known otherwise. It is about what one
@@ -51,6 +52,24 @@ impl Whole {
         let trace =
             move |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| tracer.trace(pixels, scratch, out);
         Self::trace(division, &trace, done, is_over)
+    }
+
+    /// Traces the picture pixel by pixel, so that it can be cut into atoms of any size: all pixels in scan order, and what
+    /// each costs the reference machine in virtual time. `None` if it `is_over` before.
+    ///
+    /// # Errors
+    /// As [`Whole::of`].
+    pub fn by_pixel(
+        tracer: &Arc<Tracer>,
+        done: &(dyn Fn(u32) + Sync),
+        is_over: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<(Vec<Colour>, PixelCosts)>, String> {
+        let size = tracer.size();
+        let whole = Self::unless(tracer, Division::new(size.pixels(), 1), done, is_over)?;
+        Ok(whole.map(|whole| {
+            let costs = PixelCosts::new(size, &whole.costs());
+            (whole.pixels, costs)
+        }))
     }
 
     /// What each atom costs the reference machine in virtual time.

@@ -151,6 +151,7 @@ impl Settings {
     /// What a run with these settings is asked to do. The scene has a `name` and its file's `text`, `work` is the time of
     /// the whole picture on the reference machine at full pace, `cores` are those of this computer.
     pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
+        let handling = Duration::from_millis(self.handling.into());
         Header {
             scene: name.to_owned(),
             scene_text: text.to_owned(),
@@ -158,7 +159,11 @@ impl Settings {
             quality: self.quality,
             division: self.division(),
             driver: self.driver,
-            rules: Rules { strategy: self.strategy, part: self.part, batch: Some(self.batch()) },
+            rules: Rules {
+                strategy: self.strategy,
+                part: self.part,
+                batch: Some(Rules::batch_for(handling, self.speeds.len())),
+            },
             speeds: self.speeds.clone(),
             pace: self.pace(work, cores),
             link: Link {
@@ -166,7 +171,7 @@ impl Settings {
                 bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
                 shared: self.shared_wire,
             },
-            handling: Duration::from_millis(self.handling.into()),
+            handling,
             cores: if self.driver == Driver::Sim { self.speeds.len() } else { cores },
         }
     }
@@ -249,13 +254,6 @@ impl Settings {
         let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
         let most = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&self.speeds, cores) };
         self.tempo.pace(work, speeds.iter().sum(), most)
-    }
-
-    /// How long a traced atom waits for others. A parent that takes long for a message is sent fewer of them: all nodes'
-    /// results take at most half of its time.
-    fn batch(&self) -> Duration {
-        let nodes = self.speeds.len() as u32;
-        Rules::BATCH.max(Duration::from_millis(self.handling.into()) * 2 * nodes)
     }
 }
 

@@ -5,13 +5,11 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use ron::extensions::Extensions;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
 
 use super::resolve::resolve;
-use super::text::{find_name, read};
-use super::{Camera, Light, Material, Scene, built_in, checked};
-use crate::sentence::shown;
+use super::{BUILT_IN, Camera, Light, Material, Scene, built_in, checked};
+use crate::ron_file::{self, FileError, find_name};
 
 /// A scene with what a run has to know of its file.
 #[derive(Clone, Debug)]
@@ -26,26 +24,12 @@ pub struct Opened {
     pub scene: Scene,
 }
 
-/// Longer messages are cut off, in characters.
-const LONGEST_MESSAGE: usize = 400;
-
-/// Why a scene cannot be had: one sentence, with line, column and field where there are such.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneError {
-    /// The file, once it is known.
-    pub file: Option<String>,
-    /// Line and column, from 1.
-    pub place: Option<(usize, usize)>,
-    /// What is wrong, and what would be right.
-    pub message: String,
-}
-
 impl Opened {
     /// Reads the scene file `argument`, or the built-in scene of that name if there is no such file.
     ///
     /// # Errors
-    /// A [`SceneError`] that names the file.
-    pub fn new(argument: &str) -> Result<Self, SceneError> {
+    /// A [`FileError`] that names the file.
+    pub fn new(argument: &str) -> Result<Self, FileError> {
         let path = Path::new(argument);
         let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
         if !path.exists()
@@ -53,15 +37,19 @@ impl Opened {
         {
             return Self::from_text(&name, text);
         }
-        let text = read(path).map_err(|message| SceneError { file: None, place: None, message });
+        let none = || {
+            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
+            format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
+        };
+        let text = ron_file::read(path, "scene", none).map_err(|message| FileError::new(None, &message));
         text.and_then(|text| Self::from_text(&name, &text))
             .map(|opened| Self { path: Some(path.into()), ..opened })
-            .map_err(|error| SceneError { file: Some(argument.into()), ..error })
+            .map_err(|error| error.of(argument))
     }
 
     /// # Errors
     /// Those of [`Scene::parse`].
-    pub fn from_text(name: &str, text: &str) -> Result<Self, SceneError> {
+    pub fn from_text(name: &str, text: &str) -> Result<Self, FileError> {
         Ok(Self { name: name.into(), path: None, text: text.into(), scene: Scene::parse(text)? })
     }
 }
@@ -71,52 +59,13 @@ impl Scene {
     ///
     /// # Errors
     /// The first thing that is wrong, with its line, its column and its field.
-    pub fn parse(text: &str) -> Result<Self, SceneError> {
-        // Names in a message are the file's, and may be of any kind.
-        let error =
-            |place, message: String| SceneError { file: None, place, message: shown(&message, LONGEST_MESSAGE) };
-        // Some editors begin a file with this mark.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if text.trim().is_empty() {
-            return Err(error(None, "the file is empty; a scene needs at least a camera and objects".into()));
-        }
-        let at = |position: ron::error::Position| Some((position.line, position.col));
-        let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-        let mut reader = ron::Deserializer::from_str_with_options(text, &options)
-            .map_err(|wrong| error(at(wrong.span.end), wrong.code.to_string()))?;
-        let file: SceneFile = serde_path_to_error::deserialize(&mut reader).map_err(|wrong| {
-            let path = wrong.path().to_string();
-            let spanned = reader.span_error(wrong.into_inner());
-            let place = at(spanned.span.end);
-            if spanned.code == ron::Error::ExceededRecursionLimit {
-                return error(place, "solids stand in solids too deep; give the inner ones names".into());
-            }
-            // A field that was not read to its end has no name yet.
-            let path = path.trim_end_matches(['?', '.']);
-            let field = if path.is_empty() { String::new() } else { format!("{path}: ") };
-            error(place, format!("{field}{}", spanned.code))
-        })?;
-        reader.end().map_err(|wrong| {
-            let spanned = reader.span_error(wrong);
-            error(at(spanned.span.end), "something follows the end of the scene".into())
-        })?;
-        resolve(file).map_err(|wrong| error(wrong.name.and_then(|name| find_name(text, &name)), wrong.message))
+    pub fn parse(text: &str) -> Result<Self, FileError> {
+        const DEEP: &str = "solids stand in solids too deep; give the inner ones names";
+        let file: SceneFile = ron_file::parse(text, "scene", "a camera and objects", DEEP)?;
+        resolve(file)
+            .map_err(|wrong| FileError::new(wrong.name.and_then(|name| find_name(text, &name)), &wrong.message))
     }
 }
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(file) = &self.file {
-            write!(f, "{}: ", file.escape_debug())?;
-        }
-        if let Some((line, column)) = self.place {
-            write!(f, "line {line}, column {column}: ")?;
-        }
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for SceneError {}
 
 /// The file as it is written.
 #[derive(serde::Deserialize)]

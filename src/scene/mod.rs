@@ -3,10 +3,9 @@
 mod checked;
 mod file;
 mod resolve;
-mod text;
 mod viewpoint;
 
-pub use file::{Opened, SceneError};
+pub use file::Opened;
 
 use glam::DVec3;
 use serde::Deserialize;

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::text::skipped;
 use super::{Camera, Opened};
+use crate::ron_file::skipped;
 
 /// The line of sight keeps so many degrees from straight up and straight down, where it would flip over.
 const POLE: f64 = 4.0;

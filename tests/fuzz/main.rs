@@ -13,7 +13,8 @@ use std::path::Path;
 
 use anel::export::to_pov;
 use anel::picture::{Quality, Size};
-use anel::scene::{Opened, SceneError};
+use anel::ron_file::FileError;
+use anel::scene::Opened;
 use anel::tracer::{Scratch, Tracer};
 use hunt::{Hunt, corpus};
 
@@ -28,7 +29,7 @@ fn assert_sentence(error: &str) {
     assert!(is_line && error.chars().count() < 600, "not a sentence: {error:?}");
 }
 
-fn open(file: &Path) -> Result<Opened, SceneError> {
+fn open(file: &Path) -> Result<Opened, FileError> {
     let opened = Opened::new(file.to_str().expect("a path that is text"));
     if let Err(error) = &opened {
         assert_sentence(&error.to_string());

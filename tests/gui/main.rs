@@ -2,6 +2,7 @@
 //! state and the records of the run.
 
 mod accuracy;
+mod compare;
 mod driving;
 mod files;
 mod inspector;

@@ -104,7 +104,7 @@ fn menu(opener: &Response, look: Look, content: impl FnOnce(&mut Ui) -> Option<C
     let frame = Frame::popup(&opener.ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
     let popup = Popup::from_toggle_button_response(opener).frame(frame.inner_margin(GRID));
     let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
-        ui.set_width(62.0 * GRID);
+        ui.set_width(72.0 * GRID);
         ui.spacing_mut().item_spacing = vec2(GRID / 2.0, 0.0);
         let chosen = content(ui);
         if chosen.is_some() {

@@ -7,19 +7,19 @@ mod findings;
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{Align, Label, Layout, RichText, Spinner, Ui, UiBuilder, vec2};
+use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::canvas_texture::CanvasTexture;
 use super::icons::Icon;
 use super::keys::Command;
-use super::session::{Compared, Growth, Phase, Pictured, Session, Subject};
+use super::session::{Compared, Growth, Known, Phase, Pictured, Session, Subject, Tracing};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button};
 use crate::balance::Strategy;
 use crate::language::word;
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{Contender, Playback, RATES, Timeline, trial_name};
+use crate::view::{Contender, Playback, RATES, Timeline, fraction, trial_name};
 use findings::Findings;
 
 /// More runs than these nobody can follow, and fewer are no comparison.
@@ -31,6 +31,7 @@ pub struct Compare {
     /// Which run was on the stage when it was last asked what is to be compared.
     seen: Option<usize>,
     subject: Option<Subject>,
+    tracing: Arc<Tracing>,
     pictured: Option<Arc<Pictured>>,
     entries: Vec<Entry>,
     /// The next entry's number.
@@ -62,6 +63,7 @@ impl Default for Compare {
             open: false,
             seen: None,
             subject: None,
+            tracing: Arc::default(),
             pictured: None,
             entries: Vec::new(),
             next: 0,
@@ -102,6 +104,10 @@ impl Compare {
     /// Closes it; the run on the stage goes on.
     pub fn close(&mut self, session: &mut Session) {
         self.open = false;
+        if self.pictured.is_none() {
+            self.tracing.give_up();
+            self.subject = None;
+        }
         if std::mem::take(&mut self.holds_run) && session.stage().paused {
             session.set_run_paused(false);
         }
@@ -235,7 +241,15 @@ impl Compare {
         let Some(subject) = &self.subject else { return };
         let missing = self.entries.iter().filter(|entry| entry.contender.is_none());
         let missing = missing.map(|entry| (entry.id, entry.name(), entry.trial.clone())).collect();
-        self.job = Some(session.compare(subject, self.pictured.clone(), missing));
+        let known = match &self.pictured {
+            Some(pictured) => Known::Picture(Arc::clone(pictured)),
+            None => {
+                self.tracing.give_up();
+                self.tracing = Arc::default();
+                Known::Nothing(Arc::clone(&self.tracing))
+            }
+        };
+        self.job = Some(session.compare(subject, known, missing));
     }
 
     fn ask_for_growth(&mut self, session: &mut Session) {
@@ -293,8 +307,8 @@ impl Compare {
                         look.quiet,
                     ),
                 };
-                if self.entries.iter().any(|entry| entry.contender.is_none()) && self.trouble.is_none() {
-                    ui.add(Spinner::new().size(2.0 * GRID).color(look.quiet));
+                if self.trouble.is_none() {
+                    self.progress(ui, look);
                 }
                 let said = RichText::new(said).font(theme::regular(theme::SMALL)).color(colour);
                 let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), egui::Sense::hover());
@@ -303,6 +317,23 @@ impl Compare {
                 });
             });
         });
+    }
+
+    /// How far the picture is, on which all runs wait; it is traced once for all of them.
+    fn progress(&self, ui: &mut Ui, look: Look) {
+        let is_waiting = self.entries.iter().any(|entry| entry.contender.is_none());
+        let Some(subject) = self.subject.as_ref().filter(|_| is_waiting) else { return };
+        let share = match self.pictured {
+            Some(_) => 1.0,
+            None => self.tracing.done() as f32 / subject.trial.header.size.pixels() as f32,
+        };
+        let bar =
+            ui.add(ProgressBar::new(share).desired_width(16.0 * GRID).desired_height(0.75 * GRID).fill(look.accent));
+        bar.widget_info(|| {
+            let words = word!("of the picture is traced", "da imagem estão calculados");
+            WidgetInfo::labeled(Role::ProgressIndicator, true, format!("{} {words}", fraction(share.into())))
+        });
+        ui.ctx().request_repaint_after(Duration::from_millis(100));
     }
 
     /// Whether time goes on, and how fast.

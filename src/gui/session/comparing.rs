@@ -1,14 +1,15 @@
 //! The jobs that run trials beside each other, in virtual time.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
 use super::jobs::{Done, Jobs, Prepared};
 use crate::balance::Strategy;
-use crate::driver::{RAY, Whole};
+use crate::driver::Whole;
 use crate::palette::Rgb;
-use crate::picture::{Colour, Division};
+use crate::picture::Colour;
 use crate::runlog::{Driver, Tally};
 use crate::sim::{Change, PixelCosts, Trial};
 use crate::tracer::Tracer;
@@ -39,6 +40,25 @@ impl Subject {
     /// Whether what was traced for this subject serves the other, too.
     pub fn has_picture_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.tracer, &other.tracer)
+    }
+}
+
+/// How far the picture of a comparison is.
+#[derive(Default)]
+pub struct Tracing {
+    done: AtomicU32,
+    is_given_up: AtomicBool,
+}
+
+impl Tracing {
+    /// How many pixels are traced.
+    pub fn done(&self) -> u32 {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    /// Nobody waits for it any more.
+    pub fn give_up(&self) {
+        self.is_given_up.store(true, Ordering::Relaxed);
     }
 }
 
@@ -73,6 +93,14 @@ pub enum Compared {
     Failed(String),
 }
 
+/// What is known of the picture beforehand.
+pub enum Known {
+    /// It is to be traced.
+    Nothing(Arc<Tracing>),
+    /// All of it.
+    Picture(Arc<Pictured>),
+}
+
 /// A trial that is to be run, its number and its name.
 pub type Entry = (u64, String, Trial);
 
@@ -94,7 +122,7 @@ impl Session {
     }
 
     /// Traces the picture, if it is not known, and runs trials of it; returns the job's number.
-    pub fn compare(&mut self, subject: &Subject, known: Option<Arc<Pictured>>, entries: Vec<Entry>) -> u64 {
+    pub fn compare(&mut self, subject: &Subject, known: Known, entries: Vec<Entry>) -> u64 {
         self.jobs.compare(Arc::clone(&subject.tracer), known, entries, self.ground)
     }
 
@@ -111,15 +139,20 @@ impl Session {
 }
 
 impl Jobs {
-    fn compare(&mut self, tracer: Arc<Tracer>, known: Option<Arc<Pictured>>, entries: Vec<Entry>, ground: Rgb) -> u64 {
+    fn compare(&mut self, tracer: Arc<Tracer>, known: Known, entries: Vec<Entry>, ground: Rgb) -> u64 {
         let number = self.number();
         let failed = move |why| Done::Compared(number, Compared::Failed(why));
         self.start_many("compare", failed, move |tell| {
             let tell = |compared| tell(Done::Compared(number, compared));
-            let pictured = match known.map_or_else(|| pictured(&tracer, &tell), Ok) {
-                Ok(pictured) => pictured,
-                Err(why) => return tell(Compared::Failed(why)),
+            let pictured = match known {
+                Known::Picture(pictured) => pictured,
+                Known::Nothing(tracing) => match pictured(&tracer, &tracing) {
+                    Ok(None) => return,
+                    Ok(Some(pictured)) => pictured,
+                    Err(why) => return tell(Compared::Failed(why)),
+                },
             };
+            tell(Compared::Picture(Arc::clone(&pictured)));
             for (id, name, trial) in entries {
                 let log = Arc::new(trial.run(&pictured.costs));
                 tell(Compared::Run(id, Box::new(Contender::new(name, log, &pictured.pixels, ground))));
@@ -138,16 +171,12 @@ impl Jobs {
     }
 }
 
-/// Traces the picture on all cores.
-fn pictured(tracer: &Arc<Tracer>, tell: &dyn Fn(Compared)) -> Result<Arc<Pictured>, String> {
-    // Pixel by pixel, so that it can be cut into atoms of any size.
-    let division = Division::new(tracer.size().pixels(), 1);
-    let whole = Whole::of(tracer, division, &|_| {})?;
-    let costs: Vec<_> = whole.rays.iter().map(|&rays| RAY * rays.max(1)).collect();
-    let costs = PixelCosts::new(tracer.size(), &costs);
-    let pictured = Arc::new(Pictured { pixels: whole.pixels, costs });
-    tell(Compared::Picture(Arc::clone(&pictured)));
-    Ok(pictured)
+/// Traces the picture on all cores, unless it is given up.
+fn pictured(tracer: &Arc<Tracer>, tracing: &Tracing) -> Result<Option<Arc<Pictured>>, String> {
+    let done = |more| _ = tracing.done.fetch_add(more, Ordering::Relaxed);
+    let is_over = || tracing.is_given_up.load(Ordering::Relaxed);
+    let traced = Whole::by_pixel(tracer, &done, &is_over)?;
+    Ok(traced.map(|(pixels, costs)| Arc::new(Pictured { pixels, costs })))
 }
 
 /// With one machine to eight, the last of which is slow where a machine of the trial is.

@@ -27,7 +27,7 @@ use crate::runlog::Header;
 use crate::scene::{Camera, Opened};
 use crate::time::Time;
 
-pub use comparing::{Compared, Grown, Growth, Pictured, Subject};
+pub use comparing::{Compared, Grown, Growth, Known, Pictured, Subject, Tracing};
 use inspecting::Inspecting;
 pub use jobs::{Done, Prepared, Purpose};
 use jobs::{Jobs, Ready, Recorded};

@@ -1,0 +1,46 @@
+//! `anel lesson`: what a lesson says, and whether what it claims is true of its runs.
+
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{Failure, print};
+use crate::lesson::{BUILT_IN, Lesson};
+
+/// Plays a lesson's runs in virtual time and prints its steps and claims; without one, lists the built-in lessons.
+pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
+    let Some(argument) = argument else {
+        for (name, _) in BUILT_IN {
+            let lesson = Lesson::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
+            print(&format!("{name:14} {}: {}", lesson.title.spoken(), lesson.about.spoken()))?;
+        }
+        return Ok(());
+    };
+    let lesson = Lesson::open(argument).map_err(|error| Failure::Refused(error.to_string()))?;
+    let bar = ProgressBar::new(lesson.pixels().into()).with_style(style());
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let directory = Path::new(argument).parent().unwrap_or(Path::new(""));
+    let performed = lesson.perform(directory, &|more| bar.inc(more.into()), &|| false);
+    bar.finish_and_clear();
+    let performed = performed.map_err(Failure::Refused)?.unwrap_or_default();
+    for (number, step) in (1..).zip(&lesson.steps) {
+        let run = performed.iter().find(|(name, _)| *name == step.run);
+        let at = run.zip(step.until).and_then(|((_, run), until)| Some((run, until.of(&run.log)?.0)));
+        let at = at.and_then(|(run, records)| Some(run.log.records().get(records.checked_sub(1)?)?.at));
+        let at = at.map_or_else(String::new, |at| format!(" to {:.2} s", at.secs()));
+        print(&format!("{number}. [{}{at}] {}", step.run, step.say.spoken()))?;
+    }
+    let told = lesson.check(&performed);
+    for (claim, holds) in &told {
+        print(&format!("{} {claim}", if *holds { "true: " } else { "FALSE:" }))?;
+    }
+    match told.iter().filter(|(_, holds)| !holds).count() {
+        0 => Ok(()),
+        false_ones => Err(Failure::Failed(format!("{false_ones} of {} claims are not true", told.len()))),
+    }
+}
+
+fn style() -> ProgressStyle {
+    ProgressStyle::with_template("tracing {wide_bar} {percent} %").unwrap_or_else(|_| ProgressStyle::default_bar())
+}

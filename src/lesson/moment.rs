@@ -1,0 +1,102 @@
+//! Moments of a run that a lesson goes to.
+
+use serde::Deserialize;
+
+use crate::balance::{Message, Party};
+use crate::record::{Record, What};
+use crate::runlog::RunLog;
+use crate::time::Time;
+use crate::view::About;
+
+/// A moment of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub enum Moment {
+    /// Before anything has happened.
+    Start,
+    /// So many seconds after its beginning.
+    Seconds(f64),
+    /// So much of the picture is traced, 0 to 1.
+    Traced(f64),
+    /// A machine offers help for the first time.
+    FirstOffer,
+    /// Atoms go from one machine to another for the first time.
+    FirstTransfer,
+    /// The transfer of most atoms.
+    BiggestTransfer,
+    /// The transfer of fewest atoms; of equals the last.
+    SmallestTransfer,
+    /// A machine is no longer needed for the first time.
+    FirstRetired,
+    /// From here on only one machine traces.
+    LastAlone,
+    /// Everything has happened.
+    End,
+}
+
+impl Moment {
+    /// How many records have happened then, and what the last of them is about. `None` if the run has no such moment.
+    pub fn of(self, log: &RunLog) -> Option<(usize, Option<About>)> {
+        let records = log.records();
+        let first = |is_it: &dyn Fn(&What) -> bool| records.iter().position(|record| is_it(&record.what));
+        let index = match self {
+            Self::Start => return Some((0, None)),
+            Self::End => return Some((records.len(), None)),
+            Self::Seconds(seconds) => return Some((log.until(Time::from_secs(seconds)), None)),
+            Self::Traced(part) => {
+                let wanted = (part * f64::from(log.header.division.atoms())).ceil() as usize;
+                let mut done = (0..records.len()).filter(|&i| matches!(records[i].what, What::AtomDone { .. }));
+                return Some((done.nth(wanted.saturating_sub(1))? + 1, None));
+            }
+            Self::FirstOffer => first(&|what| is_own_offer(what)),
+            Self::FirstTransfer => first(&|what| moved(what) > 0),
+            Self::BiggestTransfer => {
+                transfers(records).max_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
+            }
+            Self::SmallestTransfer => {
+                transfers(records).min_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
+            }
+            Self::FirstRetired => first(&|what| matches!(what, What::Retired { .. })),
+            Self::LastAlone => alone(log),
+        }?;
+        let about = match &records[index].what {
+            What::Sent { id, .. } => Some(About::Message(*id)),
+            What::Retired { node } => Some(About::Node(*node)),
+            _ => None,
+        };
+        Some((index + 1, about))
+    }
+}
+
+fn is_own_offer(what: &What) -> bool {
+    matches!(what, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who)
+}
+
+/// How many atoms go from one machine to another.
+fn moved(what: &What) -> u32 {
+    match what {
+        What::Sent { from: Party::Node(_), to: Party::Node(_), message: Message::Transfer(ranges), .. } => {
+            ranges.iter().map(|range| range.end - range.start).sum()
+        }
+        _ => 0,
+    }
+}
+
+fn transfers(records: &[Record]) -> impl Iterator<Item = (usize, u32)> {
+    records.iter().enumerate().map(|(i, record)| (i, moved(&record.what))).filter(|(_, atoms)| *atoms > 0)
+}
+
+/// Where the last atom of the last machine but one is done.
+fn alone(log: &RunLog) -> Option<usize> {
+    let mut ends = vec![None; log.header.speeds.len()];
+    for (i, record) in log.records().iter().enumerate() {
+        if let What::AtomDone { node, .. } = record.what
+            && let Some(end) = ends.get_mut(usize::from(node))
+        {
+            *end = Some(i);
+        }
+    }
+    let mut ends: Vec<usize> = ends.into_iter().flatten().collect();
+    ends.sort_unstable();
+    ends.pop();
+    ends.pop()
+}

@@ -1,0 +1,105 @@
+//! Runs beside each other: what is compared, forked and told.
+
+use std::time::Duration;
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use super::driving::*;
+
+type Runs = Vec<(String, Option<Duration>)>;
+
+fn runs(window: &Window) -> Runs {
+    window.state().compared()
+}
+
+fn names(window: &Window) -> Vec<String> {
+    runs(window).into_iter().map(|(name, _)| name).collect()
+}
+
+fn makespan(runs: &Runs, name: &str) -> Duration {
+    let run = runs.iter().find(|(other, _)| other == name);
+    run.and_then(|(_, makespan)| *makespan).unwrap_or_else(|| panic!("{name} of {runs:?}"))
+}
+
+/// What is written on widgets of this role.
+fn texts(window: &Window, role: Role) -> Vec<String> {
+    let of = |node: egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        node.label().or_else(|| node.value()).unwrap_or_default()
+    };
+    window.query_all_by_role(role).map(of).collect()
+}
+
+/// The demonstration, compared.
+fn open_comparison() -> Window {
+    let mut window = open(SIZE);
+    key(&mut window, Key::K);
+    until(&mut window, "three runs", |window| runs(window).len() == 3);
+    window.run_steps(3);
+    window
+}
+
+#[test]
+fn bands_farm_and_ring_are_compared_while_the_run_stands_still() {
+    let mut window = open_comparison();
+    assert!(session(&window).stage().paused);
+    let known = runs(&window);
+    let [bands, farm, ring] = ["Equal bands", "Farm", "Ring"].map(|name| makespan(&known, name));
+    assert!(bands > 3 * ring && farm > ring, "{known:?}");
+    window.get_by_label("A and C: why they differ");
+    let told = texts(&window, Role::Label).into_iter().find(|text| text.contains("as long as"));
+    let told = told.expect("why they differ");
+    assert!(told.starts_with("Equal bands takes ") && told.contains("machine 8, which is slow (10 %)"), "{told}");
+    key(&mut window, Key::Escape);
+    assert!(!session(&window).stage().paused);
+    // What is known is not run again.
+    key(&mut window, Key::K);
+    assert_eq!(names(&window).len(), 3);
+}
+
+#[test]
+fn a_run_is_forked_with_one_thing_changed_and_taken_away() {
+    let mut window = open_comparison();
+    press(&mut window, "The same as C with one thing changed");
+    press(&mut window, "8 at 5 %");
+    until(&mut window, "the fork", |window| runs(window).len() == 4);
+    let known = runs(&window);
+    assert!(makespan(&known, "Ring, 8 at 5 %") > makespan(&known, "Ring"), "{known:?}");
+    window.get_by_label("C and D: why they differ");
+    press(&mut window, "Take B away");
+    assert_eq!(names(&window), ["Equal bands", "Ring", "Ring, 8 at 5 %"]);
+    press(&mut window, "Add a run");
+    press(&mut window, "Serial");
+    until(&mut window, "a fourth", |window| runs(window).len() == 4);
+    assert_eq!(names(&window)[3], "Serial");
+}
+
+#[test]
+fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
+    let mut window = open_comparison();
+    // Somewhere in the middle of the ring.
+    key(&mut window, Key::Home);
+    key(&mut window, Key::Space);
+    window.run_steps(30);
+    key(&mut window, Key::Space);
+    press(&mut window, "The same as A with one thing changed");
+    let later = texts(&window, Role::Button).into_iter().find(|label| label.starts_with("8 at 0 % from "));
+    press(&mut window, &later.expect("what is done later"));
+    until(&mut window, "the fork", |window| runs(window).len() == 4);
+    let (name, makespan) = runs(&window).swap_remove(3);
+    assert!(name.starts_with("Equal bands, 8 at 0 % from ") && makespan.is_none(), "{name} {makespan:?}");
+    window.run_steps(2);
+    assert!(texts(&window, Role::Label).iter().any(|text| text.contains("never ends")));
+}
+
+#[test]
+fn every_tab_is_told_in_words() {
+    let mut window = open_comparison();
+    press(&mut window, "Where the time went");
+    let spent = window.get_by_role_and_label(Role::Image, "Where the time went").value().expect("words");
+    assert!(spent.contains("Equal bands: ") && spent.contains("waiting at the end"), "{spent}");
+    press(&mut window, "Speedup");
+    until(&mut window, "curves", |window| texts(window, Role::Image).iter().any(|label| label.contains("Ring: 1: ")));
+}
