@@ -86,10 +86,14 @@ pub(crate) use {say, word};
 
 /// A number with so many digits after the point, or after the comma.
 pub fn decimal(number: f64, digits: usize) -> String {
-    let text = format!("{number:.digits$}");
+    comma(format!("{number:.digits$}"))
+}
+
+/// A number that is written with a point, as the language that is spoken writes it.
+pub fn comma(number: String) -> String {
     match Language::spoken() {
-        Language::English => text,
-        Language::Portuguese => text.replace('.', ","),
+        Language::English => number,
+        Language::Portuguese => number.replace('.', ","),
     }
 }
 

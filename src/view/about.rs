@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::flight::{Cargo, Flight};
-use super::hover::{atom_words, flight_words, node_words};
+use super::hover::{Fact, atom_words, flight_words, node_facts};
 use super::lanes::{Lanes, Traced};
 use super::moment::{Moment, Past};
 use super::state::RunState;
@@ -11,6 +11,7 @@ use super::steps::About;
 use super::why::share_words;
 use super::words::{count, duration, node_name, time_words};
 use crate::balance::{NodeId, Party};
+use crate::language::{say, word};
 use crate::picture::{Atom, push_atom};
 use crate::record::What;
 use crate::runlog::RunLog;
@@ -109,44 +110,56 @@ impl Dossier {
     pub fn words(&self, state: &RunState, now: Time, grain: f64) -> (String, String) {
         match self.about {
             About::Node(node) => {
-                let words = node_words(state, node, now);
-                let of = |what: &str| words.iter().find(|(other, _)| *other == what).map(|(_, value)| value.as_str());
-                let said = ["offers", "gave", "got", "asked", "stole", "lost"];
-                let shared = said.iter().filter_map(|what| Some((what, of(what).filter(|value| *value != "nothing")?)));
+                let facts = node_facts(state, node, now);
+                let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
+                let said = [Fact::Offers, Fact::Gave, Fact::Got, Fact::Asked, Fact::Stole, Fact::Lost];
+                let shared = said.iter().filter_map(|fact| Some((fact.name(), of(*fact)?)));
                 let shared: String = shared.map(|(what, value)| format!(", {what}: {value}")).collect();
-                let value = |what: &str| of(what).unwrap_or("unknown").to_owned();
-                let title =
-                    format!("Machine {} is {}, at a speed of {}", node_name(node), value("state"), value("speed"));
-                (
-                    title,
-                    format!(
-                        "{} done, {} left, idle {} of its time{shared}",
-                        value("done"),
-                        value("left"),
-                        value("idle")
-                    ),
-                )
+                let value = |fact| of(fact).unwrap_or(word!("unknown", "desconhecido"));
+                let (name, does, speed) = (node_name(node), value(Fact::State), value(Fact::Speed));
+                let [done, left, idle] = [Fact::Done, Fact::Left, Fact::Idle].map(value);
+                let title = say!(
+                    "Machine {name} is {does}, at a speed of {speed}",
+                    "A máquina {name} está {does}, à velocidade de {speed}"
+                );
+                let more = say!(
+                    "{done} done, {left} left, idle {idle} of its time{shared}",
+                    "calculou {done}, ainda tem {left}, ociosa {idle} do tempo{shared}"
+                );
+                (title, more)
             }
             About::Atom(atom) => {
                 let pixels = state.division().pixels(atom);
+                let [first, last] = [pixels.start, pixels.end.saturating_sub(1)].map(count);
                 let place =
-                    format!("pixels {} to {} in scan order", count(pixels.start), count(pixels.end.saturating_sub(1)));
+                    say!("pixels {first} to {last} in scan order", "pixels {first} a {last} na ordem de varredura");
                 let traced = self.bar.map(|(node, bar)| {
-                    let took = duration(bar.to.since(bar.from));
+                    let (name, took) = (node_name(node), duration(bar.to.since(bar.from)));
                     let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01));
-                    let is = if bar.to <= now { "was" } else { "will be" };
-                    format!(" · machine {} {is} at it from {from} to {to}, for {took} at its speed", node_name(node))
+                    let is = if bar.to <= now { word!("was", "o calculou") } else { word!("will be", "o calculará") };
+                    say!(
+                        " · machine {name} {is} at it from {from} to {to}, for {took} at its speed",
+                        " · a máquina {name} {is} de {from} a {to}, {took} à sua velocidade"
+                    )
                 });
                 (atom_words(state, atom, now), format!("{place}{}", traced.unwrap_or_default()))
             }
             About::Message(_) => match &self.flight {
-                None => ("A message that is not known any more".into(), String::new()),
+                None => {
+                    let title = word!("A message that is not known any more", "Uma mensagem que não se conhece mais");
+                    (title.into(), String::new())
+                }
                 Some(flight) => {
                     let [sent, arrives] = [flight.sent, flight.arrives].map(|time| time_words(time, grain * 0.01));
                     let took = duration(flight.arrives.since(flight.sent));
                     let why = self.why.as_ref().map(|why| format!("{why} · ")).unwrap_or_default();
-                    let arrived = if flight.arrives <= now { "arrived" } else { "arrives" };
-                    (flight_words(flight), format!("{why}left at {sent}, {arrived} at {arrives}, {took} later"))
+                    let arrived =
+                        if flight.arrives <= now { word!("arrived", "chegou") } else { word!("arrives", "chega") };
+                    let more = say!(
+                        "{why}left at {sent}, {arrived} at {arrives}, {took} later",
+                        "{why}saiu em {sent}, {arrived} em {arrives}, {took} depois"
+                    );
+                    (flight_words(flight), more)
                 }
             },
         }

@@ -9,6 +9,7 @@ use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{atoms_words, counted, fraction, names, node_name};
 use crate::balance::{Message, NodeId, Party};
+use crate::language::{say, word};
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -88,7 +89,8 @@ impl Events {
                 let parts = state.handed_out.count;
                 if parts.is_multiple_of(state.nodes().len() as u32) {
                     self.told.retain(|told| told.event != Event::Parts);
-                    let sentence = format!("The parent has handed out {} so far", counted(parts, "part"));
+                    let parts = counted(parts, word!("part", "parte"));
+                    let sentence = say!("The parent has handed out {parts} so far", "O pai já distribuiu {parts}");
                     self.tell(at, Event::Parts, sentence);
                 }
             }
@@ -106,7 +108,7 @@ impl Events {
                 let sentence = sentences::done(&nodes);
                 self.tell(at, Event::Done(nodes), sentence);
             }
-            What::Estimating => self.tell(at, Event::Estimating, sentences::ESTIMATING.into()),
+            What::Estimating => self.tell(at, Event::Estimating, sentences::estimating().into()),
             What::SpeedSet { node, speed } => {
                 let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
                 let same = |event: &Event| matches!(event, Event::Speed { node: other, .. } if other == node);
@@ -131,7 +133,7 @@ impl Events {
                 let sentence = sentences::retired(state, &nodes);
                 self.tell(at, Event::Retired(nodes), sentence);
             }
-            What::Finished => self.tell(at, Event::End, sentences::COMPLETE.into()),
+            What::Finished => self.tell(at, Event::End, sentences::complete().into()),
             What::Sent { .. }
             | What::Received { .. }
             | What::AtomStarted { .. }
@@ -170,8 +172,15 @@ impl Events {
         if atoms > SMALL {
             let giver = node_name(from);
             let slow = state.nodes().get(usize::from(from)).filter(|node| node.runs() && sentences::is_slow(node));
-            let giver = slow.map_or(giver.to_string(), |node| format!("{giver}, slow at {},", fraction(node.speed)));
-            let sentence = format!("{giver} gave {} to {}, which had finished", atoms_words(atoms), node_name(to));
+            let giver = slow.map_or(giver.to_string(), |node| {
+                let speed = fraction(node.speed);
+                say!("{giver}, slow at {speed},", "{giver}, lenta a {speed},")
+            });
+            let (atoms, to) = (atoms_words(atoms), node_name(to));
+            let sentence = say!(
+                "{giver} gave {atoms} to {to}, which had finished",
+                "{giver} deu {atoms} a {to}, que tinha terminado"
+            );
             return self.tell(at, Event::Transfer, sentence);
         }
         let same = |event: &Event| matches!(event, Event::Trickle { from: other, .. } if *other == from);
@@ -183,16 +192,26 @@ impl Events {
         if let Err(place) = receivers.binary_search(&to) {
             receivers.insert(place, to);
         }
-        let (giver, takers) = (node_name(from), names(&receivers));
-        let sentence = if is_theft {
-            let steal = if receivers.len() == 1 { "steals" } else { "steal" };
-            format!("{takers} {steal} few atoms at a time from {giver}: {}", atoms_words(all))
+        let (giver, takers, words) = (node_name(from), names(&receivers), atoms_words(all));
+        let sentence = if is_theft && receivers.len() == 1 {
+            say!(
+                "{takers} steals few atoms at a time from {giver}: {words}",
+                "{takers} rouba poucos átomos por vez de {giver}: {words}"
+            )
+        } else if is_theft {
+            say!(
+                "{takers} steal few atoms at a time from {giver}: {words}",
+                "{takers} roubam poucos átomos por vez de {giver}: {words}"
+            )
         } else if receivers.len() == 1 {
-            format!("{giver} gave {} to {takers}", atoms_words(all))
+            say!("{giver} gave {words} to {takers}", "{giver} deu {words} a {takers}")
         } else if all as usize == receivers.len() {
-            format!("{giver} gave 1 atom to {takers}")
+            say!("{giver} gave 1 atom to {takers}", "{giver} deu 1 átomo a {takers}")
         } else {
-            format!("{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels")
+            say!(
+                "{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels",
+                "{giver} deu poucos átomos por vez a {takers}: {all} em {transfers} pacotes"
+            )
         };
         self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
     }
@@ -283,7 +302,7 @@ mod tests {
             for sentence in sentences(&events) {
                 prop_assert!(sentence.chars().count() <= 95, "{sentence}");
             }
-            prop_assert!(sentences(&events).contains(&sentences::COMPLETE));
+            prop_assert!(sentences(&events).contains(&sentences::complete()));
             // Every node offers at last, and says so once.
             for node in 0..speeds.len() as NodeId {
                 let offers = events.told.iter().filter(|told| told.event == Event::Offer(node)).count();

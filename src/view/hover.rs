@@ -10,42 +10,97 @@ use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{activity_word, atoms_words, count, counted, duration, fraction, node_name, percent, rate_words};
 use crate::balance::{NodeId, Party};
+use crate::language::{decimal, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
 
+/// Something that there is to say of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fact {
+    State,
+    Speed,
+    Done,
+    Left,
+    Pipe,
+    Rate,
+    Idle,
+    Stole,
+    Lost,
+    Asked,
+    Got,
+    Offers,
+    Gave,
+    Shares,
+}
+
+impl Fact {
+    /// What it is called.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::State => word!("state", "estado"),
+            Self::Speed => word!("speed", "velocidade"),
+            Self::Done => word!("done", "feito"),
+            Self::Left => word!("left", "resta"),
+            Self::Pipe => word!("in the pipe", "no pipe"),
+            Self::Rate => word!("rate", "ritmo"),
+            Self::Idle => word!("idle", "ociosa"),
+            Self::Stole => word!("stole", "roubou"),
+            Self::Lost => word!("lost", "perdeu"),
+            Self::Asked => word!("asked", "pediu"),
+            Self::Got => word!("got", "recebeu"),
+            Self::Offers => word!("offers", "ofertas"),
+            Self::Gave => word!("gave", "deu"),
+            Self::Shares => word!("shares", "divide"),
+        }
+    }
+}
+
 /// What there is to say of a node, each with what it is; nothing of a node that is not in the ring.
 pub fn node_words(state: &RunState, node: NodeId, now: Time) -> Vec<(&'static str, String)> {
+    let words = |(fact, words): (Fact, Option<String>)| (fact.name(), words.unwrap_or_else(|| nothing().into()));
+    node_facts(state, node, now).into_iter().map(words).collect()
+}
+
+/// The same; without words where it amounts to nothing.
+pub(super) fn node_facts(state: &RunState, node: NodeId, now: Time) -> Vec<(Fact, Option<String>)> {
     let Some(of) = state.nodes().get(usize::from(node)) else { return Vec::new() };
     let row = rows(state, now).swap_remove(usize::from(node));
-    let paused = if of.paused && row.activity != Activity::Paused { ", paused" } else { "" };
-    let mut words = vec![
-        ("state", format!("{}{paused}", activity_word(row.activity))),
-        ("speed", fraction(of.speed)),
-        ("done", atoms_words(of.done)),
-        ("left", atoms_words(of.left())),
-        ("in the pipe", pipe_words(of).into()),
-        ("rate", rate_words(row.rate)),
-        ("idle", fraction(row.idle)),
+    let paused = if of.paused && row.activity != Activity::Paused { word!(", paused", ", em pausa") } else { "" };
+    let mut facts = vec![
+        (Fact::State, Some(format!("{}{paused}", activity_word(row.activity)))),
+        (Fact::Speed, Some(fraction(of.speed))),
+        (Fact::Done, Some(atoms_words(of.done))),
+        (Fact::Left, Some(atoms_words(of.left()))),
+        (Fact::Pipe, Some(pipe_words(of).into())),
+        (Fact::Rate, Some(rate_words(row.rate))),
+        (Fact::Idle, Some(fraction(row.idle))),
     ];
-    words.extend(shared_words(state.sharing(), of));
-    words
+    facts.extend(shared_facts(state.sharing(), of));
+    facts
 }
 
 /// What a node has got from others, and they from it.
-fn shared_words(sharing: Sharing, of: &NodeState) -> Vec<(&'static str, String)> {
+fn shared_facts(sharing: Sharing, of: &NodeState) -> Vec<(Fact, Option<String>)> {
+    let parcel = word!("parcel", "pacote");
     match sharing {
         Sharing::Stealing => {
-            vec![("stole", parcels_words(of.got, "theft")), ("lost", parcels_words(of.given, "theft"))]
+            let theft = word!("theft", "roubo");
+            vec![(Fact::Stole, parcels_words(of.got, theft)), (Fact::Lost, parcels_words(of.given, theft))]
         }
-        _ if sharing.is_farm() => {
-            vec![("asked", counted(of.requests, "time")), ("got", parcels_words(of.got, "part"))]
-        }
-        _ if sharing.is_ring() => vec![
-            ("offers", format!("{} made, {} passed on", count(of.offers), count(of.hops))),
-            ("gave", parcels_words(of.given, "parcel")),
-            ("got", parcels_words(of.got, "parcel")),
+        _ if sharing.is_farm() => vec![
+            (Fact::Asked, Some(counted(of.requests, word!("time", "vez")))),
+            (Fact::Got, parcels_words(of.got, word!("part", "parte"))),
         ],
-        _ => vec![("shares", "with nobody".into())],
+        _ if sharing.is_ring() => {
+            let [made, passed] = [of.offers, of.hops].map(count);
+            let offers = say!("{made} made, {passed} passed on", "{made} feitas, {passed} repassadas");
+            vec![
+                (Fact::Offers, Some(offers)),
+                (Fact::Gave, parcels_words(of.given, parcel)),
+                (Fact::Got, parcels_words(of.got, parcel)),
+            ]
+        }
+        _ => vec![(Fact::Shares, Some(word!("with nobody", "com ninguém").into()))],
     }
 }
 
@@ -54,34 +109,52 @@ pub fn parent_words(state: &RunState, now: Time) -> Vec<(&'static str, String)> 
     let (arrived, all) = (state.arrived(), state.division().pixels_in(&(0..state.atoms())));
     let until = state.finished().map_or(now, |end| end.min(now));
     let each = if until == Time::ZERO { 0.0 } else { arrived.messages as f64 / until.secs() };
+    let (placed, of, part) = (count(arrived.pixels), count(all), percent(arrived.pixels, all));
+    let (seen, rate) = (arrived.messages, rate_words(each));
     let mut words = vec![
-        ("placed", format!("{} of {} pixels, {}", count(arrived.pixels), count(all), percent(arrived.pixels, all))),
-        ("messages", format!("{} seen, {}", arrived.messages, rate_words(each))),
+        (word!("placed", "recebido"), say!("{placed} of {of} pixels, {part}", "{placed} de {of} pixels, {part}")),
+        (word!("messages", "mensagens"), say!("{seen} seen, {rate}", "{seen} vistas, {rate}")),
     ];
     if !state.handling.is_zero() {
-        words.push(("waiting", format!("{}, {} each", state.waiting(now), duration(state.handling))));
+        let (waiting, each) = (state.waiting(now), duration(state.handling));
+        words.push((word!("waiting", "esperando"), say!("{waiting}, {each} each", "{waiting}, {each} cada")));
     }
     if state.sharing().is_farm() {
-        words.push(("handed out", parcels_words(state.handed_out, "part")));
+        let parts = parcels_words(state.handed_out, word!("part", "parte"));
+        words.push((word!("handed out", "distribuiu"), parts.unwrap_or_else(|| nothing().into())));
     }
-    let way = if state.sharing().is_ring() { "a hop takes" } else { "a message takes" };
+    let way = if state.sharing().is_ring() {
+        word!("a hop takes", "um salto leva")
+    } else {
+        word!("a message takes", "uma mensagem leva")
+    };
     words.push((way, duration(state.latency())));
     words
 }
 
 /// What there is to know of the drawing itself, a line each.
 pub fn small_print(state: &RunState) -> Vec<String> {
-    let takes = duration(state.latency());
-    let mut lines = vec!["some atoms take longer than others".to_owned()];
+    let (takes, handling) = (duration(state.latency()), duration(state.handling));
+    let mut lines =
+        vec![word!("some atoms take longer than others", "alguns átomos demoram mais que outros").to_owned()];
     match state.sharing() {
-        Sharing::Stealing => lines.push("threads share their memory, without messages".into()),
+        Sharing::Stealing => lines.push(
+            word!("threads share their memory, without messages", "as threads dividem a memória, sem mensagens").into(),
+        ),
         _ if state.latency().is_zero() && state.handling.is_zero() => {}
-        sharing if sharing.is_ring() => lines.push(format!("an offer takes {takes} a hop")),
-        _ if state.handling.is_zero() => lines.push(format!("a message takes {takes}")),
-        _ => lines.push(format!("a message takes {takes}, the parent {}", duration(state.handling))),
+        sharing if sharing.is_ring() => {
+            lines.push(say!("an offer takes {takes} a hop", "uma oferta leva {takes} por salto"));
+        }
+        _ if state.handling.is_zero() => lines.push(say!("a message takes {takes}", "uma mensagem leva {takes}")),
+        _ => lines.push(say!(
+            "a message takes {takes}, the parent {handling}",
+            "uma mensagem leva {takes}, o pai, {handling}"
+        )),
     }
     if !state.sharing().is_fixed() {
-        lines.push("parcels are drawn slower than they travel".into());
+        lines.push(
+            word!("parcels are drawn slower than they travel", "os pacotes viajam mais rápido do que se vê").into(),
+        );
     }
     lines
 }
@@ -92,63 +165,93 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
     let stands = match (place, state.carrier(atom)) {
         (Place::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default());
-            format!("traced by {} at {:.1} s, at a cost of {cost}", node_name(by), at.secs())
+            let (by, at) = (node_name(by), decimal(at.secs(), 1));
+            say!("traced by {by} at {at} s, at a cost of {cost}", "calculado por {by} em {at} s, ao custo de {cost}")
         }
         (_, Some(Flight { from: Party::Node(from), to: Party::Node(to), .. })) => {
-            format!("on its way from {} to {}", node_name(*from), node_name(*to))
+            let [from, to] = [*from, *to].map(node_name);
+            say!("on its way from {from} to {to}", "a caminho, de {from} para {to}")
         }
-        (_, Some(Flight { to: Party::Node(to), cargo: Cargo::Part(_), .. })) => {
-            format!("on its way to {}, in the part that it asked for", node_name(*to))
+        (_, Some(Flight { to: Party::Node(to), cargo, .. })) => {
+            let to = node_name(*to);
+            match cargo {
+                Cargo::Part(_) => {
+                    say!(
+                        "on its way to {to}, in the part that it asked for",
+                        "a caminho de {to}, na parte que ela pediu"
+                    )
+                }
+                _ => say!("on its way to {to}, in its band", "a caminho de {to}, em sua faixa"),
+            }
         }
-        (_, Some(Flight { to: Party::Node(to), .. })) => format!("on its way to {}, in its band", node_name(*to)),
         (Place::With { node, since }, _) => with_words(state, atom, (node, since), now),
-        (Place::Nowhere, _) => "still with the parent".into(),
+        (Place::Nowhere, _) => word!("still with the parent", "ainda com o pai").into(),
     };
-    format!("Atom {}: {stands}", count(atom.saturating_add(1)))
+    let name = count(atom.saturating_add(1));
+    say!("Atom {name}: {stands}", "Átomo {name}: {stands}")
 }
 
 /// What a message is, in a few words.
 pub fn flight_words(flight: &Flight) -> String {
     let name = |party| match party {
-        Party::Parent => "the parent".into(),
+        Party::Parent => word!("the parent", "o pai").into(),
         Party::Node(node) => node_name(node).to_string(),
     };
     let (from, to, atoms) = (name(flight.from), name(flight.to), atoms_words(flight.cargo.atoms()));
     match &flight.cargo {
-        Cargo::Band(_) => format!("{atoms} for {to}, its band"),
-        Cargo::Request => format!("{from} asks {to} for atoms"),
-        Cargo::Part(_) if flight.cargo.atoms() == 0 => format!("{from} has no more atoms for {to}"),
-        Cargo::Part(_) => format!("{atoms} for {to}, which asked for them"),
-        Cargo::Transfer(_) => format!("{atoms} from {from} to {to}"),
-        Cargo::Offer { who } => format!("The offer of {}, on its way from {from} to {to}", node_name(*who)),
-        Cargo::Results(_) => format!("{atoms} that {from} has traced, for {to}"),
-        Cargo::Shutdown => format!("The end, for {to}"),
+        Cargo::Band(_) => say!("{atoms} for {to}, its band", "{atoms} para {to}, sua faixa"),
+        Cargo::Request => say!("{from} asks {to} for atoms", "{from} pede átomos ao pai"),
+        Cargo::Part(_) if flight.cargo.atoms() == 0 => {
+            say!("{from} has no more atoms for {to}", "{from} não tem mais átomos para {to}")
+        }
+        Cargo::Part(_) => say!("{atoms} for {to}, which asked for them", "{atoms} para {to}, que os pediu"),
+        Cargo::Transfer(_) => say!("{atoms} from {from} to {to}", "{atoms} de {from} para {to}"),
+        Cargo::Offer { who } => {
+            let who = node_name(*who);
+            say!(
+                "The offer of {who}, on its way from {from} to {to}",
+                "A oferta de {who}, a caminho, de {from} para {to}"
+            )
+        }
+        Cargo::Results(_) => {
+            say!("{atoms} that {from} has traced, for {to}", "{atoms} que {from} calculou, para {to}")
+        }
+        Cargo::Shutdown => say!("The end, for {to}", "A mensagem de suicídio, para {to}"),
     }
 }
 
 /// An atom is at a node.
 fn with_words(state: &RunState, atom: Atom, (node, since): (NodeId, Time), now: Time) -> String {
-    let name = node_name(node);
+    let (name, waited) = (node_name(node), duration(now.since(since)));
     match state.nodes().get(usize::from(node)) {
-        Some(of) if of.atom == Some(atom) && of.paused => format!("{name} has begun it, but is paused"),
-        Some(of) if of.atom == Some(atom) && of.speed == 0.0 => format!("{name} has begun it, but stands still"),
-        Some(of) if of.atom == Some(atom) => format!("{name} traces it now"),
-        _ => format!("waits in the queue of {name}, for {} now", duration(now.since(since))),
+        Some(of) if of.atom == Some(atom) && of.paused => {
+            say!("{name} has begun it, but is paused", "{name} o começou, mas está em pausa")
+        }
+        Some(of) if of.atom == Some(atom) && of.speed == 0.0 => {
+            say!("{name} has begun it, but stands still", "{name} o começou, mas está parada")
+        }
+        Some(of) if of.atom == Some(atom) => say!("{name} traces it now", "{name} o calcula agora"),
+        _ => say!("waits in the queue of {name}, for {waited} now", "espera na fila de {name}, há {waited}"),
     }
+}
+
+fn nothing() -> &'static str {
+    word!("nothing", "nada")
 }
 
 fn pipe_words(of: &NodeState) -> &'static str {
     match of.pipe() {
-        [Slot::Empty, _] => "nothing",
-        [Slot::Traced, Slot::Empty] => "one atom, which it traces",
-        [Slot::Traced, _] => "two atoms, one of which it traces",
-        [Slot::Filled, Slot::Empty] => "one atom, which waits",
-        [Slot::Filled, _] => "two atoms, which wait",
+        [Slot::Empty, _] => nothing(),
+        [Slot::Traced, Slot::Empty] => word!("one atom, which it traces", "um átomo, que ela calcula"),
+        [Slot::Traced, _] => word!("two atoms, one of which it traces", "dois átomos; um deles ela calcula"),
+        [Slot::Filled, Slot::Empty] => word!("one atom, which waits", "um átomo, que espera"),
+        [Slot::Filled, _] => word!("two atoms, which wait", "dois átomos, que esperam"),
     }
 }
 
-fn parcels_words(Parcels { count, atoms }: Parcels, parcel: &str) -> String {
-    if count == 0 { "nothing".into() } else { format!("{} in {}", atoms_words(atoms), counted(count, parcel)) }
+fn parcels_words(Parcels { count, atoms }: Parcels, parcel: &str) -> Option<String> {
+    let (atoms, parcels) = (atoms_words(atoms), counted(count, parcel));
+    (count > 0).then(|| say!("{atoms} in {parcels}", "{atoms} em {parcels}"))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::plan::Plan;
 use super::state::RunState;
 use super::words::{activity_word, count, fraction, percent, rate_words};
 use crate::balance::NodeId;
+use crate::language::{say, word};
 use crate::time::Time;
 
 /// How labels look in a ring of some size.
@@ -38,7 +39,9 @@ const USUAL: f32 = 500.0;
 const EDGE: f32 = 2.0;
 
 /// The most letters in a first line, as in `6 144 left`, in a second one, as in `10 % · 62/s`, and in a number.
-const FIRST: usize = 10;
+fn longest() -> usize {
+    word!(10, 12)
+}
 const SECOND: usize = 12;
 const NUMBER: usize = 5;
 
@@ -86,11 +89,11 @@ impl Labels {
 
     /// What a label takes at most.
     fn extent(&self) -> Point {
-        let (first, second) = (self.size(), TextSize::Small(self.text));
+        let (size, second) = (self.size(), TextSize::Small(self.text));
         match self.form {
-            Form::TwoLines => [first.width(FIRST).max(second.width(SECOND)), first.line() + second.line()],
-            Form::OneLine => [first.width(FIRST), first.line()],
-            Form::Number => [first.width(NUMBER), first.line()],
+            Form::TwoLines => [size.width(longest()).max(second.width(SECOND)), size.line() + second.line()],
+            Form::OneLine => [size.width(longest()), size.line()],
+            Form::Number => [size.width(NUMBER), size.line()],
             Form::Nothing => [0.0, 0.0],
         }
     }
@@ -175,7 +178,9 @@ pub(super) fn is_labelled(plan: &Plan, is_selected: bool) -> bool {
 /// What is said of a node: what it still has to do, and what matters most of how it does it; at the end, what it has
 /// done.
 fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [String; 2] {
-    let (left, done) = (format!("{} left", short(of.left())), format!("{} done", short(of.done)));
+    let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
+    let [left, done] = [of.left(), of.done].map(short);
+    let (left, done) = (say!("{left} left", "{rest} {left}"), say!("{done} done", "{done} {made}"));
     match activity {
         _ if state.finished().is_some() => [done, percent(of.done, state.atoms())],
         Activity::Waiting => [activity_word(activity).into(), String::new()],
@@ -238,7 +243,7 @@ mod tests {
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
             for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
                 let [first, second] = words(&state, &of, activity, Time::from_secs(2.0)).map(|line| line.chars().count());
-                prop_assert!(first <= FIRST && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO));
+                prop_assert!(first <= longest() && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO));
                 prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER);
             }
         }

@@ -10,6 +10,7 @@ use super::standing::standing;
 use super::state::RunState;
 use super::words::node_name;
 use crate::balance::{Message, Party};
+use crate::language::say;
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -75,9 +76,9 @@ impl Narrator {
     pub fn sentence(&self, state: &RunState, now: Time) -> String {
         match self.told_at(now, state.rate()) {
             Some(told) => told.sentence.clone(),
-            None if state.finished().is_some() => sentences::COMPLETE.into(),
+            None if state.finished().is_some() => sentences::complete().into(),
             // Nothing has been heard of it: its records begin when all costs are known.
-            _ if state.is_virtual && state.head() == Time::ZERO => sentences::BEFORE_VIRTUAL_TIME.into(),
+            _ if state.is_virtual && state.head() == Time::ZERO => sentences::before_virtual_time().into(),
             _ => standing(state),
         }
     }
@@ -133,10 +134,15 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
         What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
         What::Retired { .. } if state.sharing.is_farm() => return None,
         What::Retired { node } => {
-            ((2, 0), format!("{}'s offer came back, nobody needs help: it retires", node_name(*node)))
+            let name = node_name(*node);
+            let words = say!(
+                "{name}'s offer came back, nobody needs help: it retires",
+                "A oferta de {name} voltou, ninguém quer ajuda: ela não é mais necessária"
+            );
+            ((2, 0), words)
         }
         // The bands follow, perhaps soon.
-        What::Estimating => ((1, 0), sentences::ESTIMATING.into()),
+        What::Estimating => ((1, 0), sentences::estimating().into()),
         What::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
             let weight = if part.is_empty() { 2 } else { 1 };
             ((weight, 0), sentences::part(*to, part.len() as u32))
@@ -146,7 +152,7 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             ((2, waiting.ilog2()), sentences::jam(state, waiting))
         }
         What::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), sentences::done(&[*node])),
-        What::Finished => (END, sentences::COMPLETE.into()),
+        What::Finished => (END, sentences::complete().into()),
         _ => return None,
     };
     Some(told)
@@ -324,7 +330,7 @@ mod tests {
         );
         assert!(listed.iter().any(|event| event == "1, 2, 3 and 4 are done and wait: nobody shares with them"));
         let (heard, _) = story(Strategy::StaticEstimate, 0);
-        assert_heard(&heard, &[sentences::ESTIMATING, "a band that should cost the same", "All wait for 5"]);
+        assert_heard(&heard, &[sentences::estimating(), "a band that should cost the same", "All wait for 5"]);
         let (heard, _) = story(Strategy::Serial, 0);
         assert_heard(&heard, &["one machine the whole picture", "1 computes alone: "]);
     }
@@ -351,6 +357,6 @@ mod tests {
     #[test]
     fn before_virtual_time_begins_something_is_said() {
         let state = RunState::new(&sample::header(&[1.0, 1.0], 9));
-        assert_eq!(Narrator::default().sentence(&state, Time::ZERO), sentences::BEFORE_VIRTUAL_TIME);
+        assert_eq!(Narrator::default().sentence(&state, Time::ZERO), sentences::before_virtual_time());
     }
 }

@@ -1,88 +1,140 @@
 //! What a scene needs to be traced, in words.
 
-use super::words::count;
+use super::words::{count, listed};
+use crate::language::{decimal, say, word};
 use crate::tracer::Compiled;
 
 /// What a scene needs, line by line: what, and how much of it. `levels` are the rays of each level of the trees of rays, as
 /// [`crate::tracer::Tracer::levels`] counts them.
 pub fn needs_lines(compiled: &Compiled, levels: &[u64]) -> Vec<(&'static str, String)> {
-    let kinds: Vec<String> = compiled.primitives.iter().map(|(kind, number)| several(*number, kind)).collect();
+    let of_kind = |(kind, number): (&&'static str, &usize)| several(*number, shape_names(kind));
+    let kinds: Vec<String> = compiled.primitives.iter().map(of_kind).collect();
     let kept: usize = compiled.primitives.values().sum();
+    let [kept, shapes] = [kept, compiled.given.primitives].map(number);
+    let [operations, given] = [compiled.operations, compiled.given.operations].map(number);
+    let solids = word!(["solid", "solids"], ["sólido", "sólidos"]);
+    let nothing = || word!("nothing", "nada").into();
     let mut lines = vec![
-        ("Solids", several(compiled.solids, "solid")),
-        ("Made of", if kinds.is_empty() { "nothing".into() } else { listed(&kinds) }),
-        ("Kept", format!("{} of {} shapes that are written", number(kept), number(compiled.given.primitives))),
+        (word!("Solids", "Sólidos"), several(compiled.solids, solids)),
+        (word!("Made of", "Feitos de"), if kinds.is_empty() { nothing() } else { listed(&kinds) }),
         (
-            "Operations",
-            format!("{} of {} that are written", number(compiled.operations), number(compiled.given.operations)),
+            word!("Kept", "Restam"),
+            say!("{kept} of {shapes} shapes that are written", "{kept} de {shapes} formas escritas"),
         ),
-        ("Lights", several(compiled.lights, "light")),
-        ("Surfaces", surfaces(compiled).into()),
-        ("Rays", levels_words(levels)),
+        (
+            word!("Operations", "Operações"),
+            say!("{operations} of {given} that are written", "{operations} de {given} escritas"),
+        ),
+        (word!("Lights", "Luzes"), several(compiled.lights, word!(["light", "lights"], ["luz", "luzes"]))),
+        (word!("Surfaces", "Superfícies"), surfaces(compiled).into()),
+        (word!("Rays", "Raios"), levels_words(levels)),
     ];
     if compiled.unbounded > 0 {
-        lines.push(("Endless", format!("{}, which every ray is tested against", several(compiled.unbounded, "solid"))));
+        let solids = several(compiled.unbounded, solids);
+        let words = say!("{solids}, which every ray is tested against", "{solids}, que todo raio testa");
+        lines.push((word!("Endless", "Sem fim"), words));
     }
     lines
 }
 
+/// What one shape of a kind is called, and what several are.
+pub(super) fn shape_names(kind: &'static str) -> [&'static str; 2] {
+    match kind {
+        "ball" => word!(["ball", "balls"], ["esfera", "esferas"]),
+        "half-space" => word!(["half-space", "half-spaces"], ["semiespaço", "semiespaços"]),
+        "box along the axes" => {
+            word!(
+                ["box along the axes", "boxes along the axes"],
+                ["caixa alinhada aos eixos", "caixas alinhadas aos eixos"]
+            )
+        }
+        "ellipsoid" => word!(["ellipsoid", "ellipsoids"], ["elipsoide", "elipsoides"]),
+        "box" => word!(["box", "boxes"], ["caixa", "caixas"]),
+        "cylinder" => word!(["cylinder", "cylinders"], ["cilindro", "cilindros"]),
+        "cone" => word!(["cone", "cones"], ["cone", "cones"]),
+        "torus" => word!(["torus", "tori"], ["toro", "toros"]),
+        "quadric" => word!(["quadric", "quadrics"], ["quádrica", "quádricas"]),
+        _ => [kind; 2],
+    }
+}
+
 /// What of the scene is never seen, as a sentence for each; none if all is.
 pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
-    let tell = |number: usize, what: &str, why: &str| {
-        let are = if number == 1 { "is" } else { "are" };
-        (number > 0).then(|| format!("{} {are} {why}.", several(number, what)))
-    };
+    let tell = |value: usize, words: [&str; 2]| (value > 0).then(|| format!("{}.", several(value, words)));
     let parts = compiled.parts_dropped;
-    [
-        tell(compiled.dropped, "solid", "empty: nothing of it can be seen"),
-        tell(parts.empty, "part", "empty, and left out"),
-        tell(parts.out_of_reach, "part", "out of reach of what it would be taken from, and left out"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let dropped = word!(
+        ["solid is empty: nothing of it can be seen", "solids are empty: nothing of it can be seen"],
+        ["sólido é vazio: nada dele se vê", "sólidos são vazios: nada deles se vê"]
+    );
+    let empty = word!(
+        ["part is empty, and left out", "parts are empty, and left out"],
+        ["parte é vazia e foi omitida", "partes são vazias e foram omitidas"]
+    );
+    let out_of_reach = word!(
+        [
+            "part is out of reach of what it would be taken from, and left out",
+            "parts are out of reach of what it would be taken from, and left out"
+        ],
+        [
+            "parte está longe demais do que a perderia, e foi omitida",
+            "partes estão longe demais do que as perderia, e foram omitidas"
+        ]
+    );
+    [tell(compiled.dropped, dropped), tell(parts.empty, empty), tell(parts.out_of_reach, out_of_reach)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn surfaces(compiled: &Compiled) -> &'static str {
     match (compiled.reflects, compiled.transmits) {
-        (true, true) => "some mirror others, and light goes through some",
-        (true, false) => "some mirror others; light goes through none",
-        (false, true) => "light goes through some; none mirrors others",
-        (false, false) => "none mirrors others, and light goes through none",
+        (true, true) => {
+            word!(
+                "some mirror others, and light goes through some",
+                "algumas espelham outras, e a luz atravessa algumas"
+            )
+        }
+        (true, false) => {
+            word!("some mirror others; light goes through none", "algumas espelham outras; a luz não atravessa nenhuma")
+        }
+        (false, true) => {
+            word!("light goes through some; none mirrors others", "a luz atravessa algumas; nenhuma espelha outras")
+        }
+        (false, false) => {
+            word!(
+                "none mirrors others, and light goes through none",
+                "nenhuma espelha outras, e a luz não atravessa nenhuma"
+            )
+        }
     }
 }
 
 /// How deep the trees of rays go.
 fn levels_words(levels: &[u64]) -> String {
     let deep = match levels.len() {
-        0 | 1 => return "1 level: a ray for each sample, and none after it".into(),
+        0 | 1 => {
+            return word!(
+                "1 level: a ray for each sample, and none after it",
+                "1 nível: um raio por amostra, e nenhum depois dele"
+            )
+            .into();
+        }
         deep => deep,
     };
     let all: u64 = levels.iter().sum();
-    let after = (all - levels[0]) as f64 / levels[0].max(1) as f64;
-    format!("{deep} levels are used; each first ray has {after:.1} more after it")
+    let after = decimal((all - levels[0]) as f64 / levels[0].max(1) as f64, 1);
+    say!(
+        "{deep} levels are used; each first ray has {after} more after it",
+        "{deep} níveis são usados; cada primeiro raio tem mais {after} depois dele"
+    )
 }
 
 fn number(value: usize) -> String {
     count(u32::try_from(value).unwrap_or(u32::MAX))
 }
 
-fn several(value: usize, what: &str) -> String {
-    let plural = match what {
-        _ if value == 1 => what.to_owned(),
-        "box along the axes" => "boxes along the axes".into(),
-        "box" => "boxes".into(),
-        "torus" => "tori".into(),
-        _ => format!("{what}s"),
-    };
-    format!("{} {plural}", number(value))
-}
-
-fn listed(words: &[String]) -> String {
-    match words {
-        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-        _ => words.concat(),
-    }
+fn several(value: usize, [one, many]: [&str; 2]) -> String {
+    format!("{} {}", number(value), if value == 1 { one } else { many })
 }
 
 #[cfg(test)]
@@ -158,7 +210,7 @@ mod tests {
 
     #[test]
     fn several_have_their_plural() {
-        let said = ["box", "torus", "ball", "box along the axes"].map(|kind| several(2000, kind));
+        let said = ["box", "torus", "ball", "box along the axes"].map(|kind| several(2000, shape_names(kind)));
         assert_eq!(
             said,
             ["2\u{a0}000 boxes", "2\u{a0}000 tori", "2\u{a0}000 balls", "2\u{a0}000 boxes along the axes"]

@@ -9,6 +9,7 @@ use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{atoms_words, count, counted, duration, fraction, node_name};
 use crate::balance::{NodeId, Strategy};
+use crate::language::{decimal, say, word};
 use crate::time::Time;
 
 /// What a finished run amounts to.
@@ -27,29 +28,31 @@ pub struct Outcome {
 /// The figures of the result, each with what it is, to be shown large.
 pub fn figures(outcome: &Outcome) -> [(String, &'static str); 4] {
     [
-        (seconds(outcome.makespan), "start to finish"),
-        (seconds(outcome.ideal), "shared perfectly"),
-        (fraction(outcome.efficiency), "efficiency"),
-        (seconds(outcome.spread), "first to last done"),
+        (seconds(outcome.makespan), word!("start to finish", "início ao fim")),
+        (seconds(outcome.ideal), word!("shared perfectly", "divisão perfeita")),
+        (fraction(outcome.efficiency), word!("efficiency", "eficiência")),
+        (seconds(outcome.spread), word!("first to last done", "da 1ª à última")),
     ]
 }
 
 /// The result in a sentence or two: how well the work was shared, and who did most and least of it, and why.
 pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
-    let Outcome { makespan, ideal, efficiency, spread } = *outcome;
-    let mut words = format!(
-        "Done in {}; shared perfectly it takes {}: efficiency {}",
-        seconds(makespan),
-        seconds(ideal),
-        fraction(efficiency)
+    let [takes, ideal, spread] = [outcome.makespan, outcome.ideal, outcome.spread].map(seconds);
+    let efficiency = fraction(outcome.efficiency);
+    let mut words = say!(
+        "Done in {takes}; shared perfectly it takes {ideal}: efficiency {efficiency}",
+        "Pronta em {takes}; com divisão perfeita, {ideal}: eficiência {efficiency}"
     );
     let machines = state.nodes().len();
     if machines == 1 {
         return words;
     }
-    let what = if state.sharing() == Sharing::Stealing { "threads" } else { "machines" };
+    let what = if state.sharing() == Sharing::Stealing { "threads" } else { word!("machines", "máquinas") };
     if state.sharing() != Sharing::By(Strategy::Serial) {
-        words += &format!(". {machines} {what} were done within {}", seconds(spread));
+        words += &say!(
+            ". {machines} {what} were done within {spread}",
+            ". {machines} {what} terminaram com {spread} de diferença"
+        );
     }
     if let Some(parts) = parts_words(state) {
         words += &format!(". {parts}");
@@ -59,7 +62,11 @@ pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
 
 /// Seconds with a decimal, unless nothing would be left of them.
 fn seconds(length: Duration) -> String {
-    if length < Duration::from_millis(95) { duration(length) } else { format!("{:.1} s", length.as_secs_f64()) }
+    if length < Duration::from_millis(95) {
+        duration(length)
+    } else {
+        format!("{} s", decimal(length.as_secs_f64(), 1))
+    }
 }
 
 /// Who did most and least of the work, and why, or who was waited for; `None` if all did about the same.
@@ -67,11 +74,13 @@ pub fn parts_words(state: &RunState) -> Option<String> {
     match state.sharing() {
         _ if state.nodes().len() == 1 => None,
         Sharing::By(Strategy::Serial) => {
-            Some(format!("{} traced all of it alone", most_and_least(state).map(|[(most, _), _]| node_name(most))?))
+            let most = most_and_least(state).map(|[(most, _), _]| node_name(most))?;
+            Some(say!("{most} traced all of it alone", "{most} calculou tudo sozinha"))
         }
         Sharing::By(Strategy::Static | Strategy::StaticEstimate) => waited_for(state).or_else(|| uneven(state)),
         sharing if sharing.is_farm() => {
-            let handed_out = format!("The parent was asked for {}", counted(state.handed_out.count, "part"));
+            let parts = counted(state.handed_out.count, word!("part", "parte"));
+            let handed_out = say!("The parent was asked for {parts}", "Pediram ao pai {parts}");
             Some(uneven(state).map_or_else(|| handed_out.clone(), |uneven| format!("{uneven}. {handed_out}")))
         }
         Sharing::By(_) | Sharing::Stealing => uneven(state),
@@ -89,8 +98,11 @@ fn waited_for(state: &RunState) -> Option<String> {
     let worth_a_word = waited.as_secs_f64() > 0.05 * end;
     let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node)).unwrap_or_default();
     worth_a_word.then(|| {
-        let (last, first): (u32, u32) = (node_name(last), node_name(first));
-        format!("All waited for {last}, {slow}: {first} was done {} before it, and nobody shared", seconds(waited))
+        let (last, first, waited) = (node_name(last), node_name(first), seconds(waited));
+        say!(
+            "All waited for {last}, {slow}: {first} was done {waited} before it, and nobody shared",
+            "Todas esperaram por {last}, {slow}: {first} terminou {waited} antes dela, e ninguém dividiu"
+        )
     })
 }
 
@@ -120,25 +132,31 @@ fn uneven(state: &RunState) -> Option<String> {
     if f64::from(fast.done) < 1.05 * f64::from(slow.done) {
         return None;
     }
-    let words = format!(
-        "{} traced most: {} {}; {} least: {} {}",
-        node_name(most),
-        atoms_words(fast.done),
-        at_speed(state, fast),
-        node_name(least),
-        count(slow.done),
-        at_speed(state, slow),
+    let (first, last) = (node_name(most), node_name(least));
+    let [more, less] = [atoms_words(fast.done), count(slow.done)];
+    let [at_most, at_least] = [fast, slow].map(|node| at_speed(state, node));
+    let words = say!(
+        "{first} traced most: {more} {at_most}; {last} least: {less} {at_least}",
+        "{first} calculou mais: {more} {at_most}; {last}, menos: {less} {at_least}"
     );
     let end = state.finished().unwrap_or(state.head());
     let alike = fast.mean_speed(end) < 1.05 * slow.mean_speed(end);
     let dearer = || mean_cost(state, least) > 1.05 * mean_cost(state, most);
-    Some(if alike && dearer() { format!("{words} (its atoms took longer)") } else { words })
+    Some(if alike && dearer() {
+        say!("{words} (its atoms took longer)", "{words} (seus átomos demoraram mais)")
+    } else {
+        words
+    })
 }
 
 /// A node's speed in words, as far as one number can tell it.
 fn at_speed(state: &RunState, node: &NodeState) -> String {
     let mean = fraction(node.mean_speed(state.finished().unwrap_or(state.head())));
-    if mean == fraction(node.speed) { format!("at {mean}") } else { format!("at {mean} on average") }
+    if mean == fraction(node.speed) {
+        say!("at {mean}", "a {mean}")
+    } else {
+        say!("at {mean} on average", "a {mean} em média")
+    }
 }
 
 /// What an atom that `node` has traced cost on average, in seconds of CPU time; 0 if it has traced none.

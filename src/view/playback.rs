@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use super::words::count;
+use crate::language::{say, word};
 use crate::time::Time;
 
 /// How fast a run's time goes before the user's eyes, in seconds of the run a second; the last is as fast as one can.
@@ -105,23 +107,24 @@ impl Playback {
 
 /// A rate in words: `1 000 × slower`, `2 × faster`.
 pub fn rate_of_time_words(rate: f64) -> String {
+    let times = count((1.0 / rate).round() as u32);
     if rate.is_infinite() {
-        "as fast as it can".into()
+        word!("as fast as it can", "o mais rápido possível").into()
     } else if rate < 1.0 {
-        format!("{} × slower", super::words::count((1.0 / rate).round() as u32))
+        say!("{times} × slower", "{times} × mais lento")
     } else if rate > 1.0 {
-        format!("{rate} × faster")
+        say!("{rate} × faster", "{rate} × mais rápido")
     } else {
-        "in its own time".into()
+        word!("in its own time", "em seu próprio tempo").into()
     }
 }
 
 /// The same where there is little room: `1/1 000 ×`, `2 ×`.
 pub fn short_rate_words(rate: f64) -> String {
     if rate.is_infinite() {
-        "fastest".into()
+        word!("fastest", "máximo").into()
     } else if rate < 1.0 {
-        format!("1/{} ×", super::words::count((1.0 / rate).round() as u32))
+        format!("1/{} ×", count((1.0 / rate).round() as u32))
     } else {
         format!("{rate} ×")
     }

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::words::{counted, duration};
+use crate::language::{comma, decimal, say, word};
 use crate::picture::{Difference, Quality, Size};
 
 /// What a quality is, for a sentence.
@@ -14,17 +15,27 @@ pub fn quality_words(quality: &Quality) -> String {
 /// What a quality is, knob by knob.
 pub fn quality_lines(quality: &Quality) -> Vec<(&'static str, String)> {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
+    let error = comma(threshold.to_string());
     let taken = match (samples, threshold) {
-        (1, _) => "1 sample a pixel".into(),
-        (_, 0.0) => format!("{samples} × {samples} samples a pixel"),
-        _ => format!("up to {samples} × {samples} samples a pixel, until the error is {threshold}"),
+        (1, _) => word!("1 sample a pixel", "1 amostra por pixel").into(),
+        (_, 0.0) => say!("{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
+        _ => say!(
+            "up to {samples} × {samples} samples a pixel, until the error is {error}",
+            "até {samples} × {samples} amostras por pixel, até o erro ser {error}"
+        ),
     };
+    let part = error_words(100.0 * cutoff);
     let left_out = if cutoff > 0.0 {
-        format!("weak rays left out up to {} % of a pixel", error_words(100.0 * cutoff))
+        say!("weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
     } else {
-        "no weak rays left out".into()
+        word!("no weak rays left out", "nenhum raio fraco omitido").into()
     };
-    vec![("Samples", taken), ("Rays", format!("{} of rays", counted(max_depth, "level"))), ("Cutoff", left_out)]
+    let levels = counted(max_depth, word!("level", "nível"));
+    vec![
+        (word!("Samples", "Amostras"), taken),
+        (word!("Rays", "Raios"), say!("{levels} of rays", "{levels} de raios")),
+        (word!("Cutoff", "Corte"), left_out),
+    ]
 }
 
 /// What came of a quality: its time on one core in a picture of `size`, and how far from the reference a picture of
@@ -35,12 +46,29 @@ pub fn measured_lines(
     difference: &Difference,
     measured: Size,
 ) -> Vec<(&'static str, String)> {
-    let wrong = 100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels());
+    let wrong = decimal(100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
+    let (took, width, height) = (duration(time), size.width(), size.height());
+    let worst = decimal(difference.worst_ssim, 3);
     vec![
-        ("Time", format!("{} of one core for {} × {} pixels", duration(time), size.width(), size.height())),
-        ("Error", error_words(difference.rmse)),
-        ("Wrong", format!("{wrong:.1} % of the pixels, so much that it can be seen")),
-        ("Worst", format!("{:.3} is how similar the worst block is; 1 is the same (SSIM)", difference.worst_ssim)),
+        (
+            word!("Time", "Tempo"),
+            say!(
+                "{took} of one core for {width} × {height} pixels",
+                "{took} de um núcleo para {width} × {height} pixels"
+            ),
+        ),
+        (word!("Error", "Erro"), error_words(difference.rmse)),
+        (
+            word!("Wrong", "Errados"),
+            say!("{wrong} % of the pixels, so much that it can be seen", "{wrong} % dos pixels, tanto que se vê"),
+        ),
+        (
+            word!("Worst", "Pior"),
+            say!(
+                "{worst} is how similar the worst block is; 1 is the same (SSIM)",
+                "{worst} é a semelhança do pior bloco; 1 é igual (SSIM)"
+            ),
+        ),
     ]
 }
 
@@ -50,18 +78,19 @@ pub fn error_words(error: f64) -> String {
         return "0".into();
     }
     let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{error:.decimals$}")
+    decimal(error, decimals)
 }
 
 /// How long one takes beside another.
 pub fn times_words(time: f64, than: f64) -> String {
     let times = time / than;
+    let [faster, longer] = [1.0 / times, times].map(|times| decimal(times, 1));
     if !times.is_finite() || (0.95..1.05).contains(&times) {
-        "about as long as what is set now".into()
+        word!("about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
     } else if times < 1.0 {
-        format!("{:.1} times as fast as what is set now", 1.0 / times)
+        say!("{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
     } else {
-        format!("{times:.1} times as long as what is set now")
+        say!("{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
     }
 }
 

@@ -17,6 +17,7 @@ use super::state::RunState;
 use super::traffic;
 use super::words::{duration, fraction, percent};
 use crate::balance::{NodeId, Strategy};
+use crate::language::{say, word};
 use crate::time::Time;
 
 /// What is laid over the ring.
@@ -129,10 +130,10 @@ fn parent(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     }
     // A single message is soon handled: its number would only flicker.
     let (caption, hue) = match waiting {
-        _ if state.is_estimating => ("estimating".into(), Hue::Text),
-        0..2 if state.sharing == Sharing::Stealing => ("picture".into(), Hue::Quiet),
-        0..2 => ("parent".into(), Hue::Quiet),
-        many => (format!("{many} waiting"), Hue::Text),
+        _ if state.is_estimating => (word!("estimating", "estimando").into(), Hue::Text),
+        0..2 if state.sharing == Sharing::Stealing => (word!("picture", "imagem").into(), Hue::Quiet),
+        0..2 => (word!("parent", "pai").into(), Hue::Quiet),
+        many => (say!("{many} waiting", "{many} na fila"), Hue::Text),
     };
     let (done, large) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan));
     // Where the parent may be busy that is said wherever there is room; what it is called goes without saying.
@@ -162,8 +163,8 @@ fn result(plan: &Plan, outcome: &Outcome, marks: &mut Vec<Mark>) {
     text(plan, large * lines[0], duration(outcome.makespan), size, Hue::Text, marks);
     text(plan, large * lines[1], fraction(outcome.efficiency), size, Hue::Text, marks);
     if captions {
-        text(plan, -large * 0.45, "start to finish".into(), small, Hue::Quiet, marks);
-        text(plan, large * 1.5, "efficiency".into(), small, Hue::Quiet, marks);
+        text(plan, -large * 0.45, word!("start to finish", "início ao fim").into(), small, Hue::Quiet, marks);
+        text(plan, large * 1.5, word!("efficiency", "eficiência").into(), small, Hue::Quiet, marks);
     }
 }
 

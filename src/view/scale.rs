@@ -1,6 +1,7 @@
 //! Axes: which part of the numbers is seen, and which of them are written beside it.
 
 use super::words::count;
+use crate::language::comma;
 
 /// How numbers become lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -198,11 +199,11 @@ impl Steps {
         if value >= 1e9 || power < -4 {
             let digits = format!("{value:.*e}", (own - power).clamp(0, 9) as usize);
             let (digits, exponent) = digits.split_at(digits.find('e').unwrap_or(digits.len()));
-            return format!("{sign}{}{exponent}", trimmed(digits));
+            return comma(format!("{sign}{}{exponent}", trimmed(digits)));
         }
         let digits = format!("{value:.*}", (-power).max(0) as usize);
         let (whole, decimals) = trimmed(&digits).split_at(digits.find('.').unwrap_or(digits.len()));
-        format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX)))
+        comma(format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
     }
 }
 

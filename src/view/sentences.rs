@@ -10,79 +10,134 @@ use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, duration, fraction, names, node_name};
 use crate::balance::{NodeId, Strategy};
+use crate::language::{say, word};
 use crate::picture::Atom;
 
 /// The last event of a run that came to its end.
-pub(super) const COMPLETE: &str = "The picture is complete";
+pub(super) fn complete() -> &'static str {
+    word!("The picture is complete", "A imagem está completa")
+}
 
 /// In virtual time every atom's cost is known when the run begins.
-pub(super) const BEFORE_VIRTUAL_TIME: &str = "Virtual time begins once the picture is traced, and its costs are known";
+pub(super) fn before_virtual_time() -> &'static str {
+    word!(
+        "Virtual time begins once the picture is traced, and its costs are known",
+        "O tempo virtual começa depois de calculada a imagem e conhecidos os custos"
+    )
+}
 
 /// The parent hands out the bands, of which this is the first.
 pub(super) fn bands(state: &RunState, first: &Range<Atom>) -> String {
     match state.nodes().len() {
-        machines if state.sharing == Sharing::Stealing => {
-            format!("{machines} threads trace the picture: whoever is idle steals from another")
-        }
+        machines if state.sharing == Sharing::Stealing => say!(
+            "{machines} threads trace the picture: whoever is idle steals from another",
+            "{machines} threads calculam a imagem: quem fica ociosa rouba de outra"
+        ),
         machines if state.sharing.is_farm() => {
-            format!("The parent gives each of {machines} machines a first part: {}", atoms_words(first.len() as u32))
+            let part = atoms_words(first.len() as u32);
+            say!(
+                "The parent gives each of {machines} machines a first part: {part}",
+                "O pai dá a cada uma das {machines} máquinas uma primeira parte: {part}"
+            )
         }
-        1 => "The parent gives the only machine the whole picture".into(),
-        _ if first.len() as u32 == state.atoms() => "The parent gives one machine the whole picture".into(),
-        machines if state.sharing == Sharing::By(Strategy::StaticEstimate) => {
-            format!("The parent gives each of {machines} machines a band that should cost the same")
+        1 => word!("The parent gives the only machine the whole picture", "O pai dá à única máquina a imagem inteira")
+            .into(),
+        _ if first.len() as u32 == state.atoms() => {
+            word!("The parent gives one machine the whole picture", "O pai dá a imagem inteira a uma só máquina").into()
         }
-        machines => format!("The parent gives each of {machines} machines an equal band of the picture"),
+        machines if state.sharing == Sharing::By(Strategy::StaticEstimate) => say!(
+            "The parent gives each of {machines} machines a band that should cost the same",
+            "O pai dá a cada uma das {machines} máquinas uma faixa que deve custar o mesmo"
+        ),
+        machines => say!(
+            "The parent gives each of {machines} machines an equal band of the picture",
+            "O pai dá a cada uma das {machines} máquinas uma faixa igual da imagem"
+        ),
     }
 }
 
 /// The parent learns what the picture costs before it hands out bands.
-pub(super) const ESTIMATING: &str = "The parent samples the picture to guess what each part costs";
+pub(super) fn estimating() -> &'static str {
+    word!(
+        "The parent samples the picture to guess what each part costs",
+        "O pai amostra a imagem para estimar quanto custa cada parte"
+    )
+}
 
 /// The parent of a farm has answered a node that asked.
 pub(super) fn part(to: NodeId, atoms: u32) -> String {
-    let name = node_name(to);
+    let (name, gets) = (node_name(to), atoms_words(atoms));
     match atoms {
-        0 => format!("{name} asks the parent for more, but all is given away: it is no longer needed"),
-        _ => format!("{name} asks the parent for more and gets {}", atoms_words(atoms)),
+        0 => say!(
+            "{name} asks the parent for more, but all is given away: it is no longer needed",
+            "{name} pede mais ao pai, mas tudo já foi dado: ela não é mais necessária"
+        ),
+        _ => say!("{name} asks the parent for more and gets {gets}", "{name} pede mais ao pai e recebe {gets}"),
     }
 }
 
 /// So many messages wait at the parent.
 pub(super) fn jam(state: &RunState, most: usize) -> String {
-    format!("{most} messages wait at the parent, which needs {} for each", duration(state.handling))
+    let each = duration(state.handling);
+    say!(
+        "{most} messages wait at the parent, which needs {each} for each",
+        "{most} mensagens esperam pelo pai, que leva {each} em cada uma"
+    )
 }
 
 /// Machines are done with their bands, and not all are.
 pub(super) fn done(nodes: &[NodeId]) -> String {
+    let who = names(nodes);
     match nodes {
-        [node] => format!("{} is done and waits: nobody shares with it", node_name(*node)),
-        _ => format!("{} are done and wait: nobody shares with them", names(nodes)),
+        [_] => {
+            say!("{who} is done and waits: nobody shares with it", "{who} terminou e espera: ninguém divide com ela")
+        }
+        _ => say!(
+            "{who} are done and wait: nobody shares with them",
+            "{who} terminaram e esperam: ninguém divide com elas"
+        ),
     }
 }
 
 /// Machines are no longer needed.
 pub(super) fn retired(state: &RunState, nodes: &[NodeId]) -> String {
+    let who = names(nodes);
     match (nodes, state.sharing.is_farm()) {
-        ([node], true) => format!("{} asked for more, but all is given away", node_name(*node)),
-        (_, true) => format!("{} asked for more, but all is given away", names(nodes)),
-        ([node], false) => format!("{}'s offer came back, nobody needs its help: it retires", node_name(*node)),
-        (_, false) => format!("{} retire: their offers came back, nobody needs their help", names(nodes)),
+        ([_], true) => say!("{who} asked for more, but all is given away", "{who} pediu mais, mas tudo já foi dado"),
+        (_, true) => say!("{who} asked for more, but all is given away", "{who} pediram mais, mas tudo já foi dado"),
+        ([_], false) => say!(
+            "{who}'s offer came back, nobody needs its help: it retires",
+            "A oferta de {who} voltou, ninguém quer ajuda: ela não é mais necessária"
+        ),
+        (_, false) => say!(
+            "{who} retire: their offers came back, nobody needs their help",
+            "{who} não são mais necessárias: suas ofertas voltaram, ninguém quer ajuda"
+        ),
     }
 }
 
 /// A thread has stolen atoms.
 pub(super) fn theft(thief: NodeId, from: NodeId, atoms: u32) -> String {
-    format!("{} steals {} from {}", node_name(thief), atoms_words(atoms), node_name(from))
+    let (thief, atoms, from) = (node_name(thief), atoms_words(atoms), node_name(from));
+    say!("{thief} steals {atoms} from {from}", "{thief} rouba {atoms} de {from}")
 }
 
 /// A machine that has nothing left to trace offers help; `whole` if it has traced its whole band itself.
 pub(super) fn offer(who: NodeId, whole: bool, done: u32) -> String {
     let name = node_name(who);
     match (whole, done) {
-        (_, 0) => format!("{name} has nothing to trace and offers help round the ring"),
-        (true, _) => format!("{name} has finished its band and offers help round the ring"),
-        (false, _) => format!("{name} has no atoms left and offers help round the ring"),
+        (_, 0) => say!(
+            "{name} has nothing to trace and offers help round the ring",
+            "{name} não tem nada a calcular e oferece ajuda pelo anel"
+        ),
+        (true, _) => say!(
+            "{name} has finished its band and offers help round the ring",
+            "{name} terminou sua faixa e oferece ajuda pelo anel"
+        ),
+        (false, _) => say!(
+            "{name} has no atoms left and offers help round the ring",
+            "{name} não tem mais átomos e oferece ajuda pelo anel"
+        ),
     }
 }
 
@@ -93,13 +148,19 @@ pub(super) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -
     }
     let (giver, offerer) = (node_name(from), node_name(to));
     let busy = match state.nodes().get(usize::from(from)) {
-        Some(node) if node.paused => "is paused".into(),
-        Some(node) if node.speed == 0.0 => "stands still".into(),
-        Some(node) if is_slow(node) => format!("is slow ({})", fraction(node.speed)),
-        _ => "is still busy".into(),
+        Some(node) if node.paused => word!("is paused", "está em pausa").into(),
+        Some(node) if node.speed == 0.0 => word!("stands still", "está parada").into(),
+        Some(node) if is_slow(node) => {
+            let speed = fraction(node.speed);
+            say!("is slow ({speed})", "é lenta ({speed})")
+        }
+        _ => word!("is still busy", "ainda está ocupada").into(),
     };
-    let atoms = if atoms == 1 { "one atom".into() } else { atoms_words(atoms) };
-    format!("{offerer} has finished and takes over {atoms} from {giver}, which {busy}")
+    let atoms = if atoms == 1 { word!("one atom", "um átomo").into() } else { atoms_words(atoms) };
+    say!(
+        "{offerer} has finished and takes over {atoms} from {giver}, which {busy}",
+        "{offerer} terminou e assume {atoms} de {giver}, que {busy}"
+    )
 }
 
 /// So slow that the others notice.
@@ -110,43 +171,63 @@ pub(super) fn is_slow(node: &NodeState) -> bool {
 /// What a new speed means; `before` is the one before somebody began to change it.
 pub(super) fn speed(state: &RunState, node: NodeId, before: f64, speed: f64) -> String {
     let name = node_name(node);
+    let new = fraction(speed);
     if state.nodes().get(usize::from(node)).is_some_and(|node| node.paused) {
-        return format!("Machine {name} is paused; it will go on at {}", fraction(speed));
+        return say!(
+            "Machine {name} is paused; it will go on at {new}",
+            "A máquina {name} está em pausa; vai continuar a {new}"
+        );
     }
-    let runs = if speed == 0.0 { "is stopped".into() } else { format!("now runs at {}", fraction(speed)) };
-    let runs = format!("Machine {name} {runs}");
+    let runs = if speed == 0.0 {
+        say!("Machine {name} is stopped", "A máquina {name} está parada")
+    } else {
+        say!("Machine {name} now runs at {new}", "A máquina {name} agora trabalha a {new}")
+    };
     let than_before = speed.total_cmp(&before);
     let then = match than_before {
         Ordering::Equal => None,
         _ if state.sharing.is_fixed() => {
             let has_atoms = state.nodes().get(usize::from(node)).is_some_and(|machine| machine.left() > 0);
-            let then = if than_before.is_lt() { "nobody will make up for it" } else { "its band is done sooner" };
+            let then = if than_before.is_lt() {
+                word!("nobody will make up for it", "ninguém vai compensar")
+            } else {
+                word!("its band is done sooner", "sua faixa acaba antes")
+            };
             has_atoms.then_some(then)
         }
-        _ if state.sharing.is_farm() && speed > 0.0 => {
-            Some(if than_before.is_lt() { "it will ask less often" } else { "it will ask more often" })
+        _ if state.sharing.is_farm() && speed > 0.0 => Some(if than_before.is_lt() {
+            word!("it will ask less often", "vai pedir menos vezes")
+        } else {
+            word!("it will ask more often", "vai pedir mais vezes")
+        }),
+        _ if state.sharing.is_farm() => Some(word!("what it has stays with it", "o que tem fica com ela")),
+        Ordering::Less => {
+            others_run(state, node).then_some(word!("the others will make up for it", "as outras vão compensar"))
         }
-        _ if state.sharing.is_farm() => Some("what it has stays with it"),
-        Ordering::Less => others_run(state, node).then_some("the others will make up for it"),
-        Ordering::Greater => Some("it can take more work"),
+        Ordering::Greater => Some(word!("it can take more work", "pode assumir mais trabalho")),
     };
     then.map_or_else(|| runs.clone(), |then| format!("{runs}: {then}"))
 }
 
 /// A machine was paused.
 pub(super) fn paused(state: &RunState, node: NodeId) -> String {
-    let paused = format!("Machine {} is paused", node_name(node));
+    let name = node_name(node);
+    let paused = say!("Machine {name} is paused", "A máquina {name} está em pausa");
     let Some(machine) = state.nodes().get(usize::from(node)) else { return paused };
+    let atoms = atoms_words(machine.left());
     match machine.left() {
         0 if !state.sharing.is_ring() && state.sharing != Sharing::Stealing => paused,
-        left if state.sharing.is_farm() => format!("{paused} and keeps the {} of its part", atoms_words(left)),
-        left if state.sharing.is_fixed() => {
-            format!("{paused}: its {} wait, nobody will make up for it", atoms_words(left))
+        _ if state.sharing.is_farm() => {
+            say!("{paused} and keeps the {atoms} of its part", "{paused} e fica com {atoms} de sua parte")
         }
-        1 => format!("{paused} and keeps the atom in its pipe"),
-        2..=PIPE => format!("{paused} and keeps the {PIPE} atoms in its pipe"),
+        _ if state.sharing.is_fixed() => say!(
+            "{paused}: its {atoms} wait, nobody will make up for it",
+            "{paused} com {atoms}: ninguém vai compensar"
+        ),
+        1 => say!("{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe"),
+        2..=PIPE => say!("{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe"),
         left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => {
-            format!("{paused}: the others will make up for it")
+            say!("{paused}: the others will make up for it", "{paused}: as outras vão compensar")
         }
         _ => paused,
     }
@@ -156,18 +237,22 @@ pub(super) fn paused(state: &RunState, node: NodeId) -> String {
 pub(super) fn resumed(state: &RunState, node: NodeId) -> String {
     let name = node_name(node);
     match state.nodes().get(usize::from(node)) {
-        Some(machine) if machine.speed == 0.0 => format!("Machine {name} is no longer paused, but its speed is 0 %"),
-        _ => format!("Machine {name} goes on"),
+        Some(machine) if machine.speed == 0.0 => say!(
+            "Machine {name} is no longer paused, but its speed is 0 %",
+            "A máquina {name} saiu da pausa, mas sua velocidade é 0 %"
+        ),
+        _ => say!("Machine {name} goes on", "A máquina {name} continua"),
     }
 }
 
 /// All links have a new latency.
 pub(super) fn latency(state: &RunState, latency: Duration) -> String {
-    let what = if state.sharing.is_ring() { "A hop" } else { "A message" };
+    let what = if state.sharing.is_ring() { word!("A hop", "Um salto") } else { word!("A message", "Uma mensagem") };
+    let takes = duration(latency);
     if latency.is_zero() {
-        format!("{what} takes no time now")
+        say!("{what} takes no time now", "{what} agora não leva tempo")
     } else {
-        format!("{what} takes {} now", duration(latency))
+        say!("{what} takes {takes} now", "{what} agora leva {takes}")
     }
 }
 

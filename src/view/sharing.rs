@@ -1,6 +1,7 @@
 //! How a run's atoms are shared, in plain words.
 
 use crate::balance::Strategy;
+use crate::language::word;
 use crate::runlog::{Driver, Header};
 
 /// How a run's atoms are shared: by a strategy of ours, or by a library of today.
@@ -33,38 +34,50 @@ impl Sharing {
     pub fn name(self) -> &'static str {
         match self {
             Self::By(Strategy::Serial) => "Serial",
-            Self::By(Strategy::Static) => "Equal bands",
-            Self::By(Strategy::StaticEstimate) => "Estimated bands",
-            Self::By(Strategy::Farm) => "Farm",
-            Self::By(Strategy::FarmBySpeed) => "Farm by speed",
-            Self::By(Strategy::Ring) => "Ring",
-            Self::Stealing => "Work stealing (rayon)",
+            Self::By(Strategy::Static) => word!("Equal bands", "Estática"),
+            Self::By(Strategy::StaticEstimate) => word!("Estimated bands", "Estática estimada"),
+            Self::By(Strategy::Farm) => word!("Farm", "Dinâmica"),
+            Self::By(Strategy::FarmBySpeed) => word!("Farm by speed", "Dinâmica por velocidade"),
+            Self::By(Strategy::Ring) => word!("Ring", "Anel"),
+            Self::Stealing => word!("Work stealing (rayon)", "Roubo de trabalho (rayon)"),
         }
     }
 
     /// What happens, in one short line.
     pub fn hint(self) -> &'static str {
         match self {
-            Self::By(Strategy::Serial) => "The first machine does everything",
-            Self::By(Strategy::Static) => "A band each; all wait for the slowest",
-            Self::By(Strategy::StaticEstimate) => "Bands by what they seem to cost",
-            Self::By(Strategy::Farm) => "Whoever is done asks the parent",
-            Self::By(Strategy::FarmBySpeed) => "The same; the slow get smaller parts",
-            Self::By(Strategy::Ring) => "Whoever is done offers help round the ring",
-            Self::Stealing => "Threads take atoms from each other",
+            Self::By(Strategy::Serial) => word!("The first machine does everything", "A primeira máquina faz tudo"),
+            Self::By(Strategy::Static) => {
+                word!("A band each; all wait for the slowest", "Uma faixa cada; todas esperam a mais lenta")
+            }
+            Self::By(Strategy::StaticEstimate) => {
+                word!("Bands by what they seem to cost", "Faixas pelo que parecem custar")
+            }
+            Self::By(Strategy::Farm) => word!("Whoever is done asks the parent", "Quem termina pede mais ao pai"),
+            Self::By(Strategy::FarmBySpeed) => {
+                word!("The same; the slow get smaller parts", "Idem; as lentas recebem partes menores")
+            }
+            Self::By(Strategy::Ring) => {
+                word!("Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
+            }
+            Self::Stealing => word!("Threads take atoms from each other", "As threads tomam átomos umas das outras"),
         }
     }
 
     /// What those are called that do the work, beside what they are organised in.
     pub fn machines(self, machines: usize) -> String {
         let are = match self {
-            _ if machines == 1 => return "1 machine".into(),
-            Self::By(Strategy::Serial) => "machines, one of which works",
-            Self::By(Strategy::Static) => "machines with equal bands",
-            Self::By(Strategy::StaticEstimate) => "machines with estimated bands",
-            Self::By(Strategy::Farm | Strategy::FarmBySpeed) => "machines in a farm",
-            Self::By(Strategy::Ring) => "machines in a ring",
-            Self::Stealing => "threads of rayon",
+            _ if machines == 1 => return word!("1 machine", "1 máquina").into(),
+            Self::By(Strategy::Serial) => word!("machines, one of which works", "máquinas, das quais uma trabalha"),
+            Self::By(Strategy::Static) => word!("machines with equal bands", "máquinas com faixas iguais"),
+            Self::By(Strategy::StaticEstimate) => {
+                word!("machines with estimated bands", "máquinas com faixas estimadas")
+            }
+            Self::By(Strategy::Farm | Strategy::FarmBySpeed) => {
+                word!("machines in a farm", "máquinas que pedem ao pai")
+            }
+            Self::By(Strategy::Ring) => word!("machines in a ring", "máquinas em anel"),
+            Self::Stealing => word!("threads of rayon", "threads do rayon"),
         };
         format!("{machines} {are}")
     }

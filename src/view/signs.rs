@@ -48,7 +48,7 @@ impl Signs {
             What::Resumed { node } => (SignKind::Pause(*node), sentences::resumed(state, *node)),
             What::LatencySet { latency } => (SignKind::Latency, sentences::latency(state, *latency)),
             What::Retired { node } => (SignKind::Retired(*node), sentences::retired(state, &[*node])),
-            What::Finished => (SignKind::Complete, sentences::COMPLETE.into()),
+            What::Finished => (SignKind::Complete, sentences::complete().into()),
             _ => return,
         };
         let sign = Sign { at: record.at, kind, words };

@@ -3,8 +3,9 @@
 use super::node::NodeState;
 use super::state::RunState;
 use super::without_ring::without_ring;
-use super::words::{atoms_words, fraction, names, node_name};
+use super::words::{atoms_words, fraction, left_words, names, node_name};
 use crate::balance::NodeId;
+use crate::language::{say, word};
 
 /// What a machine's pipe holds at most: more than that lies in its queue. What is in a pipe is never given away.
 pub(super) const PIPE: u32 = 2;
@@ -20,13 +21,47 @@ pub(super) fn standing(state: &RunState) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     match *busy {
-        [] if state.has_atoms_under_way() => "Atoms are on their way".into(),
-        [] if still.is_empty() => "Waiting for the parent".into(),
+        [] if state.has_atoms_under_way() => under_way(),
+        [] if still.is_empty() => waiting_for_the_parent(),
         [] if still.len() == state.nodes().len() => all_still(&still),
         [] => stuck(state, &still),
         [last] if still.is_empty() => alone(state, last),
-        [(node, _)] => format!("Only {} computes; {}", node_name(node), waiting(&still)),
+        [(node, _)] => {
+            let (name, waiting) = (node_name(node), waiting(&still));
+            say!("Only {name} computes; {waiting}", "Só {name} calcula; {waiting}")
+        }
         _ => several(state, &busy, &still),
+    }
+}
+
+/// Nobody has atoms, but some are on their way.
+pub(super) fn under_way() -> String {
+    word!("Atoms are on their way", "Há átomos a caminho").into()
+}
+
+/// Nobody has atoms, and none are on their way.
+pub(super) fn waiting_for_the_parent() -> String {
+    word!("Waiting for the parent", "Esperando pelo pai").into()
+}
+
+/// There is but one machine.
+pub(super) fn only_one(machine: &NodeState) -> String {
+    let left = left_words(machine.left());
+    say!("The only machine computes: {left}", "A única máquina calcula: {left}")
+}
+
+/// Of several machines one still computes.
+pub(super) fn only((node, last): Machine<'_>) -> String {
+    let (name, left) = (node_name(node), left_words(last.left()));
+    say!("Only {name} still computes: {left}", "Só {name} ainda calcula: {left}")
+}
+
+/// So many of all machines or threads compute.
+pub(super) fn computing(some: usize, all: usize, what: &str) -> String {
+    match some {
+        _ if some == all => say!("All {all} {what} compute", "Todas as {all} {what} calculam"),
+        1 => say!("1 of {all} {what} compute", "1 de {all} {what} calcula"),
+        _ => say!("{some} of {all} {what} compute", "{some} de {all} {what} calculam"),
     }
 }
 
@@ -34,30 +69,35 @@ pub(super) fn standing(state: &RunState) -> String {
 fn alone(state: &RunState, (node, last): Machine<'_>) -> String {
     let (name, left) = (node_name(node), atoms_words(last.left()));
     let retired = retired(state);
+    let who = names(&retired);
     match last.left() {
-        _ if state.nodes().len() == 1 => format!("The only machine computes: {left} left"),
-        1 => format!("Only {name} still computes its last atom: what is in a pipe is not given away"),
-        2..=PIPE => {
-            format!(
-                "Only {name} still computes: its last {left} are in its pipe, and what is in a pipe is not given away"
-            )
-        }
-        _ if retired.len() == state.nodes().len() - 1 => format!(
-            "{name} still has {left}, but {} {} retired: an offer that came round unused is not made again",
-            names(&retired),
-            if retired.len() == 1 { "has" } else { "have" },
+        _ if state.nodes().len() == 1 => only_one(last),
+        1 => say!(
+            "Only {name} still computes its last atom: what is in a pipe is not given away",
+            "Só {name} ainda calcula seu último átomo: o que está num pipe não se cede"
         ),
-        _ => format!("Only {name} still computes: {left} left"),
+        2..=PIPE => say!(
+            "Only {name} still computes: its last {left} are in its pipe, and what is in a pipe is not given away",
+            "Só {name} ainda calcula: seus últimos {left} estão no pipe, e o que está num pipe não se cede"
+        ),
+        _ if retired.len() == state.nodes().len() - 1 => match &*retired {
+            [_] => say!(
+                "{name} still has {left}, but {who} has retired: an offer that came round unused is not made again",
+                "{name} ainda tem {left}, mas {who} foi dispensada: oferta que dá a volta sem uso não se repete"
+            ),
+            _ => say!(
+                "{name} still has {left}, but {who} have retired: an offer that came round unused is not made again",
+                "{name} ainda tem {left}, mas {who} foram dispensadas: oferta que dá a volta sem uso não se repete"
+            ),
+        },
+        _ => only((node, last)),
     }
 }
 
 /// Several machines compute.
 fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>]) -> String {
     let machines = state.nodes().len();
-    let compute = match busy.len() {
-        all if all == machines => format!("All {machines} machines compute"),
-        some => format!("{some} of {machines} machines compute"),
-    };
+    let compute = computing(busy.len(), machines, word!("machines", "máquinas"));
     // Of equals the first is named.
     let Some((node, last)) = busy.iter().rev().max_by_key(|(_, node)| node.left()) else { return compute };
     let (name, left) = (node_name(*node), atoms_words(last.left()));
@@ -65,15 +105,33 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>]) -> Str
     if !still.is_empty() {
         format!("{compute}; {}", waiting(still))
     } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE {
-        let (who, help) = (names(&retired), if retired.len() == 1 { "has retired" } else { "have retired" });
-        format!("{compute}; {name} has most left, {left}, but {who} {help} and will not help")
+        let who = names(&retired);
+        match &*retired {
+            [_] => say!(
+                "{compute}; {name} has most left, {left}, but {who} has retired and will not help",
+                "{compute}; {name} tem mais, {left}, mas {who} foi dispensada e não vai ajudar"
+            ),
+            _ => say!(
+                "{compute}; {name} has most left, {left}, but {who} have retired and will not help",
+                "{compute}; {name} tem mais, {left}, mas {who} foram dispensadas e não vão ajudar"
+            ),
+        }
     } else if last.speed < 0.5 {
-        format!("{compute}; {name} is slow ({}) and has most left: {left}", fraction(last.speed))
+        let speed = fraction(last.speed);
+        say!(
+            "{compute}; {name} is slow ({speed}) and has most left: {left}",
+            "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}"
+        )
     } else if busy.len() == machines && busy.iter().all(|(_, node)| node.got.count == 0) {
-        format!("{compute} their own atoms")
+        say!("{compute} their own atoms", "{compute} seus próprios átomos")
     } else {
-        format!("{compute}; {name} has most left")
+        has_most(&compute, name)
     }
+}
+
+/// Of those that compute one has most left.
+pub(super) fn has_most(compute: &str, name: u32) -> String {
+    say!("{compute}; {name} has most left", "{compute}; {name} é a que mais tem")
 }
 
 /// Machines stand still while others compute.
@@ -81,20 +139,34 @@ fn waiting(still: &[Machine<'_>]) -> String {
     let in_queues = in_queues(still);
     match still {
         [(node, machine)] => {
-            let (name, why) = (node_name(*node), why(machine));
+            let (name, why, left) = (node_name(*node), why(machine), atoms_words(machine.left()));
             match machine.left() {
-                1 => format!("{name} {why} and keeps the atom in its pipe"),
-                left if in_queues == 0 => format!("{name} {why} and keeps the {} in its pipe", atoms_words(left)),
-                left => format!("{name} {why}: its {} go to whoever offers help", atoms_words(left)),
+                1 => say!("{name} {why} and keeps the atom in its pipe", "{name} {why} e fica com o átomo em seu pipe"),
+                _ if in_queues == 0 => {
+                    say!(
+                        "{name} {why} and keeps the {left} in its pipe",
+                        "{name} {why} e fica com os {left} em seu pipe"
+                    )
+                }
+                _ => say!(
+                    "{name} {why}: its {left} go to whoever offers help",
+                    "{name} {why}: seus {left} vão para quem oferecer ajuda"
+                ),
             }
         }
         _ => {
             let nodes: Vec<_> = still.iter().map(|(node, _)| *node).collect();
-            let who = names(&nodes);
+            let (who, left) = (names(&nodes), atoms_words(all_left(still)));
             if in_queues == 0 {
-                format!("{who} stand still and keep what is in their pipes")
+                say!(
+                    "{who} stand still and keep what is in their pipes",
+                    "{who} estão paradas e ficam com o que está em seus pipes"
+                )
             } else {
-                format!("{who} stand still: their {} go to whoever offers help", atoms_words(all_left(still)))
+                say!(
+                    "{who} stand still: their {left} go to whoever offers help",
+                    "{who} estão paradas: seus {left} vão para quem oferecer ajuda"
+                )
             }
         }
     }
@@ -109,47 +181,76 @@ fn stuck(state: &RunState, still: &[Machine<'_>]) -> String {
     if let [(node, machine)] = still {
         let (name, why) = (node_name(*node), why(machine));
         return match left {
-            1 => format!("Machine {name} {why}; its last atom is in its pipe and stays there: {remedy}"),
-            _ if in_queues == 0 => {
-                format!("Machine {name} {why}; its last {atoms} are in its pipe and stay there: {remedy}")
-            }
-            _ if nobody_asks => {
-                format!("Machine {name} {why} with {atoms}, and nobody asks for them any more: {remedy}")
-            }
-            _ => format!("Machine {name} {why} with {atoms}: the others offer to take them"),
+            1 => say!(
+                "Machine {name} {why}; its last atom is in its pipe and stays there: {remedy}",
+                "A máquina {name} {why}; seu último átomo está no pipe e fica lá: {remedy}"
+            ),
+            _ if in_queues == 0 => say!(
+                "Machine {name} {why}; its last {atoms} are in its pipe and stay there: {remedy}",
+                "A máquina {name} {why}; seus últimos {atoms} estão no pipe e ficam lá: {remedy}"
+            ),
+            _ if nobody_asks => say!(
+                "Machine {name} {why} with {atoms}, and nobody asks for them any more: {remedy}",
+                "A máquina {name} {why} com {atoms}, e ninguém mais os pede: {remedy}"
+            ),
+            _ => say!(
+                "Machine {name} {why} with {atoms}: the others offer to take them",
+                "A máquina {name} {why} com {atoms}: as outras se oferecem para assumi-los"
+            ),
         };
     }
     let machines = still.len();
     if in_queues == 0 || nobody_asks {
-        format!("{machines} machines stand still with {atoms}, and nobody can take them: {remedy}")
+        say!(
+            "{machines} machines stand still with {atoms}, and nobody can take them: {remedy}",
+            "{machines} máquinas estão paradas com {atoms}, e ninguém pode assumi-los: {remedy}"
+        )
     } else {
-        format!("{machines} machines stand still with {atoms}: the others offer to take them")
+        say!(
+            "{machines} machines stand still with {atoms}: the others offer to take them",
+            "{machines} máquinas estão paradas com {atoms}: as outras se oferecem para assumi-los"
+        )
     }
 }
 
 /// Every machine stands still, and has atoms.
 pub(super) fn all_still(still: &[Machine<'_>]) -> String {
     match still.iter().filter(|(_, node)| node.paused).count() {
-        _ if still.len() == 1 => format!("The only machine {}: {}", why(still[0].1), remedy(still)),
-        0 => "All machines stand still at 0 %: raise a speed and the work goes on".into(),
-        paused if paused == still.len() => "All machines are paused: let one go on, and so does the work".into(),
-        _ => "All machines stand still: raise a speed or let one go on, and so does the work".into(),
+        _ if still.len() == 1 => {
+            let (why, remedy) = (why(still[0].1), remedy(still));
+            say!("The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
+        }
+        0 => word!(
+            "All machines stand still at 0 %: raise a speed and the work goes on",
+            "Todas as máquinas estão paradas a 0 %: basta aumentar uma velocidade"
+        )
+        .into(),
+        paused if paused == still.len() => word!(
+            "All machines are paused: let one go on, and so does the work",
+            "Todas as máquinas estão em pausa: basta uma continuar"
+        )
+        .into(),
+        _ => word!(
+            "All machines stand still: raise a speed or let one go on, and so does the work",
+            "Todas as máquinas estão paradas: basta aumentar uma velocidade ou uma continuar"
+        )
+        .into(),
     }
 }
 
 /// Why a machine stands still.
 pub(super) fn why(node: &NodeState) -> &'static str {
-    if node.paused { "is paused" } else { "stands still at 0 %" }
+    if node.paused { word!("is paused", "está em pausa") } else { word!("stands still at 0 %", "está parada a 0 %") }
 }
 
 /// What makes machines that stand still go on.
 pub(super) fn remedy(still: &[Machine<'_>]) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
-        (1, 0) => "raise its speed",
-        (1, _) => "let it go on",
-        (_, 0) => "raise their speed",
-        (all, paused) if all == paused => "let them go on",
-        _ => "let them go on, or raise their speed",
+        (1, 0) => word!("raise its speed", "basta aumentar sua velocidade"),
+        (1, _) => word!("let it go on", "basta tirá-la da pausa"),
+        (_, 0) => word!("raise their speed", "basta aumentar sua velocidade"),
+        (all, paused) if all == paused => word!("let them go on", "basta tirá-las da pausa"),
+        _ => word!("let them go on, or raise their speed", "basta tirá-las da pausa, ou aumentar sua velocidade"),
     }
 }
 

@@ -1,8 +1,9 @@
 //! Steps through a run's records, and what is worth jumping to.
 
 use super::flight::atoms_in;
-use super::words::{atoms_words, count, counted, duration, node_name};
+use super::words::{atoms_words, count, duration, node_name};
 use crate::balance::{Message, NodeId, Party};
+use crate::language::{say, word};
 use crate::picture::Atom;
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
@@ -26,9 +27,9 @@ impl Step {
     /// What one steps by, in a word or two.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Event => "event",
-            Self::Atom => "atom",
-            Self::Lap => "lap",
+            Self::Event => word!("event", "evento"),
+            Self::Atom => word!("atom", "átomo"),
+            Self::Lap => word!("lap", "volta"),
         }
     }
 
@@ -91,31 +92,45 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
         let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
         match &record.what {
             What::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
-                let words = || format!("The first offer: {} has finished", node_name(*who));
+                let name = node_name(*who);
+                let words = || say!("The first offer: {name} has finished", "A primeira oferta: {name} terminou");
                 offer.get_or_insert_with(|| mark(words(), About::Message(*id)));
             }
             What::Sent {
                 id, from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
             } => {
                 let atoms = atoms_in(ranges);
-                let words = || format!("{} from {} to {}", atoms_words(atoms), node_name(*from), node_name(*to));
-                transfer.get_or_insert_with(|| mark(format!("The first transfer: {}", words()), About::Message(*id)));
+                let words = || {
+                    let (atoms, from, to) = (atoms_words(atoms), node_name(*from), node_name(*to));
+                    say!("{atoms} from {from} to {to}", "{atoms} de {from} para {to}")
+                };
+                transfer.get_or_insert_with(|| {
+                    let words = words();
+                    mark(say!("The first transfer: {words}", "A primeira transferência: {words}"), About::Message(*id))
+                });
                 if biggest.as_ref().is_none_or(|(most, _)| atoms > *most) {
-                    biggest = Some((atoms, mark(format!("The biggest transfer: {}", words()), About::Message(*id))));
+                    let words = words();
+                    let words = say!("The biggest transfer: {words}", "A maior transferência: {words}");
+                    biggest = Some((atoms, mark(words, About::Message(*id))));
                 }
             }
             What::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
-                let by = node_name(*node);
+                let (by, took) = (node_name(*node), duration(*cost));
                 let name = count(atom.saturating_add(1));
-                let words = format!("The costliest atom: {name}, {} of {by}'s time", duration(*cost));
+                let words = say!(
+                    "The costliest atom: {name}, {took} of {by}'s time",
+                    "O átomo mais caro: {name}, {took} do tempo de {by}"
+                );
                 dearest = Some((*cost, mark(words, About::Atom(*atom))));
             }
             What::Retired { node } => {
-                let words = || format!("The first to retire: {}", node_name(*node));
+                let name = node_name(*node);
+                let words = || say!("The first to retire: {name}", "A primeira dispensada: {name}");
                 retired.get_or_insert_with(|| mark(words(), About::Node(*node)));
             }
             What::SpeedSet { node, .. } | What::Paused { node } => {
-                let words = || format!("The first hand on a machine: {}", node_name(*node));
+                let name = node_name(*node);
+                let words = || say!("The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
                 hand.get_or_insert_with(|| mark(words(), About::Node(*node)));
             }
             _ => {}
@@ -149,7 +164,8 @@ fn slowest(log: &RunLog) -> Option<Landmark> {
     let rate = |node: &usize| f64::from(atoms[*node]) / busy[*node];
     let slowest = (0..nodes).filter(|&node| busy[node] > 0.0).min_by(|one, other| rate(one).total_cmp(&rate(other)))?;
     let node = slowest as NodeId;
-    let words = format!("The slowest machine: {}, {}", node_name(node), counted(atoms[slowest], "atom"));
+    let (name, traced) = (node_name(node), atoms_words(atoms[slowest]));
+    let words = say!("The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
     let (records, at) = (log.records().len(), log.records().last()?.at);
     (nodes > 1).then_some(Landmark { words, records, at, about: About::Node(node) })
 }

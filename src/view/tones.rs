@@ -3,6 +3,7 @@
 use super::false_colour::ramp;
 use super::place::Place;
 use super::state::RunState;
+use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Frame, srgb8};
 
@@ -25,9 +26,9 @@ impl Layer {
     /// What it shows, in a few words.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Owners => "Who traced it",
-            Self::Costs => "What it cost",
-            Self::Arrival => "When it came",
+            Self::Owners => word!("Who traced it", "Quem calculou"),
+            Self::Costs => word!("What it cost", "Quanto custou"),
+            Self::Arrival => word!("When it came", "Quando chegou"),
         }
     }
 
@@ -41,8 +42,8 @@ impl Layer {
     pub fn ends(self) -> Option<[&'static str; 2]> {
         match self {
             Self::Owners => None,
-            Self::Costs => Some(["cheap", "dear"]),
-            Self::Arrival => Some(["first", "last"]),
+            Self::Costs => Some(word!(["cheap", "dear"], ["barato", "caro"])),
+            Self::Arrival => Some(word!(["first", "last"], ["antes", "depois"])),
         }
     }
 }

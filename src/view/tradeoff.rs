@@ -3,6 +3,7 @@
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
 use super::scale::{Axis, Ruler, Scale};
 use super::sheet::{DASHES, Sheet, Words};
+use crate::language::word;
 
 /// What is known of several qualities so far.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,13 +47,17 @@ impl Tradeoff {
         let axis = |label: &str| Axis { label: label.into(), scale: Scale::Log10, range: None };
         let shown: Vec<(f64, f64)> =
             self.points.iter().map(|(time, error)| (time.max(LEAST_TIME), error.max(LEAST_ERROR))).collect();
-        let legend = [("a quality", Hue::Quiet), ("the best for its time", Hue::Text), ("chosen", Hue::Accent)];
+        let legend = [
+            (word!("a quality", "uma qualidade"), Hue::Quiet),
+            (word!("the best for its time", "a melhor em seu tempo"), Hue::Text),
+            (word!("chosen", "escolhida"), Hue::Accent),
+        ];
         let words = Words { title: "", note: "", legend: &legend, below: 2 };
         let floor = Some(self.floor).filter(|floor| *floor > LEAST_ERROR && !shown.is_empty());
         // Above the highest point there is room for its name.
         let above_all = shown.iter().map(|(_, error)| *error).reduce(f64::max).map(|error| 1.5 * error);
         let heights = shown.iter().map(|(_, error)| *error).chain(floor).chain(above_all);
-        let error = axis("error of the picture (RMSE, linear light)");
+        let error = axis(word!("error of the picture (RMSE, linear light)", "erro da imagem (RMSE, luz linear)"));
         let (mut sheet, y) = Sheet::new(size, &words, &error, heights, 0.0);
         let x = sheet.columns(&axis(&self.time), shown.iter().map(|(time, _)| *time));
         if let Some(height) = floor.and_then(|floor| y.place(floor)) {
@@ -84,7 +89,8 @@ fn place(sheet: &Sheet, x: &Ruler, y: &Ruler, (time, error): (f64, f64)) -> Poin
 
 /// What the line of the floor is called.
 fn above([x, y]: Point) -> Mark {
-    let (anchor, text, size) = (Anchor::Left, "the reference's own error".into(), TextSize::Small(1.0));
+    let text = word!("the reference's own error", "o erro da própria referência").into();
+    let (anchor, size) = (Anchor::Left, TextSize::Small(1.0));
     Mark::Label { at: [x + 8.0, y - 10.0], anchor, text, size, ink: Hue::Quiet.full() }
 }
 
@@ -92,7 +98,8 @@ fn above([x, y]: Point) -> Mark {
 fn beside([x, y]: Point, sheet: &Sheet) -> Mark {
     let (anchor, side) = if sheet.room_from(x) > 110.0 { (Anchor::Left, 1.0) } else { (Anchor::Right, -1.0) };
     let at = [x + side * (RING[1] + 6.0), y - 1.6 * RING[1]];
-    Mark::Label { at, anchor, text: "set now".into(), size: TextSize::Body(1.0), ink: Hue::Text.full() }
+    let text = word!("set now", "atual").into();
+    Mark::Label { at, anchor, text, size: TextSize::Body(1.0), ink: Hue::Text.full() }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, count, duration, node_name};
 use crate::balance::{NodeId, Party};
+use crate::language::{say, word};
 use crate::record::{Record, What};
 
 /// What happened, in a sentence; `state` already knows it.
@@ -15,26 +16,30 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
     match &record.what {
         What::Sent { id, .. } => match state.flight(*id) {
             Some(flight) => sent_words(flight, state),
-            None => "A message leaves".into(),
+            None => word!("A message leaves", "Parte uma mensagem").into(),
         },
         What::Received { id, by } => {
             let by = match by {
-                Party::Parent => "The parent".into(),
+                Party::Parent => word!("The parent", "O pai").into(),
                 Party::Node(node) => node_name(*node).to_string(),
             };
-            match state.flight(*id) {
-                Some(flight) => format!("{by} handles what has arrived: {}", flight_words(flight)),
-                None => format!("{by} handles a message"),
+            match state.flight(*id).map(flight_words) {
+                Some(what) => say!("{by} handles what has arrived: {what}", "{by} atende o que chegou: {what}"),
+                None => say!("{by} handles a message", "{by} atende uma mensagem"),
             }
         }
-        What::Estimating => sentences::ESTIMATING.into(),
-        What::Estimated { .. } => "The parent has sampled the picture".into(),
+        What::Estimating => sentences::estimating().into(),
+        What::Estimated { .. } => word!("The parent has sampled the picture", "O pai amostrou a imagem").into(),
         What::AtomStarted { node, atom } => {
-            format!("{} begins atom {}", node_name(*node), count(atom.saturating_add(1)))
+            let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
+            say!("{name} begins atom {atom}", "{name} começa o átomo {atom}")
         }
         What::AtomDone { node, atom, cost } => {
-            let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
-            format!("{name} has traced atom {atom}, at a cost of {}", duration(*cost))
+            let (name, atom, cost) = (node_name(*node), count(atom.saturating_add(1)), duration(*cost));
+            say!(
+                "{name} has traced atom {atom}, at a cost of {cost}",
+                "{name} calculou o átomo {atom}, ao custo de {cost}"
+            )
         }
         What::SpeedSet { node, speed } => {
             let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
@@ -44,7 +49,7 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
         What::Resumed { node } => sentences::resumed(state, *node),
         What::LatencySet { latency } => sentences::latency(state, *latency),
         What::Retired { node } => sentences::retired(state, &[*node]),
-        What::Finished => sentences::COMPLETE.into(),
+        What::Finished => sentences::complete().into(),
     }
 }
 
@@ -60,8 +65,13 @@ fn sent_words(flight: &Flight, state: &RunState) -> String {
         }
         (Party::Node(from), Party::Node(to), Cargo::Offer { who }) => {
             let left = state.nodes().get(usize::from(from)).map_or(0, |node| waiting(node.left()));
-            let why = if left == 0 { "no atom waits with it" } else { "what it could give is not worth it" };
-            format!("{} passes the offer of {} on to {}: {why}", node_name(from), node_name(*who), node_name(to))
+            let why = if left == 0 {
+                word!("no atom waits with it", "nenhum átomo espera nela")
+            } else {
+                word!("what it could give is not worth it", "o que poderia dar não vale a pena")
+            };
+            let [from, who, to] = [from, *who, to].map(node_name);
+            say!("{from} passes the offer of {who} on to {to}: {why}", "{from} repassa a oferta de {who} a {to}: {why}")
         }
         _ => flight_words(flight),
     }
@@ -75,13 +85,22 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Op
     let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
     let (own, offered, waits) = (owner?.done, offerer?.offered, waiting(owner?.left()) + atoms);
     let (from, to) = (node_name(from), node_name(to));
-    let waits = format!("of {} that waited with machine {from}", atoms_words(waits));
+    let (atoms, verb) = (atoms_words(waits), if waits == 1 { "esperava" } else { "esperavam" });
+    let waits = say!("of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
     Some(match (own, offered) {
-        (0, 0) => format!("{waits}, half, since neither had traced any"),
-        (_, 0) => format!("{waits}, one for a trial, since machine {to} had traced none"),
+        (0, 0) => {
+            say!("{waits}, half, since neither had traced any", "{waits}, a metade, pois nenhuma tinha calculado nada")
+        }
+        (_, 0) => say!(
+            "{waits}, one for a trial, since machine {to} had traced none",
+            "{waits}, um como teste, pois a máquina {to} não tinha calculado nenhum"
+        ),
         _ => {
             let [own, offered, sum] = [own, offered, own.saturating_add(offered)].map(count);
-            format!("{waits}, {offered}/{sum}: machine {to} had traced {offered}, machine {from} {own}")
+            say!(
+                "{waits}, {offered}/{sum}: machine {to} had traced {offered}, machine {from} {own}",
+                "{waits}, {offered}/{sum}: a máquina {to} tinha calculado {offered}, a máquina {from}, {own}"
+            )
         }
     })
 }

@@ -1,11 +1,14 @@
 //! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
 
-use super::sentences::{ESTIMATING, is_slow};
+use super::sentences::{estimating, is_slow};
 use super::sharing::Sharing;
-use super::standing::{Machine, all_left, all_still, remedy, why};
+use super::standing::{
+    self, Machine, all_left, all_still, computing, has_most, only, only_one, remedy, under_way, why,
+};
 use super::state::RunState;
-use super::words::{atoms_words, fraction, names, node_name};
+use super::words::{atoms_words, fraction, left_words, names, node_name};
 use crate::balance::NodeId;
+use crate::language::{say, word};
 
 /// How things stand.
 pub(super) fn without_ring(state: &RunState) -> String {
@@ -14,13 +17,13 @@ pub(super) fn without_ring(state: &RunState) -> String {
     let machines = state.nodes().len();
     let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
     match (&*busy, &*still) {
-        _ if state.is_estimating => ESTIMATING.into(),
+        _ if state.is_estimating => estimating().into(),
         ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines),
-        ([], []) if state.has_atoms_under_way() => "Atoms are on their way".into(),
-        ([], []) => "Waiting for the parent".into(),
+        ([], []) if state.has_atoms_under_way() => under_way(),
+        ([], []) => standing::waiting_for_the_parent(),
         ([], still) if still.len() == machines => all_still(still),
         ([], still) => nobody_computes(still),
-        ([only], []) if machines == 1 => format!("The only machine computes: {} left", atoms_words(only.1.left())),
+        ([only], []) if machines == 1 => only_one(only.1),
         ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last),
         (busy, still) => several(state, busy, still, &asking),
     }
@@ -33,77 +36,116 @@ fn all_is_given_away(state: &RunState) -> bool {
 
 /// One machine has all atoms that are left.
 fn all_wait_for(state: &RunState, (node, last): Machine<'_>) -> String {
-    let (name, left) = (node_name(node), atoms_words(last.left()));
+    let (name, left, speed) = (node_name(node), left_words(last.left()), fraction(last.speed));
     if state.sharing == Sharing::Stealing {
-        return format!("Only {name} still computes: {left} left");
+        return only((node, last));
     }
     if last.done + last.left() == state.atoms() {
-        return format!("{name} computes alone: {left} left; the others have nothing to do");
+        return say!(
+            "{name} computes alone: {left}; the others have nothing to do",
+            "{name} calcula sozinha: {left}; as outras não têm o que fazer"
+        );
     }
-    let name =
-        if is_slow(last) { format!("{name}, which is slow ({})", fraction(last.speed)) } else { name.to_string() };
-    format!("All wait for {name}: {left} left")
+    let name = if is_slow(last) {
+        say!("{name}, which is slow ({speed})", "{name}, que é lenta ({speed})")
+    } else {
+        name.to_string()
+    };
+    say!("All wait for {name}: {left}", "Todas esperam por {name}: {left}")
 }
 
 /// Some machines compute.
 fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking: &[NodeId]) -> String {
-    let (machines, what) =
-        (state.nodes().len(), if state.sharing == Sharing::Stealing { "threads" } else { "machines" });
-    let compute = match busy.len() {
-        all if all == machines => format!("All {machines} {what} compute"),
-        some => format!("{some} of {machines} {what} compute"),
-    };
-    if let [(node, machine), ..] = still {
-        let (who, is, they) = match still.len() {
-            1 => (node_name(*node).to_string(), why(machine), "its"),
-            _ => (names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>()), "stand still", "their"),
+    let machines = state.nodes().len();
+    let what = if state.sharing == Sharing::Stealing { "threads" } else { word!("machines", "máquinas") };
+    let compute = computing(busy.len(), machines, what);
+    if let [(_, machine), ..] = still {
+        let (is, they) = match still.len() {
+            1 => (why(machine), "its"),
+            _ => (word!("stand still", "estão paradas"), "their"),
         };
+        let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>());
         let left = atoms_words(all_left(still));
         return match state.sharing {
-            Sharing::Stealing => format!("{compute}; {who} {is}: {they} {left} can be stolen"),
-            _ => format!("{compute}; {who} {is}, and nobody takes over {they} {left}"),
+            Sharing::Stealing => say!(
+                "{compute}; {who} {is}: {they} {left} can be stolen",
+                "{compute}; {who} {is}: as outras podem roubar {left}"
+            ),
+            _ => say!(
+                "{compute}; {who} {is}, and nobody takes over {they} {left}",
+                "{compute}; {who} {is} com {left}, e ninguém os assume"
+            ),
         };
     }
     // Of equals the first is named.
     let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
     let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
-    let left = atoms_words(last.left());
+    let (left, speed) = (atoms_words(last.left()), fraction(last.speed));
     match state.sharing {
-        Sharing::Stealing if busy.len() == machines => format!("{compute} their own atoms"),
-        Sharing::Stealing => format!("{compute}; {name} has most left"),
-        sharing if sharing.is_farm() => match asking {
-            [] if !all_is_given_away(state) => format!("{compute}; whoever is done asks the parent for more"),
-            [] => format!("{compute} their last atoms; the parent has no more"),
-            [one] => format!("{compute}; {} waits for the parent", node_name(*one)),
-            some => format!("{compute}; {} wait for the parent", names(some)),
-        },
-        _ if is_slow(last) => {
-            format!(
-                "{compute}; {name} is slow ({}) and has most left: {left}, which nobody takes over",
-                fraction(last.speed)
-            )
+        Sharing::Stealing if busy.len() == machines => {
+            say!("{compute} their own atoms", "{compute} seus próprios átomos")
         }
-        _ if busy.len() == machines => format!("{compute} their own bands, whatever these cost"),
-        _ => format!("{compute}; the others are done, and nobody shares with them"),
+        Sharing::Stealing => has_most(&compute, name),
+        sharing if sharing.is_farm() => match asking {
+            [] if !all_is_given_away(state) => {
+                say!("{compute}; whoever is done asks the parent for more", "{compute}; quem termina pede mais ao pai")
+            }
+            [] => say!(
+                "{compute} their last atoms; the parent has no more",
+                "{compute} seus últimos átomos; o pai não tem mais"
+            ),
+            some => format!("{compute}; {}", some_wait(some)),
+        },
+        _ if is_slow(last) => say!(
+            "{compute}; {name} is slow ({speed}) and has most left: {left}, which nobody takes over",
+            "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}, que ninguém assume"
+        ),
+        _ if busy.len() == machines => say!(
+            "{compute} their own bands, whatever these cost",
+            "{compute} suas próprias faixas, custem o que custarem"
+        ),
+        _ => say!(
+            "{compute}; the others are done, and nobody shares with them",
+            "{compute}; as outras terminaram, e ninguém divide com elas"
+        ),
     }
 }
 
 /// Nobody computes, and the atoms that are left are with machines that stand still.
 fn nobody_computes(still: &[Machine<'_>]) -> String {
-    let (left, remedy) = (atoms_words(all_left(still)), remedy(still));
+    let (left, remedy, machines) = (atoms_words(all_left(still)), remedy(still), still.len());
     match still {
-        [(node, machine)] => format!("All wait for {}, which {} with {left}: {remedy}", node_name(*node), why(machine)),
-        _ => format!("All wait for {} machines that stand still with {left}: {remedy}", still.len()),
+        [(node, machine)] => {
+            let (name, why) = (node_name(*node), why(machine));
+            say!(
+                "All wait for {name}, which {why} with {left}: {remedy}",
+                "Todas esperam por {name}, que {why} com {left}: {remedy}"
+            )
+        }
+        _ => say!(
+            "All wait for {machines} machines that stand still with {left}: {remedy}",
+            "Todas esperam por {machines} máquinas paradas com {left}: {remedy}"
+        ),
     }
 }
 
 /// Nobody has atoms, and some have asked for them.
 fn waiting_for_the_parent(asking: &[NodeId], machines: usize) -> String {
     match asking {
-        _ if machines == 1 => "The only machine waits for the parent".into(),
-        all if all.len() == machines => format!("All {machines} machines wait for the parent"),
-        [one] => format!("{} waits for the parent", node_name(*one)),
-        some => format!("{} wait for the parent", names(some)),
+        _ if machines == 1 => word!("The only machine waits for the parent", "A única máquina espera pelo pai").into(),
+        all if all.len() == machines => {
+            say!("All {machines} machines wait for the parent", "Todas as {machines} máquinas esperam pelo pai")
+        }
+        some => some_wait(some),
+    }
+}
+
+/// These have asked for atoms, and have not got any yet.
+fn some_wait(some: &[NodeId]) -> String {
+    let who = names(some);
+    match some {
+        [_] => say!("{who} waits for the parent", "{who} espera pelo pai"),
+        _ => say!("{who} wait for the parent", "{who} esperam pelo pai"),
     }
 }
 

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::node::Activity;
 use crate::balance::NodeId;
+use crate::language::{Language, comma, decimal, say, word};
 use crate::time::Time;
 
 /// A node's name for people: its number from 1.
@@ -40,7 +41,7 @@ pub fn rate_words(rate: f64) -> String {
     if rate < 0.05 {
         "0/s".into()
     } else if rate < 0.95 {
-        format!("{rate:.1}/s")
+        format!("{}/s", decimal(rate, 1))
     } else {
         format!("{}/s", count(rate.round() as u32))
     }
@@ -51,7 +52,7 @@ pub fn bytes_words(bytes: u64) -> String {
     match bytes {
         0..1000 => format!("{bytes} B"),
         1000..1_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
-        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{} MB", decimal(bytes as f64 / 1e6, 1)),
     }
 }
 
@@ -63,11 +64,11 @@ pub fn duration(length: Duration) -> String {
     } else if ms < 0.9995 {
         format!("{:.0} µs", ms * 1e3)
     } else if ms < 9.95 {
-        format!("{ms:.1} ms")
+        format!("{} ms", decimal(ms, 1))
     } else if ms < 999.5 {
         format!("{ms:.0} ms")
     } else {
-        format!("{:.1} s", ms * 1e-3)
+        format!("{} s", decimal(ms * 1e-3, 1))
     }
 }
 
@@ -84,35 +85,52 @@ pub fn time_words(time: Time, rate: f64) -> String {
         }
         words.push(digit);
     }
-    words + " s"
+    comma(words) + " s"
 }
 
 /// What a node is doing, in a word.
 pub fn activity_word(activity: Activity) -> &'static str {
     match activity {
-        Activity::Waiting => "waiting",
-        Activity::Computing => "computing",
-        Activity::Stopped => "stopped",
-        Activity::Paused => "paused",
-        Activity::Offering => "offering",
-        Activity::Asking => "asking",
-        Activity::InLine => "in line",
-        Activity::Receiving => "receiving",
-        Activity::Idle => "idle",
-        Activity::Retired => "retired",
-        Activity::NoMore => "no more",
-        Activity::Done => "done",
+        Activity::Waiting => word!("waiting", "esperando"),
+        Activity::Computing => word!("computing", "calculando"),
+        Activity::Stopped => word!("stopped", "parada"),
+        Activity::Paused => word!("paused", "em pausa"),
+        Activity::Offering => word!("offering", "oferecendo"),
+        Activity::Asking => word!("asking", "pedindo"),
+        Activity::InLine => word!("in line", "na fila"),
+        Activity::Receiving => word!("receiving", "recebendo"),
+        Activity::Idle => word!("idle", "ociosa"),
+        Activity::Retired => word!("retired", "dispensada"),
+        Activity::NoMore => word!("no more", "sem trabalho"),
+        Activity::Done => word!("done", "pronta"),
     }
 }
 
 /// `1 atom`, `2 atoms`.
 pub(super) fn atoms_words(atoms: u32) -> String {
-    counted(atoms, "atom")
+    counted(atoms, word!("atom", "átomo"))
+}
+
+/// `1 atom left`, `2 atoms left`; in Portuguese the verb comes first, and counts too.
+pub(super) fn left_words(atoms: u32) -> String {
+    let (left, verb) = (atoms_words(atoms), if atoms == 1 { "resta" } else { "restam" });
+    say!("{left} left", "{verb} {left}")
 }
 
 /// A count and what is counted: `1 offer`, `2 offers`.
 pub(super) fn counted(number: u32, what: &str) -> String {
-    format!("{} {what}{}", count(number), if number == 1 { "" } else { "s" })
+    let many = if number == 1 { what.to_owned() } else { plural(what) };
+    format!("{} {many}", count(number))
+}
+
+/// More than one of it, in the language that is spoken: `offers`; `vezes`, `níveis`, `ofertas`.
+pub(super) fn plural(what: &str) -> String {
+    let ending = |ending, many| what.strip_suffix(ending).map(|stem| format!("{stem}{many}"));
+    match Language::spoken() {
+        Language::English => None,
+        Language::Portuguese => ending("z", "zes").or_else(|| ending("el", "eis")),
+    }
+    .unwrap_or_else(|| format!("{what}s"))
 }
 
 /// `1`, `1 and 2`, `1, 2 and 3`; if they are many, how many of them there are.
@@ -120,13 +138,21 @@ pub(super) fn names(nodes: &[NodeId]) -> String {
     const MANY: usize = 5;
     let name = |node: &NodeId| node_name(*node).to_string();
     match nodes {
-        [] => "nobody".into(),
+        [] => word!("nobody", "ninguém").into(),
         [one] => name(one),
-        [..] if nodes.len() > MANY => format!("{} machines", nodes.len()),
-        [others @ .., last] => {
-            let others: Vec<_> = others.iter().map(name).collect();
-            format!("{} and {}", others.join(", "), name(last))
+        [..] if nodes.len() > MANY => counted(nodes.len() as u32, word!("machine", "máquina")),
+        [..] => listed(&nodes.iter().map(name).collect::<Vec<_>>()),
+    }
+}
+
+/// `a`, `a and b`, `a, b and c`.
+pub(super) fn listed(words: &[String]) -> String {
+    match words {
+        [others @ .., last] if !others.is_empty() => {
+            let others = others.join(", ");
+            say!("{others} and {last}", "{others} e {last}")
         }
+        _ => words.concat(),
     }
 }
 
@@ -175,5 +201,16 @@ mod tests {
         let said = [&[6][..], &[0, 1], &[0, 1, 7], &[0, 1, 2, 3, 4, 5]].map(names);
         assert_eq!(said, ["7", "1 and 2", "1, 2 and 8", "6 machines"]);
         assert_eq!([counted(1, "offer"), atoms_words(2000)], ["1 offer", "2\u{a0}000 atoms"]);
+    }
+
+    #[test]
+    fn portuguese_counts_its_own_way() {
+        Language::Portuguese.speak();
+        let said = [counted(1, "vez"), counted(2, "vez"), counted(0, "nível"), atoms_words(2000)];
+        assert_eq!(said, ["1 vez", "2 vezes", "0 níveis", "2\u{a0}000 átomos"]);
+        assert_eq!([left_words(1), left_words(2)], ["resta 1 átomo", "restam 2 átomos"]);
+        assert_eq!(names(&[0, 1, 7]), "1, 2 e 8");
+        assert_eq!(duration(Duration::from_micros(1_300)), "1,3 ms");
+        assert_eq!(time_words(Time(13_402_518_077), 1e-3), "13,402\u{a0}5 s");
     }
 }

@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::display::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::csg::Figure;
+use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
 use crate::scene::{Material, Scene};
@@ -98,7 +99,8 @@ impl Inspected {
 
     /// What a ray met, in a word or two.
     fn what(&self, ray: &RayNotes) -> &str {
-        ray.met.map_or("nothing", |met| self.name(met.tag).unwrap_or("a solid without a material"))
+        let nameless = word!("a solid without a material", "um sólido sem material");
+        ray.met.map_or(word!("nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
     }
 
     /// The colour of what a ray met, as it is shown.

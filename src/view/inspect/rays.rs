@@ -5,6 +5,7 @@ use super::super::stroke::dashes;
 use super::super::words::count;
 use super::words::{kind_word, share_words};
 use super::{Inspected, cut, edge, label, line};
+use crate::language::{say, word};
 use crate::palette::text_on;
 use crate::tracer::{RayKind, RayNotes};
 
@@ -59,7 +60,7 @@ impl Inspected {
         let top = SMALL_LINE;
         let at = |ray: usize| -> Point { [places[ray], top + rays[ray].path.level as f32 * step] };
         let eye = [places[0], top];
-        let mut marks = vec![label([eye[0], top / 2.0], Anchor::Centre, "the eye", Hue::Quiet)];
+        let mut marks = vec![label([eye[0], top / 2.0], Anchor::Centre, word!("the eye", "observador"), Hue::Quiet)];
         for (number, ray) in rays[..fitting].iter().enumerate() {
             let from = ray.path.from.map_or(eye, |from| at(from as usize));
             marks.extend(way(ray, from, at(number)));
@@ -68,8 +69,9 @@ impl Inspected {
             .iter()
             .enumerate()
             .map(|(number, ray)| {
-                let (kind, what) = (kind_word(ray.path.kind), self.what(ray));
-                let name = format!("Ray {}, {kind}: {what}, {}", number + 1, share_words(ray.path.weight));
+                let (kind, what, weight) = (kind_word(ray.path.kind), self.what(ray), share_words(ray.path.weight));
+                let which = number + 1;
+                let name = say!("Ray {which}, {kind}: {what}, {weight}", "Raio {which}, {kind}: {what}, {weight}");
                 RaySpot { ray: number, at: at(number), name }
             })
             .collect();
@@ -79,8 +81,9 @@ impl Inspected {
         let mut height = top + deepest as f32 * step + RADIUS + 5.0;
         if fitting < rays.len() {
             let weight = rays[fitting..].iter().map(|ray| ray.path.weight).fold(0.0, f64::max);
-            let more = u32::try_from(rays.len() - fitting).unwrap_or(u32::MAX);
-            let text = format!("and {} more, none above {}", count(more), share_words(weight));
+            let more = count(u32::try_from(rays.len() - fitting).unwrap_or(u32::MAX));
+            let weight = share_words(weight);
+            let text = say!("and {more} more, none above {weight}", "e mais {more}, nenhum acima de {weight}");
             marks.push(label([width / 2.0, height + SMALL_LINE / 2.0], Anchor::Centre, cut(&text, width), Hue::Quiet));
             height += SMALL_LINE;
         }

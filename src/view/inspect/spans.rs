@@ -1,11 +1,13 @@
 //! The spans along a ray (Figure 2): a row for each solid that it passes, and below it what the solid is made of.
 
 use super::super::display::{Anchor, Hue, Mark};
+use super::super::needs::shape_names;
 use super::super::scale::{Axis, Ruler};
 use super::super::words::count;
 use super::words::number;
 use super::{Inspected, cut, edge, label, line, shown};
 use crate::csg::{Figure, Operation, What};
+use crate::language::{say, word};
 
 /// The spans as they are drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +28,6 @@ pub(super) struct Row<'a> {
 }
 
 const ROW: f32 = 20.0;
-/// What is measured to the right.
-const ALONG: &str = "along the ray";
 const INDENT: f32 = 12.0;
 /// No row is further to the right.
 const MOST_INDENTS: usize = 5;
@@ -40,7 +40,7 @@ impl Inspected {
     pub fn spans(&self, width: f32, most: usize) -> Spans {
         let (rows, range) = (self.rows(), self.range());
         if rows.is_empty() {
-            let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, "It passes no solid.", Hue::Quiet)];
+            let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, passes_nothing(), Hue::Quiet)];
             return Spans { marks, height: ROW };
         }
         let left = (0.42 * width).min(210.0);
@@ -63,17 +63,21 @@ impl Inspected {
             self.row(row, y, left, &mut marks);
             self.bars(row.figure, y, &x, range, &mut marks);
         }
-        marks.push(label([0.0, top / 2.0 - 2.0], Anchor::Left, ALONG, Hue::Quiet));
+        // What is measured to the right.
+        let along = word!("along the ray", "ao longo do raio");
+        marks.push(label([0.0, top / 2.0 - 2.0], Anchor::Left, along, Hue::Quiet));
         let to = self.ray().path.to;
         if to.is_finite() {
             let at = x(to);
             marks.push(line([[at, top - 3.0], [at, bottom]], 2.0, Hue::Text.full()));
-            let text = format!("ends at {}", number(to));
-            let beside = super::SMALL.width(ALONG.len() + 1 + text.chars().count() / 2);
+            let end = number(to);
+            let text = say!("ends at {end}", "termina em {end}");
+            let beside = super::SMALL.width(along.len() + 1 + text.chars().count() / 2);
             marks.push(label([middle(&text, at).max(beside), top / 2.0 - 2.0], Anchor::Centre, text, Hue::Text));
         }
         if shown < rows.len() {
-            let text = format!("and {} more", count((rows.len() - shown) as u32));
+            let more = count((rows.len() - shown) as u32);
+            let text = say!("and {more} more", "e mais {more}");
             marks.push(label([0.0, bottom + ROW / 2.0], Anchor::Left, text, Hue::Quiet));
         }
         Spans { marks, height: bottom + ROW }
@@ -98,13 +102,13 @@ impl Inspected {
     /// What a row is called.
     pub(super) fn row_name(&self, figure: &Figure) -> String {
         match figure.what {
-            What::Composition(Operation::Union) => "union".into(),
-            What::Composition(Operation::Intersection) => "intersection".into(),
-            What::Composition(Operation::Difference) => "difference".into(),
-            What::Primitive { tag, kind } => match self.name(tag) {
-                Some(name) => format!("{name}: {kind}"),
-                None => kind.into(),
-            },
+            What::Composition(Operation::Union) => word!("union", "união").into(),
+            What::Composition(Operation::Intersection) => word!("intersection", "interseção").into(),
+            What::Composition(Operation::Difference) => word!("difference", "diferença").into(),
+            What::Primitive { tag, kind } => {
+                let [kind, _] = shape_names(kind);
+                self.name(tag).map_or_else(|| kind.into(), |name| format!("{name}: {kind}"))
+            }
         }
     }
 
@@ -156,6 +160,11 @@ impl Inspected {
             }
         }
     }
+}
+
+/// There are no stays.
+pub(super) fn passes_nothing() -> &'static str {
+    word!("It passes no solid.", "Não passa por nenhum sólido.")
 }
 
 /// A stay that ends nearer to where the drawing begins, in parts of its distances, only touches that place.

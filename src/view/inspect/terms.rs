@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::super::display::{Anchor, Hue, Mark, Point};
 use super::words::share_words;
 use super::{Inspected, brightness, label, line, shown, swatch};
+use crate::language::{decimal, word};
 use crate::tracer::RayKind;
 
 /// A term of the equation of one ray.
@@ -41,7 +42,7 @@ impl Inspected {
             Term { formula, meaning, colour, part: (whole > 0.0).then(|| counts / whole) }
         };
         if ray.met.is_none() {
-            return vec![term("Cp", "background", ray.ambient)];
+            return vec![term("Cp", word!("background", "fundo"), ray.ambient)];
         }
         let follows = |kind| {
             let own = |place: &usize| {
@@ -55,12 +56,12 @@ impl Inspected {
         let specular = ray.lights.iter().map(|lit| lit.specular()).sum();
         let [reflected, refracted] = [RayKind::Reflected, RayKind::Refracted].map(follows);
         vec![
-            term("Ka Ia", "ambient", ray.ambient),
-            term("Kd Σ Il (N·L)", "diffuse", diffuse),
-            term("Ks Σ Il (S·R)^n", "highlights", specular),
-            term("Ks Is", "reflected", reflected),
-            term("Kt It", "transmitted", refracted),
-            term("Cp", "the sum", ray.ambient + diffuse + specular + reflected + refracted),
+            term("Ka Ia", word!("ambient", "ambiente"), ray.ambient),
+            term("Kd Σ Il (N·L)", word!("diffuse", "difusa"), diffuse),
+            term("Ks Σ Il (S·R)^n", word!("highlights", "especular"), specular),
+            term("Ks Is", word!("reflected", "refletida"), reflected),
+            term("Kt It", word!("transmitted", "refratada"), refracted),
+            term("Cp", word!("the sum", "a soma"), ray.ambient + diffuse + specular + reflected + refracted),
         ]
     }
 
@@ -75,7 +76,8 @@ impl Inspected {
         let places = [blue - 2.0 * column, blue - column, blue];
         let swatch_at = places[0] - column - SWATCH / 2.0 + 6.0;
         let mut marks = Vec::new();
-        for (name, x) in ["red", "green", "blue"].into_iter().zip(places).chain([("of pixel", width)]) {
+        let colours = word!(["red", "green", "blue"], ["verm.", "verde", "azul"]);
+        for (name, x) in colours.into_iter().zip(places).chain([(word!("of pixel", "do pixel"), width)]) {
             marks.push(label([x, ROW / 2.0], Anchor::Right, name, Hue::Quiet));
         }
         for (index, term) in terms.iter().enumerate() {
@@ -93,7 +95,7 @@ impl Inspected {
             let middle: Point = [swatch_at, y];
             marks.extend(swatch(middle, [8.0, 7.0], shown(term.colour)));
             for (value, x) in term.colour.to_array().into_iter().zip(places) {
-                marks.push(label([x, y], Anchor::Right, format!("{value:.decimals$}"), hue));
+                marks.push(label([x, y], Anchor::Right, decimal(value, decimals), hue));
             }
             let part = term.part.map_or_else(|| "–".to_owned(), share_words);
             marks.push(label([width, y], Anchor::Right, part, hue));

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::super::words::{count, counted};
+use super::spans::passes_nothing;
 use super::{Inspected, shown};
+use crate::language::{comma, decimal, say, word};
 use crate::tracer::{RayKind, RayNotes};
 
 impl Inspected {
@@ -11,32 +13,42 @@ impl Inspected {
     pub fn sentences(&self) -> Vec<String> {
         let rays = &self.rays;
         let kinds = [
-            (rays.primary, "primary"),
-            (rays.shadow, "to lights"),
-            (rays.reflected, "reflected"),
-            (rays.refracted, "through surfaces"),
+            (rays.primary, word!(["primary"; 2], ["primário", "primários"])),
+            (rays.shadow, word!(["to lights"; 2], ["às luzes"; 2])),
+            (rays.reflected, word!(["reflected"; 2], ["refletido", "refletidos"])),
+            (rays.refracted, word!(["through surfaces"; 2], ["através de superfícies"; 2])),
         ];
-        let kinds: Vec<_> =
-            kinds.iter().filter(|(many, _)| *many > 0).map(|(many, what)| format!("{} {what}", big(*many))).collect();
-        let total = rays.total();
-        let mut said = vec![format!("This pixel took {} ray{}: {}.", big(total), plural(total), kinds.join(", "))];
+        let kinds: Vec<_> = kinds
+            .iter()
+            .filter(|(many, _)| *many > 0)
+            .map(|(many, what)| format!("{} {}", big(*many), what[usize::from(*many > 1)]))
+            .collect();
+        let (took, kinds) = (several_rays(rays.total()), kinds.join(", "));
+        let mut said = vec![say!("This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
         let (all, counting) = (self.samples.len(), self.samples.iter().filter(|sample| sample.counts).count());
+        let others = big((all - counting) as u64);
         if all > counting {
-            let (all, others) = (big(all as u64), big((all - counting) as u64));
-            said.push(format!("It has {all} samples; {others} at its corners only told that more were needed."));
+            let all = big(all as u64);
+            said.push(say!(
+                "It has {all} samples; {others} at its corners only told that more were needed.",
+                "Tem {all} amostras; {others} nos cantos só mostraram que eram precisas mais."
+            ));
         } else if all > 1 {
-            said.push(format!("It is the mean of {} samples.", big(all as u64)));
+            let all = big(all as u64);
+            said.push(say!("It is the mean of {all} samples.", "É a média de {all} amostras."));
         }
         let left_out: u64 = self.samples.iter().map(|sample| sample.rays_left_out).sum();
         if left_out > 0 {
             let weight = self.samples.iter().map(|sample| sample.left_out * sample.share(&self.samples)).sum();
-            let (was, they) = if left_out == 1 { ("was", "it") } else { ("were", "they") };
-            let together = if left_out == 1 { "" } else { " together" };
-            let (many, part) = (big(left_out), share_words(weight));
-            said.push(format!(
-                "{many} ray{} {was} left out; {they} would have counted {part}{together}.",
-                plural(left_out)
-            ));
+            let (rays, part) = (several_rays(left_out), share_words(weight));
+            said.push(if left_out == 1 {
+                say!("{rays} was left out; it would have counted {part}.", "{rays} foi omitido; contaria {part}.")
+            } else {
+                say!(
+                    "{rays} were left out; they would have counted {part} together.",
+                    "{rays} foram omitidos; juntos contariam {part}."
+                )
+            });
         }
         let too_deep = |ray: &RayNotes| ray.too_deep;
         let deep: f64 = self
@@ -45,7 +57,11 @@ impl Inspected {
             .map(|sample| sample.share(&self.samples) * sample.rays.iter().map(too_deep).sum::<f64>())
             .sum();
         if deep > 0.0 {
-            said.push(format!("The limit of the tree of rays cut off what would have counted {}.", share_words(deep)));
+            let part = share_words(deep);
+            said.push(say!(
+                "The limit of the tree of rays cut off what would have counted {part}.",
+                "O limite da árvore de raios cortou o que contaria {part}."
+            ));
         }
         said
     }
@@ -55,19 +71,30 @@ impl Inspected {
         let ray = self.ray();
         let path = &ray.path;
         let kind = match path.kind {
-            RayKind::Primary => "From the eye",
-            RayKind::Shadow => "To a light",
-            RayKind::Reflected => "Reflected",
-            RayKind::Refracted => "Through a surface",
+            RayKind::Primary => word!("From the eye", "Do observador"),
+            RayKind::Shadow => word!("To a light", "A uma luz"),
+            RayKind::Reflected => word!("Reflected", "Refletido"),
+            RayKind::Refracted => word!("Through a surface", "Através de uma superfície"),
         };
-        let which = format!("{kind}, on level {}, it counts {} of its sample", path.level, share_words(path.weight));
-        let Some(met) = ray.met else { return vec![format!("{which} and meets nothing.")] };
-        let does = if met.enters { "enters" } else { "meets from within" };
-        let what = self.what(ray);
-        let mut said = vec![format!("{which} and {does} {what} at a distance of {}.", number(path.to))];
+        let (level, weight) = (path.level, share_words(path.weight));
+        let which = say!(
+            "{kind}, on level {level}, it counts {weight} of its sample",
+            "{kind}, no nível {level}, conta {weight} de sua amostra"
+        );
+        let Some(met) = ray.met else {
+            return vec![say!("{which} and meets nothing.", "{which} e não encontra nada.")];
+        };
+        let does =
+            if met.enters { word!("enters", "entra em") } else { word!("meets from within", "atinge por dentro") };
+        let (what, distance) = (self.what(ray), number(path.to));
+        let mut said = vec![say!(
+            "{which} and {does} {what} at a distance of {distance}.",
+            "{which} e {does} {what} à distância de {distance}."
+        )];
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light)).collect();
-            said.push(format!("Lights: {}.", lights.join(", ")));
+            let lights = lights.join(", ");
+            said.push(say!("Lights: {lights}.", "Luzes: {lights}."));
         }
         said
     }
@@ -75,10 +102,13 @@ impl Inspected {
     fn light_words(&self, ray: &RayNotes, light: usize) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
-            None => format!("{name} is behind the surface"),
-            Some(0.0) => format!("{name} is hidden"),
-            Some(1.0) => format!("{name} arrives"),
-            Some(part) => format!("of {name} {} arrives", share_words(part)),
+            None => say!("{name} is behind the surface", "{name} está atrás da superfície"),
+            Some(0.0) => say!("{name} is hidden", "{name} está encoberta"),
+            Some(1.0) => say!("{name} arrives", "{name} chega"),
+            Some(part) => {
+                let part = share_words(part);
+                say!("of {name} {part} arrives", "de {name} chega {part}")
+            }
         }
     }
 
@@ -111,10 +141,10 @@ impl Inspected {
     pub fn term_words(&self) -> String {
         let mut text = String::new();
         for term in self.terms() {
-            let (name, colour) = (format!("{} ({})", term.formula, term.meaning), term.colour);
+            let name = format!("{} ({})", term.formula, term.meaning);
+            let [red, green, blue] = term.colour.to_array().map(|value| decimal(value, 4));
             let part = term.part.map_or_else(|| "–".to_owned(), share_words);
-            let line = format!("{name:28} {:8.4} {:8.4} {:8.4}   {part}", colour.x, colour.y, colour.z);
-            put(&mut text, 0, &line);
+            put(&mut text, 0, &format!("{name:28} {red:>8} {green:>8} {blue:>8}   {part}"));
         }
         text
     }
@@ -123,13 +153,16 @@ impl Inspected {
     pub fn span_words(&self) -> String {
         let (rows, mut text) = (self.rows(), String::new());
         for row in rows.iter().take(MOST_LINES) {
-            let stay = |[enter, leave]: &[f64; 2]| format!("{} to {}", number(*enter), number(*leave));
+            let stay = |stay: &[f64; 2]| {
+                let [enter, leave] = stay.map(number);
+                say!("{enter} to {leave}", "{enter} a {leave}")
+            };
             let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
             put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure), stays.join(", ")));
         }
         put_more(&mut text, rows.len());
         if rows.is_empty() {
-            put(&mut text, 0, "It passes no solid.");
+            put(&mut text, 0, passes_nothing());
         }
         text
     }
@@ -167,7 +200,8 @@ fn put(text: &mut String, depth: usize, line: &str) {
 /// That there are more lines than are told.
 fn put_more(text: &mut String, all: usize) {
     if all > MOST_LINES {
-        put(text, 1, &format!("and {} more", big((all - MOST_LINES) as u64)));
+        let more = big((all - MOST_LINES) as u64);
+        put(text, 1, &say!("and {more} more", "e mais {more}"));
     }
 }
 
@@ -175,17 +209,17 @@ fn big(number: u64) -> String {
     count(u32::try_from(number).unwrap_or(u32::MAX))
 }
 
-fn plural(number: u64) -> &'static str {
-    if number == 1 { "" } else { "s" }
+fn several_rays(number: u64) -> String {
+    counted(u32::try_from(number).unwrap_or(u32::MAX), word!("ray", "raio"))
 }
 
 /// How a ray came.
 pub(super) fn kind_word(kind: RayKind) -> &'static str {
     match kind {
-        RayKind::Primary => "primary",
-        RayKind::Shadow => "to a light",
-        RayKind::Reflected => "reflected",
-        RayKind::Refracted => "through a surface",
+        RayKind::Primary => word!("primary", "primário"),
+        RayKind::Shadow => word!("to a light", "a uma luz"),
+        RayKind::Reflected => word!("reflected", "refletido"),
+        RayKind::Refracted => word!("through a surface", "através de uma superfície"),
     }
 }
 
@@ -194,9 +228,9 @@ pub(super) fn share_words(part: f64) -> String {
     let percent = 100.0 * part;
     match percent.abs() {
         0.0 => "0 %".into(),
-        0.0..0.005 => "< 0.01 %".into(),
-        0.005..0.095 => format!("{percent:.2} %"),
-        0.095..9.95 => format!("{percent:.1} %"),
+        0.0..0.005 => word!("< 0.01 %", "< 0,01 %").into(),
+        0.005..0.095 => format!("{} %", decimal(percent, 2)),
+        0.095..9.95 => format!("{} %", decimal(percent, 1)),
         _ => format!("{percent:.0} %"),
     }
 }
@@ -207,10 +241,10 @@ pub(super) fn number(value: f64) -> String {
         f64::INFINITY if value < 0.0 => "−∞".into(),
         f64::INFINITY => "∞".into(),
         0.0 => "0".into(),
-        0.001..10.0 => format!("{value:.3}"),
-        10.0..100.0 => format!("{value:.2}"),
-        100.0..100_000.0 => format!("{value:.1}"),
-        _ => format!("{value:.2e}"),
+        0.001..10.0 => decimal(value, 3),
+        10.0..100.0 => decimal(value, 2),
+        100.0..100_000.0 => decimal(value, 1),
+        _ => comma(format!("{value:.2e}")),
     }
     .replace('-', "−")
 }
