@@ -42,7 +42,7 @@ const EDGE: f32 = 2.0;
 fn longest() -> usize {
     word!(10, 12)
 }
-const SECOND: usize = 12;
+pub(super) const SECOND: usize = 12;
 const NUMBER: usize = 5;
 
 impl Form {

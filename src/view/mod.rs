@@ -33,6 +33,8 @@ mod outline;
 mod place;
 mod plan;
 mod playback;
+#[cfg(test)]
+mod portuguese;
 mod quality;
 mod rate;
 mod ring;

@@ -247,10 +247,10 @@ pub(super) fn why(node: &NodeState) -> &'static str {
 pub(super) fn remedy(still: &[Machine<'_>]) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
         (1, 0) => word!("raise its speed", "basta aumentar sua velocidade"),
-        (1, _) => word!("let it go on", "basta tirá-la da pausa"),
+        (1, _) => word!("let it go on", "basta retomá-la"),
         (_, 0) => word!("raise their speed", "basta aumentar sua velocidade"),
-        (all, paused) if all == paused => word!("let them go on", "basta tirá-las da pausa"),
-        _ => word!("let them go on, or raise their speed", "basta tirá-las da pausa, ou aumentar sua velocidade"),
+        (all, paused) if all == paused => word!("let them go on", "basta retomá-las"),
+        _ => word!("let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
     }
 }
 
