@@ -339,10 +339,7 @@ fn scenes_and_pixels_are_told_in_portuguese() {
                 said.extend(labels_of(marks.collect()));
             }
         }
-        // What a solid is made of is named in the scene.
-        let own = ["light", "fast", "slow", "sample"];
-        said.into_iter()
-            .map(|words| (Room::Some, own.iter().fold(words, |words, name| words.replace(name, ""))))
-            .collect()
+        // What a material is called is the scene's own.
+        said.into_iter().map(|words| (Room::Some, words.replace("section of", "section"))).collect()
     });
 }
