@@ -4,6 +4,7 @@
 //! know each other (`tests/tidy.rs` holds this). ARCHITECTURE.md tells the way of the data through them.
 
 // Floor 0: words that everything else is made of.
+pub mod font; // the typeface of the window and of drawings
 pub mod geometry; // rays, boxes, rotations in degrees
 pub mod language; // English or Portuguese, beside each other
 pub mod output; // files that are either whole or not there
@@ -37,7 +38,7 @@ pub mod space; // the scene shared instead of the picture (§5): counted, not bu
 pub mod view; // pure functions from records to what is drawn; no egui
 
 // Floor 7: what leaves the program, and what is taught with it.
-pub mod export; // scenes for POV-Ray, drawings as SVG
+pub mod export; // scenes for POV-Ray, drawings, films, tables of records
 pub mod lesson; // what is taught: text files with runs, steps, questions and claims
 
 // Floor 8: what many runs say.

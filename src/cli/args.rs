@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgGroup, Parser, Subcommand};
 
 use super::sharing::Sharing;
+use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
+use crate::time::Time;
 
 #[derive(Debug, Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
@@ -27,17 +29,8 @@ pub(super) enum Command {
     Render(RenderArgs),
     /// Tell why a pixel has its colour, and why it takes so long
     Inspect(InspectArgs),
-    /// Write a scene for another renderer
-    Export {
-        /// A scene file, or the name of a built-in scene
-        scene: String,
-        /// Where to write it for POV-Ray 3.7
-        #[arg(long, value_name = "FILE.pov")]
-        pov: PathBuf,
-        /// The proportions of the picture
-        #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480")]
-        size: Size,
-    },
+    /// Write a recorded run, or a scene, for other programs
+    Export(ExportArgs),
     /// Make many runs and say what they show: CSV, charts, and a report
     Study {
         /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines; rivals: what sharing costs
@@ -68,6 +61,50 @@ pub(super) enum Command {
         #[arg(value_name = "LOG")]
         log: PathBuf,
     },
+}
+
+/// What is written of what; several at once are possible.
+#[derive(Debug, clap::Args)]
+#[command(group = ArgGroup::new("files").required(true).multiple(true)
+    .args(["pov", "csv", "trace", "gif", "ring", "timeline", "png"]))]
+pub(super) struct ExportArgs {
+    /// A recorded run; for --pov a scene file, or the name of a built-in scene
+    #[arg(value_name = "RUN")]
+    pub source: String,
+    /// Of a scene: for POV-Ray 3.7
+    #[arg(long, value_name = "FILE.pov")]
+    pub pov: Option<PathBuf>,
+    /// The records as a table, a row each
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// What each machine did, for Perfetto (ui.perfetto.dev) and Chrome
+    #[arg(long, value_name = "FILE.json")]
+    pub trace: Option<PathBuf>,
+    /// The whole run as an animation
+    #[arg(long, value_name = "FILE.gif")]
+    pub gif: Option<PathBuf>,
+    /// How broad the picture is in the animation
+    #[arg(long, value_name = "PIXELS", default_value_t = Film::default().width, requires = "gif",
+        value_parser = clap::value_parser!(u32).range(i64::from(*Film::WIDTHS.start())..=i64::from(*Film::WIDTHS.end())))]
+    pub width: u32,
+    /// How long the run takes in the animation
+    #[arg(long, value_name = "SECONDS", default_value = "10", requires = "gif", value_parser = film_seconds)]
+    pub seconds: Duration,
+    /// The ring at a moment
+    #[arg(long, value_name = "FILE.svg|png")]
+    pub ring: Option<PathBuf>,
+    /// Which moment: so many seconds after the beginning [default: the end]
+    #[arg(long, value_name = "SECONDS", requires = "ring", value_parser = moment)]
+    pub at: Option<Time>,
+    /// The timeline of all machines
+    #[arg(long, value_name = "FILE.svg|png")]
+    pub timeline: Option<PathBuf>,
+    /// The picture, traced anew
+    #[arg(long, value_name = "FILE.png")]
+    pub png: Option<PathBuf>,
+    /// Of --png [default: as it was traced], or the proportions for --pov [default: 640x480]
+    #[arg(long, value_name = "WIDTHxHEIGHT")]
+    pub size: Option<Size>,
 }
 
 /// What is to be studied.
@@ -138,6 +175,12 @@ pub(super) struct RenderArgs {
     /// Write the run's records here
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
+    /// What the run is called, for whoever opens its records
+    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true, requires = "log")]
+    pub title: String,
+    /// What is to be known of the run, beside its title
+    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true, requires = "log")]
+    pub memo: String,
     /// Print one JSON object about the run on standard output
     #[arg(long)]
     pub json: bool,
@@ -234,6 +277,15 @@ fn part_of_1(text: &str) -> Result<f64, String> {
 
 fn bandwidth(text: &str) -> Result<f64, String> {
     number(text, |bytes| bytes >= 1.0, "a bandwidth is at least 1 byte a second")
+}
+
+fn film_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = number(text, |seconds| (1.0..=120.0).contains(&seconds), "it is a number of seconds from 1 to 120")?;
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+fn moment(text: &str) -> Result<Time, String> {
+    number(text, |seconds| seconds >= 0.0, "a moment is a number of seconds from 0").map(Time::from_secs)
 }
 
 fn milliseconds(text: &str) -> Result<Duration, String> {

@@ -1,6 +1,7 @@
 //! The command line: a window, or a headless command.
 
 mod args;
+mod export;
 mod inspect;
 mod lesson;
 mod render;
@@ -18,11 +19,9 @@ use std::time::Duration;
 use clap::Parser;
 
 use crate::driver::{auto_pace, cores};
-use crate::export::to_pov;
 use crate::gui::{self, Opening, Settings};
 use crate::language::Language;
-use crate::output::{as_file_name, check_writable, is_same_file, write_whole};
-use crate::picture::{Quality, Size};
+use crate::output::{as_file_name, check_writable, is_same_file};
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
@@ -43,7 +42,7 @@ pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Inspect(inspect)) => inspect::inspect(&inspect),
-        Some(Command::Export { scene, pov, size }) => export(&scene, &pov, size),
+        Some(Command::Export(args)) => export::export(&args),
         Some(Command::Study { kind, scene, out, json }) => study::study(kind, scene.as_deref(), &out, json),
         Some(Command::Lesson { lesson }) => lesson::lesson(lesson.as_deref()),
         Some(Command::Replay { log }) => replay(&log),
@@ -142,13 +141,6 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     check_outputs("", &[&out])?;
     let tracer = Arc::new(Tracer::new(&scene, header.size, header.quality));
     render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
-}
-
-fn export(argument: &str, pov: &Path, size: Size) -> Result<(), Failure> {
-    let opened = open(argument)?;
-    check_outputs(argument, &[pov])?;
-    let text = to_pov(&opened.scene, size, &Quality::default());
-    write_whole(pov, |file| file.write_all(text.as_bytes())).map_err(|error| Failure::Failed(error.to_string()))
 }
 
 fn open(argument: &str) -> Result<Opened, Failure> {

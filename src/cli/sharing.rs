@@ -7,7 +7,7 @@ use crate::balance::{Rules, Strategy};
 use crate::driver::{auto_pace, cores};
 use crate::gui::Preset;
 use crate::picture::Division;
-use crate::runlog::{Driver, Header, Link};
+use crate::runlog::{Caption, Driver, Header, Link};
 use crate::scene::Opened;
 
 /// What shares the atoms.
@@ -75,6 +75,8 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         Pace::Auto if driver == Driver::Sim => 1.0,
         Pace::Auto => auto_pace(&speeds, cores),
     };
+    // A run in virtual time is the same on every computer.
+    let machine = if driver == Driver::Sim { Caption::default() } else { Caption::here(cores) };
     let header = Header {
         scene: opened.name.clone(),
         scene_text: opened.text.clone(),
@@ -88,6 +90,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         link: Link { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
         handling: args.handling,
         cores,
+        caption: Caption { title: args.title.clone(), memo: args.memo.clone(), ..machine },
     };
     if driver == Driver::Pairs && !header.is_full_speed() {
         return Err(

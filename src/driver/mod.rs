@@ -30,6 +30,7 @@ mod setting;
 mod shared;
 mod sim_thread;
 mod stealing;
+mod strips;
 mod supervisor;
 mod whole;
 mod worker;
@@ -40,6 +41,7 @@ pub use perform::perform;
 pub use probe::{Probe, probe};
 pub use retrace::Retrace;
 pub use run::Run;
+pub use strips::trace_strips;
 pub use whole::{RAY, Whole};
 
 use std::ops::Range;

@@ -1,7 +1,21 @@
-//! What leaves the program: a scene for another renderer, a drawing for paper and slides.
+//! What leaves the program: a scene for another renderer, drawings for paper and slides, films, and records for other
+//! programs.
 
+mod animation;
+mod chrome;
+mod colours;
+mod csv;
+mod drawing;
+mod film;
+mod hatch;
 mod pov;
+mod raster;
 mod svg;
 
+pub use chrome::write_chrome;
+pub use csv::write_csv;
+pub use drawing::Drawing;
+pub use film::Film;
 pub use pov::to_pov;
-pub use svg::to_svg;
+pub use raster::Raster;
+pub use svg::{to_hatched_svg, to_svg};

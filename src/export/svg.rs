@@ -1,21 +1,36 @@
 //! A drawing as SVG, on white, for slides and paper.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::hatch;
+use crate::font::PLEX_NAME;
 use crate::palette::{PRINT, Rgb, node_colour, readable, text_on};
 use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
 
 /// The text of an SVG file of a display list that was made for `size`, with the colours of a ring of `nodes`; a chart's
 /// are those of [`crate::palette::DISTINCT`].
 pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
+    written(marks, size, nodes, false)
+}
+
+/// As [`to_svg`], but boxes in a node's colour are hatched as well, each node's in its own way, so that they are told apart
+/// where nothing is printed in colour.
+pub fn to_hatched_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
+    written(marks, size, nodes, true)
+}
+
+fn written(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
     let [width, height] = size.map(number);
-    let mut svg = Svg { text: String::new(), nodes };
+    let mut svg = Svg { text: String::new(), nodes, hatched };
     svg.put(format_args!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, 'Noto Sans', Arial, sans-serif\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
-        hex(PRINT.ground)
+         viewBox=\"0 0 {width} {height}\" font-family=\"'{PLEX_NAME}', system-ui, 'Noto Sans', Arial, sans-serif\">\n",
     ));
+    if hatched {
+        svg.put_hatches(marks);
+    }
+    svg.put(format_args!("<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n", hex(PRINT.ground)));
     marks.iter().for_each(|mark| svg.put_mark(mark));
     svg.text.push_str("</svg>\n");
     svg.text
@@ -25,6 +40,7 @@ pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
 struct Svg {
     text: String,
     nodes: usize,
+    hatched: bool,
 }
 
 impl Svg {
@@ -36,7 +52,7 @@ impl Svg {
             }
             Mark::Box { centre, half, round, ink } => {
                 let [x, y] = [0, 1].map(|i| number(centre[i] - half[i]));
-                let ([width, height], fill) = (half.map(|half| number(2.0 * half)), self.paint("fill", *ink));
+                let ([width, height], fill) = (half.map(|half| number(2.0 * half)), self.fill(*ink));
                 let round = number(round.min(half[0]).min(half[1]));
                 self.put(format_args!(
                     "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{round}\"{fill}/>\n"
@@ -55,6 +71,27 @@ impl Svg {
             Mark::Trail { points, width, ink } => self.put_trail(points, *width, *ink),
             Mark::Label { at, anchor, text, size, ink } => self.put_label(*at, *anchor, text, *size, *ink),
         }
+    }
+
+    /// The hatches of all nodes that have boxes.
+    fn put_hatches(&mut self, marks: &[Mark]) {
+        let node = |mark: &Mark| match mark {
+            Mark::Box { ink: Ink { hue: Hue::Node(node), .. }, .. } => Some(*node),
+            _ => None,
+        };
+        let nodes: BTreeSet<u16> = marks.iter().filter_map(node).collect();
+        self.text.push_str("<defs>\n");
+        for node in nodes {
+            let (colour, pattern) = (self.colour(Hue::Node(node)), hatch::pattern(node));
+            let [ground, line] = [colour, text_on(colour)].map(hex);
+            let side = hatch::SIDE;
+            self.put(format_args!(
+                "<pattern id=\"node-{node}\" width=\"{side}\" height=\"{side}\" patternUnits=\"userSpaceOnUse\">\
+                 <rect width=\"{side}\" height=\"{side}\" fill=\"{ground}\"/>\
+                 <path d=\"{pattern}\" fill=\"none\" stroke=\"{line}\" stroke-width=\"1.2\"/></pattern>\n"
+            ));
+        }
+        self.text.push_str("</defs>\n");
     }
 
     /// A piece for each part of the way, broader and stronger from one to the next.
@@ -107,6 +144,14 @@ impl Svg {
         }
     }
 
+    /// What a box is filled with.
+    fn fill(&self, ink: Ink) -> String {
+        match ink.hue {
+            Hue::Node(node) if self.hatched => attributes("fill", &format!("url(#node-{node})"), ink.alpha),
+            _ => self.paint("fill", ink),
+        }
+    }
+
     fn paint(&self, what: &str, ink: Ink) -> String {
         paint(what, self.colour(ink.hue), ink.alpha)
     }
@@ -118,7 +163,11 @@ impl Svg {
 
 /// The attributes for a fill or a stroke.
 fn paint(what: &str, colour: Rgb, alpha: f32) -> String {
-    let (colour, opacity) = (hex(colour), number(alpha.clamp(0.0, 1.0)));
+    attributes(what, &hex(colour), alpha)
+}
+
+fn attributes(what: &str, colour: &str, alpha: f32) -> String {
+    let opacity = number(alpha.clamp(0.0, 1.0));
     if opacity == "1" {
         format!(" {what}=\"{colour}\"")
     } else {

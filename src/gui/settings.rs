@@ -9,7 +9,7 @@ use super::tempo::Tempo;
 use crate::balance::{Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::picture::{Division, Quality, Size};
-use crate::runlog::{Driver, Header, Link};
+use crate::runlog::{Caption, Driver, Header, Link};
 use crate::view::Sharing;
 
 /// What the user has set. Speeds and latency act at once, everything else when a run starts.
@@ -173,6 +173,8 @@ impl Settings {
             },
             handling,
             cores: if self.driver == Driver::Sim { self.speeds.len() } else { cores },
+            // A run in virtual time is the same on every computer.
+            caption: if self.driver == Driver::Sim { Caption::default() } else { Caption::here(cores) },
         }
     }
 

@@ -6,6 +6,7 @@ use egui::epaint::text::{FontTweak, VariationCoords};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
 
+use crate::font::PLEX;
 use crate::palette::{self, Rgb};
 
 /// The grid on which everything lies, in points.
@@ -121,7 +122,6 @@ const STRONG: &str = "strong";
 
 /// IBM Plex Sans in two weights of one variable font; egui's own fonts stand in for what it lacks.
 fn fonts() -> FontDefinitions {
-    const PLEX: &[u8] = include_bytes!("../../assets/fonts/IBMPlexSans.ttf");
     let weighted = |weight: f32| {
         let coords = VariationCoords::new([(b"wght", weight)]);
         Arc::new(FontData::from_static(PLEX).tweak(FontTweak { coords, ..Default::default() }))

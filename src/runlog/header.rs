@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::Caption;
 use crate::balance::{Rules, Strategy};
 use crate::picture::{Division, Quality, Size};
 
@@ -36,6 +37,9 @@ pub struct Header {
     pub handling: Duration,
     /// Cores of the computer that emulates the machines; in virtual time as many as there are machines.
     pub cores: usize,
+    /// What is said of the run; nothing in older files.
+    #[serde(default, skip_serializing_if = "Caption::is_empty")]
+    pub caption: Caption,
 }
 
 /// Who executes a run.
@@ -83,12 +87,18 @@ impl Header {
             handling: Duration::ZERO,
             cores: speeds.len(),
             speeds,
+            caption: Caption::default(),
         }
     }
 
     /// What shares the atoms, by its name on the command line.
     pub fn strategy_name(&self) -> &'static str {
         if self.driver == Driver::WorkStealing { self.driver.name() } else { self.rules.strategy.name() }
+    }
+
+    /// What the run is called: its title, else its scene.
+    pub fn title(&self) -> &str {
+        if self.caption.title.is_empty() { &self.scene } else { &self.caption.title }
     }
 
     /// Whether no machine is slower than this computer, and so none has to wait.

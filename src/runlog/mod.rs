@@ -1,5 +1,6 @@
 //! A run as it is kept: what it was asked to do, what happened, and what that amounts to.
 
+mod caption;
 mod check;
 #[cfg(test)]
 pub(crate) mod examples;
@@ -8,6 +9,7 @@ mod header;
 mod log;
 mod tally;
 
+pub use caption::Caption;
 pub use file::{LogError, is_run_file};
 pub use header::{Driver, Header, Link};
 pub use log::RunLog;

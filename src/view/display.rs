@@ -62,6 +62,19 @@ pub enum Mark {
     },
 }
 
+impl Mark {
+    /// The same, so far to the right and down.
+    pub(super) fn moved(mut self, [right, down]: Point) -> Self {
+        let shift = |[x, y]: &mut Point| (*x, *y) = (*x + right, *y + down);
+        match &mut self {
+            Self::Disc { centre, .. } | Self::Box { centre, .. } => shift(centre),
+            Self::Line { points, .. } | Self::Trail { points, .. } => points.iter_mut().for_each(shift),
+            Self::Label { at, .. } => shift(at),
+        }
+        self
+    }
+}
+
 /// Which point of a text its place names; it is always the middle of its height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {

@@ -10,6 +10,7 @@ use super::state::RunState;
 use super::words::{atoms_words, count, counted, duration, fraction, node_name};
 use crate::balance::{NodeId, Strategy};
 use crate::language::{decimal, say, word};
+use crate::runlog::{RunLog, Tally};
 use crate::time::Time;
 
 /// What a finished run amounts to.
@@ -23,6 +24,15 @@ pub struct Outcome {
     pub efficiency: f64,
     /// From the first node that was done with its last atom to the last one.
     pub spread: Duration,
+}
+
+impl Outcome {
+    /// What the run of a log amounts to, if it came to its end. Sums over all records, so not for every frame.
+    pub fn of(log: &RunLog) -> Option<Self> {
+        let tally = Tally::of(log);
+        let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
+        Some(Self { makespan, ideal, efficiency, spread: tally.finish_spread() })
+    }
 }
 
 /// The figures of the result, each with what it is, to be shown large.

@@ -8,7 +8,7 @@ use crate::driver::Update;
 use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
 use crate::record::Record;
-use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::runlog::{Driver, Header, RunLog};
 use crate::time::Time;
 use crate::view::{
     About, Canvas, Dossier, Known, Lanes, Layer, Moment, Narrator, Outcome, Past, Playback, RATES, RunState, Signs,
@@ -377,9 +377,7 @@ fn shown<'a>(earlier: &'a Option<Moment>, known: &'a Known) -> &'a Moment {
 impl RunResult {
     /// What the run amounts to, if it came to its end. Sums over all atoms, so not for every frame.
     fn of(log: &RunLog, state: &RunState) -> Option<Self> {
-        let tally = Tally::of(log);
-        let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
-        let outcome = Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() };
+        let outcome = Outcome::of(log)?;
         let parts = parts_words(state).unwrap_or_default();
         Some(Self { outcome, words: result_words(state, &outcome), parts })
     }

@@ -1,0 +1,148 @@
+//! A recorded run, or a scene, in the forms of other programs.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::args::ExportArgs;
+use super::{Failure, check_outputs, open};
+use crate::driver::{Whole, trace_strips};
+use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
+use crate::output::write_whole;
+use crate::picture::{Frame, Quality, Size, write_png};
+use crate::runlog::{RunLog, is_run_file};
+use crate::scene::Scene;
+use crate::time::Time;
+use crate::tracer::Tracer;
+
+pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let source = Path::new(&args.source);
+    check_outputs(&args.source, &outputs(args))?;
+    if !is_run_file(source) {
+        return export_scene(args);
+    }
+    if let Some(pov) = &args.pov {
+        let (source, pov) = (source.display(), pov.display());
+        return Err(Failure::Refused(format!("{source} is a recorded run; {pov} (--pov) is made of a scene")));
+    }
+    let drawings = drawings(args)?;
+    let log = RunLog::load(source).map_err(|error| Failure::Refused(error.to_string()))?;
+    if let Some(path) = &args.csv {
+        write(path, |file| write_csv(file, &log))?;
+    }
+    if let Some(path) = &args.trace {
+        write(path, |file| write_chrome(file, &log))?;
+    }
+    for (path, drawing, is_png) in drawings {
+        write(path, |file| drawing.write(file, &log, is_png))?;
+    }
+    if args.png.is_none() && args.gif.is_none() {
+        return Ok(());
+    }
+    let scene = Scene::parse(&log.header.scene_text)
+        .map_err(|error| Failure::Refused(format!("the run's own scene cannot be read: {error}")))?;
+    if let Some(path) = &args.png {
+        picture(path, &scene, args.size.unwrap_or(log.header.size), log.header.quality)?;
+    }
+    if let Some(path) = &args.gif {
+        film(path, &scene, &log, Film { width: args.width, length: args.seconds, ..Film::default() })?;
+    }
+    Ok(())
+}
+
+/// Of a scene there is only one form.
+fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
+    let opened = open(&args.source)?;
+    let (others, source) = (outputs(args), &args.source);
+    match (&args.pov, others.first()) {
+        (Some(pov), _) if others.len() == 1 => {
+            // Neither side is 0.
+            let usual = || Size::new(640, 480).map_err(Failure::Refused);
+            let size = args.size.map_or_else(usual, Ok)?;
+            let text = to_pov(&opened.scene, size, &Quality::default());
+            write(pov, |file| file.write_all(text.as_bytes()))
+        }
+        (pov, other) => {
+            let other = others.iter().find(|other| pov.as_deref() != Some(**other)).or(other);
+            let other = other.map_or_else(String::new, |other| other.display().to_string());
+            Err(Failure::Refused(format!(
+                "{source} is a scene, but {other} is made of a recorded run; `anel render {source} --out … --log RUN.anel` \
+                 records one"
+            )))
+        }
+    }
+}
+
+/// All files that are asked for.
+fn outputs(args: &ExportArgs) -> Vec<&Path> {
+    let ExportArgs { pov, csv, trace, gif, ring, timeline, png, .. } = args;
+    [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path).collect()
+}
+
+/// The drawings that are asked for, and whether as PNG.
+fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
+    // The end is known only when the run is read; whatever is later is the end, too.
+    let ring = Drawing::Ring(args.at.unwrap_or(Time(u64::MAX)));
+    let all = [(&args.ring, ring), (&args.timeline, Drawing::Timeline)];
+    let asked = all.into_iter().filter_map(|(path, drawing)| Some((path.as_deref()?, drawing)));
+    let with_ending = |(path, drawing): (&'_ Path, Drawing)| {
+        let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+        match ending.as_deref().and_then(|ending| ending.to_str()) {
+            Some("svg") => Ok((drawing, false)),
+            Some("png") => Ok((drawing, true)),
+            _ => Err(Failure::Refused(format!("{} is drawn as .svg or .png; name it so", path.display()))),
+        }
+    };
+    asked.map(|(path, drawing)| with_ending((path, drawing)).map(|(drawing, is_png)| (path, drawing, is_png))).collect()
+}
+
+/// The scene's picture at any size.
+fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
+    let tracer = Arc::new(Tracer::new(scene, size, quality));
+    let bar = progress("tracing");
+    let rgb = trace_strips(&tracer, &|part| show(&bar, part), &|| false).map_err(Failure::Failed)?;
+    bar.finish_and_clear();
+    // Nobody has ended it.
+    write_png(path, size, &rgb.unwrap_or_default()).map_err(|error| Failure::Failed(error.to_string()))
+}
+
+fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Failure> {
+    let header = &log.header;
+    let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
+    let bar = progress("tracing");
+    let whole = Whole::of(&tracer, header.division, &|atoms| {
+        bar.set_length(header.division.atoms().into());
+        bar.inc(atoms.into());
+    });
+    bar.finish_and_clear();
+    let mut frame = Frame::new(header.size);
+    frame.place(0..header.size.pixels(), &whole.map_err(Failure::Failed)?.pixels);
+    let bar = progress("drawing");
+    let written = write(path, |file| {
+        film.write(file, log, &frame, &mut |part| {
+            show(&bar, part);
+            true
+        })
+    });
+    bar.finish_and_clear();
+    written
+}
+
+fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> Result<(), Failure> {
+    write_whole(path, fill).map_err(|error| Failure::Failed(error.to_string()))
+}
+
+/// Thousandths of what is done.
+fn progress(what: &'static str) -> ProgressBar {
+    let bar = ProgressBar::new(1000).with_message(what);
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} ({eta} left)");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
+fn show(bar: &ProgressBar, part: f64) {
+    bar.set_position((1000.0 * part) as u64);
+}

@@ -1,0 +1,337 @@
+//! A run in the trace format of Chrome, which Perfetto (<https://ui.perfetto.dev>) shows: what each machine did, which
+//! messages were under way, and what part of the machines traced.
+//!
+//! Machines and messages are processes of their own. A slice (`X`) never overlaps another on its track: a machine traces one atom at
+//! a time, and messages that are under way together have tracks beside each other. Arrows (`s`, `t`, `f`) lead from an offer's
+//! hop to the next and to its answer, and with atoms from whoever gives them to the first that is traced elsewhere.
+
+use std::collections::HashMap;
+use std::io::{self, Write};
+
+use serde_json::{Value, json};
+
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::record::What;
+use crate::runlog::RunLog;
+use crate::time::Time;
+use crate::view::{Lanes, Traced, node_name};
+
+/// The process of the machines, and those of the messages.
+const MACHINES: u32 = 1;
+const ATOMS: u32 = 2;
+const OFFERS: u32 = 3;
+const RESULTS: u32 = 4;
+
+/// Of how many stretches of the run it is told what part of the machines traced.
+const STRETCHES: u64 = 400;
+
+/// Writes a run as Chrome's trace.
+///
+/// # Errors
+/// What `to` says.
+pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
+    let mut lanes = Lanes::new(&log.header);
+    log.records().iter().for_each(|record| lanes.apply(record));
+    let header = &log.header;
+    let about = json!({
+        "scene": header.scene,
+        "strategy": header.strategy_name(),
+        "driver": header.driver.name(),
+        "title": header.caption.title,
+        "memo": header.caption.memo,
+        "machine": header.caption.machine,
+    });
+    write!(to, "{{\"displayTimeUnit\":\"ms\",\"otherData\":{about},\"traceEvents\":[")?;
+    let mut events = Events { to, any: false };
+    name_tracks(log, &mut events)?;
+    let traced = trace_machines(&lanes, &mut events)?;
+    let travelled = messages(log, &mut events)?;
+    offers(log, &travelled, &mut events)?;
+    parcels(log, &traced, &travelled, &mut events)?;
+    happenings(log, &mut events)?;
+    usage(&lanes, &mut events)?;
+    writeln!(events.to, "\n]}}")
+}
+
+/// Events in the making, one a line.
+struct Events<W> {
+    to: W,
+    any: bool,
+}
+
+impl<W: Write> Events<W> {
+    fn put(&mut self, event: &Value) -> io::Result<()> {
+        self.to.write_all(if self.any { b",\n" } else { b"\n" })?;
+        self.any = true;
+        serde_json::to_writer(&mut self.to, event).map_err(io::Error::from)
+    }
+
+    /// An arrow through these slices; a single one has nowhere to point at.
+    fn arrow(&mut self, (id, name): (u64, &str), through: &[Place]) -> io::Result<()> {
+        if through.len() < 2 {
+            return Ok(());
+        }
+        for (i, &Place { process, track, at }) in through.iter().enumerate() {
+            let phase = match i {
+                0 => "s",
+                _ if i + 1 == through.len() => "f",
+                _ => "t",
+            };
+            let mut event = json!({
+                "ph": phase, "cat": "message", "name": name, "id": id, "pid": process, "tid": track, "ts": micros(at),
+            });
+            if phase == "f" {
+                // To the slice that begins there, not to the one that follows.
+                event["bp"] = "e".into();
+            }
+            self.put(&event)?;
+        }
+        Ok(())
+    }
+}
+
+/// The slice that contains a time.
+#[derive(Clone, Copy)]
+struct Place {
+    process: u32,
+    track: usize,
+    at: Time,
+}
+
+/// Where each atom was traced, and from when on.
+type AtomPlaces = HashMap<Atom, (NodeId, Traced)>;
+
+/// By message: the slice that shows it under way.
+type Travelled = HashMap<u64, Place>;
+
+fn name_tracks(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
+    let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
+    let processes = [
+        (MACHINES, run.as_str()),
+        (ATOMS, "atoms under way"),
+        (OFFERS, "offers and requests under way"),
+        (RESULTS, "results under way"),
+    ];
+    for (process, name) in processes {
+        let order =
+            json!({ "ph": "M", "name": "process_sort_index", "pid": process, "args": { "sort_index": process } });
+        events.put(&json!({ "ph": "M", "name": "process_name", "pid": process, "args": { "name": name } }))?;
+        events.put(&order)?;
+    }
+    for (node, speed) in (0..).zip(&log.header.speeds) {
+        let name = format!("machine {} ({:.0} %)", node_name(node), 100.0 * speed);
+        let track = track_of(node);
+        let about =
+            |what: &str, args: Value| json!({ "ph": "M", "name": what, "pid": MACHINES, "tid": track, "args": args });
+        events.put(&about("thread_name", json!({ "name": name })))?;
+        events.put(&about("thread_sort_index", json!({ "sort_index": track })))?;
+    }
+    Ok(())
+}
+
+/// A slice for each atom.
+fn trace_machines(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<AtomPlaces> {
+    let mut places = AtomPlaces::new();
+    for (node, lane) in (0..).zip(lanes.lanes()) {
+        let mut free = Time::ZERO;
+        for &bar in lane.bars() {
+            // Whatever a file says, a machine traces one atom at a time.
+            let from = bar.from.max(free);
+            free = bar.to.max(from);
+            let name = format!("atom {}", bar.atom);
+            events.put(&slice(
+                &name,
+                "atom",
+                Place { process: MACHINES, track: track_of(node), at: from },
+                free,
+                json!({}),
+            ))?;
+            places.insert(bar.atom, (node, Traced { from, to: free, ..bar }));
+        }
+    }
+    Ok(places)
+}
+
+/// A slice for each message, from when it left to when it arrives, on the first of the tracks of its kind that is free.
+fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travelled> {
+    let mut travelled = Travelled::new();
+    // By kind and track: until when it is taken.
+    let mut taken: HashMap<u32, Vec<Time>> = HashMap::new();
+    for record in log.records() {
+        let What::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
+        let (process, what) = match message {
+            Message::Band(_) => (ATOMS, "band"),
+            Message::Part(_) => (ATOMS, "part"),
+            Message::Transfer(_) => (ATOMS, "transfer"),
+            Message::Offer { who, .. } if Party::Node(*who) == *from => (OFFERS, "offer"),
+            Message::Offer { .. } => (OFFERS, "hop"),
+            Message::Request => (OFFERS, "request"),
+            Message::Shutdown => (OFFERS, "shutdown"),
+            Message::Results(_) => (RESULTS, "results"),
+        };
+        let tracks = taken.entry(process).or_default();
+        let track = tracks.iter().position(|until| *until <= record.at).unwrap_or(tracks.len());
+        if track == tracks.len() {
+            tracks.push(Time::ZERO);
+            let (track, name) = (track + 1, format!("{}", track + 1));
+            events.put(&json!({
+                "ph": "M", "name": "thread_name", "pid": process, "tid": track, "args": { "name": name },
+            }))?;
+        }
+        tracks[track] = *arrives;
+        let place = Place { process, track: track + 1, at: record.at };
+        let name = format!("{what} {} → {}", party(*from), party(*to));
+        let args = json!({ "message": id, "atoms": atoms(message), "bytes": bytes });
+        events.put(&slice(&name, what, place, *arrives, args))?;
+        travelled.insert(*id, place);
+    }
+    Ok(travelled)
+}
+
+/// An arrow through the hops of each offer, and on to the atoms that answer it.
+fn offers(log: &RunLog, travelled: &Travelled, events: &mut Events<impl Write>) -> io::Result<()> {
+    // By machine: the number of the offer that it has out, and the slices that it has gone through.
+    let mut out: HashMap<NodeId, (u64, Vec<Place>)> = HashMap::new();
+    for record in log.records() {
+        let What::Sent { id, from, to, message, .. } = &record.what else { continue };
+        let Some(&place) = travelled.get(id) else { continue };
+        match (message, to) {
+            (Message::Offer { who, .. }, _) => {
+                if Party::Node(*who) == *from
+                    && let Some((before, through)) = out.insert(*who, (*id, Vec::new()))
+                {
+                    events.arrow((2 * before, "offer"), &through)?;
+                }
+                if let Some((_, through)) = out.get_mut(who) {
+                    through.push(place);
+                }
+            }
+            (Message::Transfer(_), Party::Node(who)) => {
+                if let Some((before, mut through)) = out.remove(who) {
+                    through.push(place);
+                    events.arrow((2 * before, "offer"), &through)?;
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut left: Vec<_> = out.into_values().collect();
+    left.sort_by_key(|(id, _)| *id);
+    left.iter().try_for_each(|(id, through)| events.arrow((2 * id, "offer"), through))
+}
+
+/// An arrow from whoever gives atoms through their slice under way to the first of them that is traced.
+fn parcels(
+    log: &RunLog,
+    traced: &AtomPlaces,
+    travelled: &Travelled,
+    events: &mut Events<impl Write>,
+) -> io::Result<()> {
+    // By machine: what it traced, by time.
+    let mut by_node: HashMap<NodeId, Vec<Traced>> = HashMap::new();
+    traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
+    by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
+    for record in log.records() {
+        let What::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.what else { continue };
+        let ranges = match message {
+            Message::Band(range) | Message::Part(range) => std::slice::from_ref(range),
+            Message::Transfer(ranges) => &ranges[..],
+            _ => continue,
+        };
+        let mut through = Vec::new();
+        if let Party::Node(giver) = from
+            && let Some(bars) = by_node.get(giver)
+            && let Some(bar) = bars[..bars.partition_point(|bar| bar.from <= record.at)].last()
+            && record.at <= bar.to
+        {
+            through.push(Place { process: MACHINES, track: track_of(*giver), at: record.at });
+        }
+        through.extend(travelled.get(id));
+        let here = ranges.iter().cloned().flatten().filter_map(|atom| traced.get(&atom));
+        let first = here.filter(|(node, bar)| node == to && bar.from >= *arrives).min_by_key(|(_, bar)| bar.from);
+        through.extend(first.map(|(_, bar)| Place { process: MACHINES, track: track_of(*to), at: bar.from }));
+        events.arrow((2 * id + 1, "atoms"), &through)?;
+    }
+    Ok(())
+}
+
+/// What is done to machines, and what ends.
+fn happenings(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
+    for record in log.records() {
+        let (node, what) = match &record.what {
+            What::Paused { node } => (Some(*node), "paused".into()),
+            What::Resumed { node } => (Some(*node), "resumed".into()),
+            What::Retired { node } => (Some(*node), "retired".into()),
+            What::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
+            What::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
+            What::Finished => (None, "the picture is complete".into()),
+            _ => continue,
+        };
+        let (track, scope) = node.map_or((0, "g"), |node| (track_of(node), "t"));
+        let ts = micros(record.at);
+        events.put(
+            &json!({ "ph": "i", "name": what, "cat": "run", "pid": MACHINES, "tid": track, "ts": ts, "s": scope }),
+        )?;
+    }
+    Ok(())
+}
+
+/// What part of the machines traced, stretch by stretch.
+fn usage(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<()> {
+    let bars = || lanes.lanes().iter().flat_map(|lane| lane.bars());
+    let end = bars().map(|bar| bar.to.0).max().unwrap_or_default();
+    let length = end.div_ceil(STRETCHES).max(1);
+    let mut busy = vec![0_u64; STRETCHES as usize];
+    for bar in bars() {
+        for stretch in bar.from.0 / length..=(bar.to.0.saturating_sub(1) / length) {
+            let (start, stop) = (stretch * length, (stretch + 1).saturating_mul(length));
+            if let Some(busy) = busy.get_mut(stretch as usize) {
+                *busy += bar.to.0.min(stop).saturating_sub(bar.from.0.max(start));
+            }
+        }
+    }
+    let whole = length as f64 * lanes.lanes().len().max(1) as f64;
+    for (stretch, busy) in (0..).zip(busy) {
+        let part = 100.0 * busy as f64 / whole;
+        events.put(&json!({
+            "ph": "C", "name": "machines that trace (%)", "pid": MACHINES, "tid": 0, "ts": micros(Time(stretch * length)),
+            "args": { "part": part },
+        }))?;
+    }
+    Ok(())
+}
+
+/// A slice from its place until a time.
+fn slice(name: &str, kind: &str, place: Place, until: Time, args: Value) -> Value {
+    let Place { process, track, at } = place;
+    json!({
+        "ph": "X", "name": name, "cat": kind, "pid": process, "tid": track, "ts": micros(at),
+        "dur": micros(Time(until.0.saturating_sub(at.0))), "args": args,
+    })
+}
+
+/// The parent's is 0.
+fn track_of(node: NodeId) -> usize {
+    usize::from(node) + 1
+}
+
+/// The format's unit; nanoseconds are its decimals.
+fn micros(time: Time) -> f64 {
+    time.0 as f64 / 1e3
+}
+
+fn party(party: Party) -> String {
+    match party {
+        Party::Parent => "parent".into(),
+        Party::Node(node) => node_name(node).to_string(),
+    }
+}
+
+fn atoms(message: &Message) -> u64 {
+    match message {
+        Message::Band(range) | Message::Part(range) => range.len() as u64,
+        Message::Transfer(ranges) | Message::Results(ranges) => ranges.iter().map(|range| range.len() as u64).sum(),
+        Message::Request | Message::Offer { .. } | Message::Shutdown => 0,
+    }
+}

@@ -1,0 +1,227 @@
+//! The records as a table: one row a record, in the order of time.
+
+use std::io::{self, Write};
+use std::ops::Range;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::record::{Record, What};
+use crate::runlog::RunLog;
+use crate::time::Time;
+
+/// One row. What a record says nothing of is empty; machines are numbered from 1, as in the window.
+#[derive(Default, Serialize)]
+struct Row {
+    /// Seconds since the run began, to the nanosecond.
+    time_s: String,
+    /// What happened.
+    what: &'static str,
+    /// The machine that it happened to.
+    node: Option<NodeName>,
+    /// Who sent the message.
+    from: Option<NodeName>,
+    /// Who gets it.
+    to: Option<NodeName>,
+    /// The number of the message in the run.
+    message: Option<u64>,
+    /// The machine whose offer it is.
+    offerer: Option<NodeName>,
+    /// The atoms, as `4` or `4-9`, with spaces between.
+    atoms: Option<String>,
+    /// How many atoms; of an offer, how many its machine has traced.
+    count: Option<u32>,
+    /// The weight of the message.
+    bytes: Option<u64>,
+    /// When the message arrives.
+    arrives_s: Option<String>,
+    /// CPU seconds in the tracer.
+    cost_s: Option<String>,
+    /// The new speed, as a part of the reference machine's.
+    speed: Option<f64>,
+    /// The new latency of all links.
+    latency_s: Option<String>,
+}
+
+/// `parent`, or a machine's number.
+#[derive(Serialize)]
+struct NodeName(String);
+
+/// Writes the records of a run as CSV, with a line of names above them.
+///
+/// # Errors
+/// What `to` says.
+pub fn write_csv(to: impl Write, log: &RunLog) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(to);
+    if log.records().is_empty() {
+        // Without a row nobody would write the names.
+        table.write_record(COLUMNS)?;
+    }
+    log.records().iter().try_for_each(|record| table.serialize(row(record)))?;
+    table.flush()
+}
+
+const COLUMNS: [&str; 14] = [
+    "time_s",
+    "what",
+    "node",
+    "from",
+    "to",
+    "message",
+    "offerer",
+    "atoms",
+    "count",
+    "bytes",
+    "arrives_s",
+    "cost_s",
+    "speed",
+    "latency_s",
+];
+
+fn row(record: &Record) -> Row {
+    let of = |what, node: NodeId| Row { what, node: Some(name(Party::Node(node))), ..Row::default() };
+    let row = match &record.what {
+        What::Sent { id, from, to, message, bytes, arrives } => Row {
+            from: Some(name(*from)),
+            to: Some(name(*to)),
+            message: Some(*id),
+            bytes: Some(*bytes),
+            arrives_s: Some(at(*arrives)),
+            ..sent(*from, message)
+        },
+        What::Received { id, by } => {
+            Row { what: "received", node: Some(name(*by)), message: Some(*id), ..Row::default() }
+        }
+        What::AtomStarted { node, atom } => {
+            Row { atoms: Some(atom.to_string()), count: Some(1), ..of("started", *node) }
+        }
+        What::AtomDone { node, atom, cost } => {
+            Row { atoms: Some(atom.to_string()), count: Some(1), cost_s: Some(seconds(*cost)), ..of("done", *node) }
+        }
+        What::SpeedSet { node, speed } => Row { speed: Some(*speed), ..of("speed", *node) },
+        What::Paused { node } => of("paused", *node),
+        What::Resumed { node } => of("resumed", *node),
+        What::Retired { node } => of("retired", *node),
+        What::LatencySet { latency } => Row { what: "latency", latency_s: Some(seconds(*latency)), ..Row::default() },
+        What::Estimating => Row { what: "estimating", ..Row::default() },
+        What::Estimated { costs } => {
+            Row { what: "estimated", cost_s: Some(seconds(costs.iter().sum())), ..Row::default() }
+        }
+        What::Finished => Row { what: "finished", ..Row::default() },
+    };
+    Row { time_s: at(record.at), ..row }
+}
+
+/// What a message says.
+fn sent(from: Party, message: &Message) -> Row {
+    let carried = |what, ranges: &[Range<Atom>]| {
+        let count = ranges.iter().map(|range| range.len() as u32).sum();
+        Row { what, atoms: Some(atoms(ranges)), count: Some(count), ..Row::default() }
+    };
+    match message {
+        Message::Band(band) => carried("band", std::slice::from_ref(band)),
+        Message::Part(part) => carried("part", std::slice::from_ref(part)),
+        Message::Transfer(ranges) => carried("transfer", ranges),
+        Message::Results(ranges) => carried("results", ranges),
+        Message::Request => Row { what: "request", ..Row::default() },
+        Message::Shutdown => Row { what: "shutdown", ..Row::default() },
+        Message::Offer { who, done } => {
+            let what = if from == Party::Node(*who) { "offer" } else { "hop" };
+            Row { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..Row::default() }
+        }
+    }
+}
+
+fn name(party: Party) -> NodeName {
+    NodeName(match party {
+        Party::Parent => "parent".into(),
+        Party::Node(node) => (u32::from(node) + 1).to_string(),
+    })
+}
+
+fn atoms(ranges: &[Range<Atom>]) -> String {
+    let shown = |range: &Range<Atom>| match range.len() {
+        1 => range.start.to_string(),
+        _ => format!("{}-{}", range.start, range.end - 1),
+    };
+    let ranges: Vec<_> = ranges.iter().filter(|range| !range.is_empty()).map(shown).collect();
+    ranges.join(" ")
+}
+
+fn at(time: Time) -> String {
+    seconds(Duration::from_nanos(time.0))
+}
+
+/// With nine digits, so that nothing is lost.
+fn seconds(length: Duration) -> String {
+    format!("{}.{:09}", length.as_secs(), length.subsec_nanos())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::balance::Strategy as Sharing;
+    use crate::picture::Size;
+    use crate::runlog::{Driver, Header, Tally};
+    use crate::sim::Sim;
+
+    fn log(speeds: Vec<f64>, pixels: u32, strategy: Sharing) -> RunLog {
+        let plain = Header::plain(Size::new(pixels, 10).expect("a small picture"), 10, strategy, speeds);
+        let header = Header { driver: Driver::Sim, ..plain };
+        let (mut log, mut records) = (RunLog::new(header.clone()), Vec::new());
+        Sim::new(&header, &[], |atom| Duration::from_micros(100 + u64::from(atom % 7)))
+            .run(&mut |record| records.push(record));
+        log.add(records);
+        log
+    }
+
+    /// The rows, with their columns' names.
+    fn read(log: &RunLog) -> Vec<std::collections::HashMap<String, String>> {
+        let mut text = Vec::new();
+        write_csv(&mut text, log).expect("memory takes everything");
+        csv::Reader::from_reader(&text[..]).deserialize().collect::<Result<_, _>>().expect("a table")
+    }
+
+    proptest! {
+        #[test]
+        fn the_table_tells_what_the_records_do(
+            speeds in prop::collection::vec(0.1..1.0f64, 1..6), pixels in 1..60u32, strategy in prop::sample::select(&Sharing::ALL),
+        ) {
+            let log = log(speeds, pixels, strategy);
+            let (rows, tally) = (read(&log), Tally::of(&log));
+            prop_assert_eq!(rows.len(), log.records().len());
+            let rows_of = |what: &str| rows.iter().filter(|row| row["what"] == what).count() as u64;
+            let messages = tally.messages();
+            let told = [rows_of("offer"), rows_of("hop"), rows_of("transfer"), rows_of("request"), rows_of("results")];
+            let counted = [messages.offers, messages.hops, messages.transfers, messages.requests, messages.results];
+            prop_assert_eq!(told, counted);
+            let sum = |column: &str| rows.iter().filter_map(|row| row[column].parse::<f64>().ok()).sum::<f64>();
+            prop_assert_eq!(sum("bytes") as u64, messages.bytes);
+            let costs = rows.iter().filter(|row| row["what"] == "done").map(|row| row["cost_s"].parse::<f64>().expect("a number"));
+            prop_assert!((costs.sum::<f64>() - tally.work().as_secs_f64()).abs() < 1e-9);
+            let times: Vec<f64> = rows.iter().map(|row| row["time_s"].parse().expect("a time")).collect();
+            prop_assert!(times.is_sorted());
+        }
+    }
+
+    #[test]
+    fn atoms_are_told_as_ranges() {
+        assert_eq!(atoms(&[4..5, 7..7, 9..12]), "4 9-11");
+        assert_eq!((at(Time(1)), at(Time(12_000_000_345))), ("0.000000001".into(), "12.000000345".into()));
+    }
+
+    #[test]
+    fn a_run_without_records_has_the_names_of_the_columns() {
+        let some = log(vec![1.0], 1, Sharing::Ring);
+        let columns = |log: &RunLog| {
+            let mut text = Vec::new();
+            write_csv(&mut text, log).expect("memory takes everything");
+            String::from_utf8_lossy(&text).lines().next().map(str::to_owned)
+        };
+        assert_eq!(columns(&RunLog::new(some.header.clone())), columns(&some));
+    }
+}

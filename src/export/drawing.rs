@@ -1,0 +1,51 @@
+//! A run on paper as a file: SVG, or the same as PNG.
+
+use std::io::{self, Write};
+
+use super::{Raster, to_hatched_svg, to_svg};
+use crate::picture::encode_png;
+use crate::runlog::RunLog;
+use crate::time::Time;
+use crate::view::Paper;
+
+/// What is drawn of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    /// The ring as it was at a time.
+    Ring(Time),
+    /// The timeline of all of it.
+    Timeline,
+}
+
+impl Drawing {
+    /// Pixels of a PNG in a unit of the SVG.
+    const SCALE: f32 = 2.0;
+
+    /// The text of an SVG file.
+    pub fn svg(self, log: &RunLog) -> String {
+        let nodes = log.header.speeds.len();
+        match self {
+            Self::Ring(at) => {
+                let Paper { marks, size } = Paper::ring(log, at);
+                to_svg(&marks, size, nodes)
+            }
+            Self::Timeline => {
+                let Paper { marks, size } = Paper::timeline(log);
+                to_hatched_svg(&marks, size, nodes)
+            }
+        }
+    }
+
+    /// Writes it as PNG if it `is_png`, else as SVG.
+    ///
+    /// # Errors
+    /// What `to` says.
+    pub fn write(self, mut to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
+        let svg = self.svg(log);
+        if !is_png {
+            return to.write_all(svg.as_bytes());
+        }
+        let (size, rgb) = Raster::new().draw(&svg, Self::SCALE).map_err(io::Error::other)?;
+        encode_png(to, size, &rgb)
+    }
+}

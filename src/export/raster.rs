@@ -1,0 +1,92 @@
+//! SVG as pixels.
+
+use std::sync::Arc;
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+use crate::font::{PLEX, PLEX_NAME};
+use crate::picture::Size;
+
+/// Draws SVG in the program's own typeface, whatever fonts the computer has.
+pub struct Raster {
+    options: Options<'static>,
+}
+
+impl Raster {
+    /// Takes the font in.
+    pub fn new() -> Self {
+        let mut fonts = fontdb::Database::new();
+        fonts.load_font_source(fontdb::Source::Binary(Arc::new(PLEX)));
+        fonts.set_sans_serif_family(PLEX_NAME);
+        let options = Options { font_family: PLEX_NAME.into(), fontdb: Arc::new(fonts), ..Options::default() };
+        Self { options }
+    }
+
+    /// The pixels of an SVG file, so many times as large as it says: three bytes each, sRGB, in scan order.
+    ///
+    /// # Errors
+    /// A sentence, if it is not SVG or too large to be drawn.
+    pub fn draw(&self, svg: &str, scale: f32) -> Result<(Size, Vec<u8>), String> {
+        let tree = Tree::from_str(svg, &self.options).map_err(|error| format!("the drawing is not SVG: {error}"))?;
+        let side = |length: f32| (length * scale).round() as u32;
+        let size = Size::new(side(tree.size().width()), side(tree.size().height()))?;
+        let mut pixels = Pixmap::new(size.width(), size.height())
+            .ok_or_else(|| format!("a drawing of {size} pixels is too large"))?;
+        // Whatever the SVG leaves open is paper.
+        pixels.fill(resvg::tiny_skia::Color::WHITE);
+        resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+        // On white nothing is transparent any more.
+        let rgb = pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+        Ok((size, rgb))
+    }
+}
+
+impl Default for Raster {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::to_svg;
+    use super::*;
+    use crate::palette::PRINT;
+    use crate::view::{Anchor, Hue, Mark, TextSize};
+
+    #[test]
+    fn what_is_drawn_is_where_it_was_said_to_be() {
+        let disc = Mark::Disc { centre: [30.0, 20.0], radius: 10.0, ink: Hue::Text.full() };
+        let (size, rgb) = Raster::new().draw(&to_svg(&[disc], [60.0, 40.0], 1), 2.0).expect("a drawing");
+        assert_eq!((size.width(), size.height()), (120, 80));
+        let at = |x: usize, y: usize| [0, 1, 2].map(|channel| rgb[3 * (120 * y + x) + channel]);
+        assert_eq!([at(60, 40), at(75, 40)], [PRINT.text; 2]);
+        assert_eq!([at(5, 5), at(85, 40), at(60, 65)], [PRINT.ground; 3]);
+    }
+
+    /// How many pixels of a text are not white.
+    fn ink(text: &str, size: TextSize) -> usize {
+        let (at, anchor, ink) = ([5.0, 20.0], Anchor::Left, Hue::Text.full());
+        let label = Mark::Label { at, anchor, text: text.into(), size, ink };
+        let (_, rgb) = Raster::new().draw(&to_svg(&[label], [200.0, 40.0], 1), 1.0).expect("a drawing");
+        rgb.chunks(3).filter(|pixel| *pixel != [0xff; 3]).count()
+    }
+
+    #[test]
+    fn text_is_drawn_without_any_font_of_the_computer() {
+        assert!(ink("ring", TextSize::Body(1.0)) > 100);
+        assert_eq!(ink("", TextSize::Body(1.0)), 0);
+        assert!(ink("ring", TextSize::Fit(13.0)) > ink("ring", TextSize::Small(1.0)), "strong is broader");
+        // What a box would stand for is in the font.
+        assert_ne!(
+            ink("→ × … µ", TextSize::Body(1.0)),
+            ink("\u{10fffe} \u{10fffe} \u{10fffe} \u{10fffe}", TextSize::Body(1.0))
+        );
+    }
+
+    #[test]
+    fn what_is_no_svg_is_refused_in_a_sentence() {
+        assert!(Raster::new().draw("no svg", 1.0).is_err_and(|why| why.contains("not SVG")));
+    }
+}
