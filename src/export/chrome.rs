@@ -5,7 +5,7 @@
 //! a time, and messages that are under way together have tracks beside each other. Arrows (`s`, `t`, `f`) lead from an offer's
 //! hop to the next and to its answer, and with atoms from whoever gives them to the first that is traced elsewhere.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use serde_json::{Value, json};
@@ -100,10 +100,10 @@ struct Place {
 }
 
 /// Where each atom was traced, and from when on.
-type AtomPlaces = HashMap<Atom, (NodeId, Traced)>;
+type AtomPlaces = BTreeMap<Atom, (NodeId, Traced)>;
 
 /// By message: the slice that shows it under way.
-type Travelled = HashMap<u64, Place>;
+type Travelled = BTreeMap<u64, Place>;
 
 fn name_tracks(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
     let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
@@ -157,7 +157,7 @@ fn trace_machines(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<
 fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travelled> {
     let mut travelled = Travelled::new();
     // By kind and track: until when it is taken.
-    let mut taken: HashMap<u32, Vec<Time>> = HashMap::new();
+    let mut taken: BTreeMap<u32, Vec<Time>> = BTreeMap::new();
     for record in log.records() {
         let What::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
         let (process, what) = match message {
@@ -192,7 +192,7 @@ fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travell
 /// An arrow through the hops of each offer, and on to the atoms that answer it.
 fn offers(log: &RunLog, travelled: &Travelled, events: &mut Events<impl Write>) -> io::Result<()> {
     // By machine: the number of the offer that it has out, and the slices that it has gone through.
-    let mut out: HashMap<NodeId, (u64, Vec<Place>)> = HashMap::new();
+    let mut out: BTreeMap<NodeId, (u64, Vec<Place>)> = BTreeMap::new();
     for record in log.records() {
         let What::Sent { id, from, to, message, .. } = &record.what else { continue };
         let Some(&place) = travelled.get(id) else { continue };
@@ -229,7 +229,7 @@ fn parcels(
     events: &mut Events<impl Write>,
 ) -> io::Result<()> {
     // By machine: what it traced, by time.
-    let mut by_node: HashMap<NodeId, Vec<Traced>> = HashMap::new();
+    let mut by_node: BTreeMap<NodeId, Vec<Traced>> = BTreeMap::new();
     traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
     for record in log.records() {

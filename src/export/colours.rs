@@ -1,46 +1,49 @@
 //! The few colours of a frame that has many.
 
 use std::cmp::Reverse;
-use std::collections::HashMap;
 
-use color_quant::NeuQuant;
+use quantette::deps::palette::Srgb;
+use quantette::{Image, PaletteSize, Pipeline};
 
 use crate::palette::Rgb;
 
 /// A palette of at most 255 colours, and which of them stands for each colour that was there; one more place is for none.
 pub(super) struct Colours {
     palette: Vec<u8>,
-    indices: HashMap<Rgb, u8>,
+    /// By colour.
+    indices: Vec<(Rgb, u8)>,
 }
 
 /// A palette has 256 places, of which one is for none.
 const MOST: usize = 255;
 
-/// If colours are too many, so many of the most frequent are kept as they are: flat areas stay flat, and meet without a seam
-/// what was shown before.
-const KEPT: usize = 64;
+/// If colours are too many, those of whole areas are kept as they are, one in so many pixels or more: areas stay flat, and meet
+/// without a seam what was shown before.
+const AREA: usize = 100;
 
 impl Colours {
     /// For these pixels.
-    pub fn of(pixels: impl Iterator<Item = Rgb> + Clone) -> Self {
-        let mut counts: HashMap<Rgb, u32> = HashMap::new();
-        pixels.clone().for_each(|colour| *counts.entry(colour).or_default() += 1);
-        let mut colours: Vec<(Rgb, u32)> = counts.into_iter().collect();
+    pub fn of(pixels: impl Iterator<Item = Rgb>) -> Self {
+        let mut pixels: Vec<Rgb> = pixels.collect();
+        pixels.sort_unstable();
+        let count = |same: &[Rgb]| (same[0], same.len());
+        let mut colours: Vec<(Rgb, usize)> = pixels.chunk_by(Rgb::eq).map(count).collect();
         colours.sort_unstable_by_key(|&(colour, count)| (Reverse(count), colour));
-        let kept = if colours.len() <= MOST { colours.len() } else { KEPT };
-        let (kept, others) = colours.split_at(kept);
+        let is_area = |(_, count): &(Rgb, usize)| count * AREA >= pixels.len();
+        let areas = colours.iter().take_while(|of| is_area(of)).count();
+        let (kept, others) = colours.split_at(if colours.len() <= MOST { colours.len() } else { areas });
         let mut palette: Vec<u8> = kept.iter().flat_map(|(colour, _)| *colour).collect();
-        let mut indices: HashMap<Rgb, u8> = (0..).zip(kept).map(|(index, (colour, _))| (*colour, index)).collect();
+        // At most 255 in all.
+        let mut indices: Vec<(Rgb, u8)> = (0..).zip(kept).map(|(index, (colour, _))| (*colour, index)).collect();
         if !others.is_empty() {
-            let rgba = |[r, g, b]: Rgb| [r, g, b, 0xff];
-            let rest: Vec<u8> = pixels.filter(|colour| !indices.contains_key(colour)).flat_map(rgba).collect();
-            // Of many pixels a part shows what colours there are.
-            let one_in = if rest.len() > 1 << 18 { 5 } else { 1 };
-            let learned = NeuQuant::new(one_in, MOST - KEPT, &rest);
-            palette.extend(learned.color_map_rgb());
-            // No more than 255 in all.
-            indices.extend(others.iter().map(|(colour, _)| (*colour, (KEPT + learned.index_of(&rgba(*colour))) as u8)));
+            // As often as they are seen.
+            let rest = others.iter().flat_map(|&(colour, count)| std::iter::repeat_n(Srgb::from(colour), count));
+            let (found, chosen) = chosen(&rest.clone().collect::<Vec<_>>(), MOST - kept.len());
+            palette.extend(found.into_iter().flat_map(<[u8; 3]>::from));
+            indices.extend(rest.map(Rgb::from).zip(chosen.into_iter().map(|place| kept.len() as u8 + place)));
         }
+        indices.sort_unstable();
+        indices.dedup();
         Self { palette, indices }
     }
 
@@ -57,8 +60,18 @@ impl Colours {
 
     /// The place of what stands for a colour that was there.
     pub fn index(&self, colour: Rgb) -> u8 {
-        self.indices.get(&colour).copied().unwrap_or_default()
+        let place = self.indices.binary_search_by_key(&colour, |(known, _)| *known);
+        place.map_or(0, |place| self.indices[place].1)
     }
+}
+
+/// At most so many colours that stand for those of many pixels, and by pixel which of them.
+fn chosen(pixels: &[Srgb<u8>], most: usize) -> (Vec<Srgb<u8>>, Vec<u8>) {
+    let row = u32::try_from(pixels.len()).ok().and_then(|width| Image::new(width, 1, pixels).ok());
+    // No picture of this program has so many pixels that they cannot be counted.
+    let Some(row) = row else { return Default::default() };
+    let size = PaletteSize::from_usize_clamped(most);
+    Pipeline::new().palette_size(size).ditherer(None).input_image(row).output_srgb8_indexed_image().into_parts()
 }
 
 #[cfg(test)]

@@ -161,6 +161,8 @@ fn seconds(length: Duration) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use proptest::prelude::*;
 
     use super::*;
@@ -180,7 +182,7 @@ mod tests {
     }
 
     /// The rows, with their columns' names.
-    fn read(log: &RunLog) -> Vec<std::collections::HashMap<String, String>> {
+    fn read(log: &RunLog) -> Vec<BTreeMap<String, String>> {
         let mut text = Vec::new();
         write_csv(&mut text, log).expect("memory takes everything");
         csv::Reader::from_reader(&text[..]).deserialize().collect::<Result<_, _>>().expect("a table")

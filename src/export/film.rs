@@ -31,9 +31,12 @@ impl Default for Film {
     }
 }
 
-/// How long a frame is seen, and the last, in hundredths of a second, the format's unit: 12.5 frames a second.
+/// How long a frame is seen in hundredths of a second, the format's unit: 12.5 frames a second.
 const SEEN: u16 = 8;
-const LAST_SEEN: u16 = 300;
+
+/// How long the end is seen: at first as the run left it, then the render alone.
+const END_SEEN: u16 = 150;
+const RENDER_SEEN: u16 = 300;
 
 /// Between things, and below them for the words.
 const GAP: u32 = 16;
@@ -71,11 +74,13 @@ impl Film {
             if !tell(number as f64 / frames as f64) {
                 return Err(io::ErrorKind::Interrupted.into());
             }
-            let is_last = number == frames;
             let at = Time((u128::from(projector.end.0) * u128::from(number) / u128::from(frames)) as u64);
+            let is_last = number == frames;
             let image = projector.at(at, is_last).map_err(io::Error::other)?;
-            animation.show(&image, if is_last { LAST_SEEN } else { SEEN })?;
+            animation.show(&image, if is_last { END_SEEN } else { SEEN })?;
         }
+        projector.look.1 = 0.0;
+        animation.show(&projector.at(projector.end, true).map_err(io::Error::other)?, RENDER_SEEN)?;
         animation.end()
     }
 }

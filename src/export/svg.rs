@@ -88,7 +88,8 @@ impl Svg {
             self.put(format_args!(
                 "<pattern id=\"node-{node}\" width=\"{side}\" height=\"{side}\" patternUnits=\"userSpaceOnUse\">\
                  <rect width=\"{side}\" height=\"{side}\" fill=\"{ground}\"/>\
-                 <path d=\"{pattern}\" fill=\"none\" stroke=\"{line}\" stroke-width=\"1.2\"/></pattern>\n"
+                 <path d=\"{pattern}\" fill=\"none\" stroke=\"{line}\" stroke-width=\"1.1\" \
+                 stroke-opacity=\"0.8\"/></pattern>\n"
             ));
         }
         self.text.push_str("</defs>\n");

@@ -164,7 +164,9 @@ impl App {
         if self.save_bar.is_open() {
             let shown = self.picture.shown();
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown);
-            Panel::top("save bar").frame(panel(8, 8)).show(ui, bar);
+            if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
+                self.obey(command, ui.ctx());
+            }
         }
         if self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
@@ -233,7 +235,12 @@ impl App {
 
     /// What floats over the panels.
     fn notices(&mut self, ctx: &Context) {
-        if let Some(notice) = self.session.notice().cloned() {
+        let making = self.session.making().filter(|(_, secs, _)| *secs > 0.4);
+        if let Some((name, _, part)) = making.filter(|_| self.session.notice().is_none()) {
+            if notice::making(ctx, name, part) {
+                self.session.stop_making();
+            }
+        } else if let Some(notice) = self.session.notice().cloned() {
             match notice.show(ctx) {
                 Some(notice::Click::Close) => self.session.close_notice(),
                 Some(notice::Click::Reload) => self.session.reload(),

@@ -1,6 +1,6 @@
 //! Which key does what. One table serves both the keys themselves and the page that lists them.
 
-use egui::{Context, Key, Modifiers};
+use egui::{Context, Event, Key, Modifiers};
 
 use crate::balance::NodeId;
 use crate::view::{About, Step};
@@ -34,6 +34,8 @@ pub enum Command {
     Save,
     /// The run into a file.
     SaveRun,
+    /// The picture as it is shown into the clipboard.
+    Copy,
     /// The scenes, and what else can be opened.
     Scenes,
     /// Speed against accuracy.
@@ -158,6 +160,8 @@ pub const TABLE: &[Line] = &[
         what: "Save the run; then Enter",
         keys: &[(CTRL.plus(SHIFT), Key::S, Command::SaveRun)],
     },
+    // Windows tell of these keys as of one.
+    Line { shown: "Ctrl C", what: "Copy the picture as it is shown", keys: &[] },
     Line {
         shown: "O",
         what: "Scenes: open one, or a recorded run",
@@ -254,6 +258,9 @@ pub fn pressed(ctx: &Context, types: bool) -> Vec<Command> {
         if happens {
             commands.push(command);
         }
+    }
+    if !types && !has_focus && ctx.input(|input| input.events.contains(&Event::Copy)) {
+        commands.push(Command::Copy);
     }
     commands
 }

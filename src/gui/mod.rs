@@ -23,6 +23,7 @@ mod preset;
 mod ring_panel;
 mod row_places;
 mod save_bar;
+mod save_kinds;
 mod session;
 mod settings;
 mod setup_panel;

@@ -1,10 +1,12 @@
 //! A sentence that floats below the top bar: what was done, what went wrong, what can be done about it.
 
-use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, RichText, Stroke, Ui};
+use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, ProgressBar, RichText, Stroke, Ui};
 
 use super::icons::Icon;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button};
+use crate::language::{say, word};
+use crate::view::fraction;
 
 /// What is to be read.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +91,20 @@ pub fn loading(ctx: &Context, name: &str) {
         let text = format!("{name} is being read and compiled …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
+}
+
+/// Says what is being made and how far it is; returns whether that is to end.
+pub fn making(ctx: &Context, name: &str, part: f64) -> bool {
+    let look = Look::of(ctx);
+    floating(ctx, |ui| {
+        let text = say!("{name} is being made", "{name} está sendo feito");
+        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
+        let percent = fraction(part);
+        let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
+        ui.add(bar);
+        ui.label(RichText::new(percent).font(theme::regular(theme::BODY)).color(look.quiet));
+        button(ui, None, word!("Cancel", "Cancelar"), true, Weight::Quiet).clicked()
+    })
 }
 
 /// Over everything else, so that nothing moves away under somebody's hand when it comes or goes.

@@ -1,19 +1,23 @@
-//! What to save, and where: a path to type, the system's own dialog beside it, and a sentence on what is in the way.
+//! What to save, and where: the kinds, a path to type, the system's own dialog beside it, and a sentence on what is in the
+//! way.
 
 use std::path::{Path, PathBuf};
 
-use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
+use egui::{Label, RichText, Ui};
 
 use super::icons::Icon;
-use super::session::{Phase, Purpose, Session};
+use super::keys::Command;
+use super::save_kinds::{Kind, LONGEST_SIDE, large};
+use super::session::{Export, Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, path_field};
-use crate::output::{as_file_name, check_writable, is_same_file};
-use crate::runlog::Header;
+use super::widgets::{Weight, button, number, path_field};
+use crate::export::{Drawing, Film};
+use crate::language::{say, word};
+use crate::output::{check_writable, is_same_file};
+use crate::picture::Quality;
 use crate::view::Layer;
 
 /// The bar below the top bar, while it is open.
-#[derive(Default)]
 pub struct SaveBar {
     open: bool,
     wants_focus: bool,
@@ -25,42 +29,50 @@ pub struct SaveBar {
     warned: Option<PathBuf>,
     /// What is in the way.
     trouble: Option<String>,
+    /// Of a picture that is traced anew: its sides, and n × n samples a pixel.
+    size: [u32; 2],
+    samples: u32,
+    /// What a run is called, and what is to be known of it.
+    title: String,
+    memo: String,
 }
 
-/// What is saved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Kind {
-    /// The picture as the tracer made it.
-    #[default]
-    Render,
-    /// The picture in the colours of who traced it.
-    Owners,
-    /// The picture in the colours of what its atoms cost.
-    Costs,
-    /// As it is shown, between the render and a layer.
-    Blend,
-    /// The run's records.
-    Run,
+impl Default for SaveBar {
+    fn default() -> Self {
+        Self {
+            open: false,
+            wants_focus: false,
+            kind: Kind::default(),
+            path: String::new(),
+            suggested: String::new(),
+            warned: None,
+            trouble: None,
+            size: FOUR_K,
+            samples: 2,
+            title: String::new(),
+            memo: String::new(),
+        }
+    }
 }
 
-const KINDS: [(Kind, &str, &str); 5] = [
-    (Kind::Render, "render", "The picture as it was traced"),
-    (Kind::Owners, "owners", "The picture in the colours of who traced it"),
-    (Kind::Costs, "costs", "The picture in the colours of what it cost"),
-    (Kind::Blend, "blend", "The picture as it is blended now"),
-    (Kind::Run, "run", "All records of the run, to be played again"),
-];
+const FOUR_K: [u32; 2] = [3840, 2160];
 
 impl SaveBar {
     /// Opens the bar, with a name that says what is saved, or closes it.
     pub fn toggle(&mut self, session: &Session) {
-        *self = Self { open: !self.open, wants_focus: !self.open, kind: self.kind, ..Self::default() };
-        self.suggest(session);
+        if self.open { self.open = false } else { self.open_for(self.kind, session) }
     }
 
     /// Opens the bar for the run.
     pub fn open_for_run(&mut self, session: &Session) {
-        *self = Self { open: true, wants_focus: true, kind: Kind::Run, ..Self::default() };
+        self.open_for(Kind::Run, session);
+    }
+
+    fn open_for(&mut self, kind: Kind, session: &Session) {
+        let Self { size, samples, .. } = *self;
+        let caption = &session.header().caption;
+        let (title, memo) = (caption.title.clone(), caption.memo.clone());
+        *self = Self { open: true, wants_focus: true, kind, size, samples, title, memo, ..Self::default() };
         self.suggest(session);
     }
 
@@ -81,35 +93,58 @@ impl SaveBar {
         match chosen {
             Some(path) => self.path = path.display().to_string(),
             None => {
-                self.trouble = Some(
-                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed".into(),
+                let trouble = word!(
+                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
+                    "Nenhum diálogo do sistema respondeu, ou nada foi escolhido: o caminho ainda pode ser escrito"
                 );
+                self.trouble = Some(trouble.into());
             }
         }
     }
 
-    /// Shows the bar; the picture is shown with so much of a layer.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shown: (Layer, f32)) {
+    /// Shows the bar, and returns what else was asked for; the picture is shown with so much of a layer.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shown: (Layer, f32)) -> Option<Command> {
         let look = Look::of(ui.ctx());
+        let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
+        let mut copies = false;
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
+            ui.label(quiet(word!("Save", "Salvar")));
+            for kind in Kind::ALL {
+                let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
+                if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
+                    self.choose(kind);
+                }
+            }
+        });
+        match self.kind {
+            Kind::Large => self.choose_size(ui, session, look),
+            Kind::Run => self.describe(ui),
+            _ => {}
+        }
+        self.suggest(session);
         ui.horizontal(|ui| {
-            let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
-            ui.label(quiet("Save the"));
-            self.choose_kind(ui);
-            self.suggest(session);
-            ui.label(quiet("as"));
-            let width = (ui.available_width() - 27.0 * GRID).max(20.0 * GRID);
-            let field = path_field(ui, (&mut self.path, ""), width, "Where to save", &mut self.wants_focus);
+            ui.label(quiet(word!("as", "como")));
+            let width = (ui.available_width() - 43.0 * GRID).max(20.0 * GRID);
+            let name = word!("Where to save", "Onde salvar");
+            let field = path_field(ui, (&mut self.path, ""), width, name, &mut self.wants_focus);
             if field.changed {
                 (self.warned, self.trouble) = (None, None);
             }
-            if button(ui, None, "Save", true, Weight::Primary).clicked() || field.entered {
+            if button(ui, None, word!("Save", "Salvar"), true, Weight::Primary).clicked() || field.entered {
                 self.save(session, shown);
             }
-            if button(ui, None, "Browse…", true, Weight::Quiet).clicked() {
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
                 session.jobs().choose(Purpose::Save, typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)));
             }
-            if button(ui, Some(Icon::Close), "Close save", false, Weight::Quiet).clicked() {
+            let copy = button(ui, None, word!("Copy picture", "Copiar imagem"), true, Weight::Quiet);
+            let hint = word!(
+                "The picture as it is shown into the clipboard (Ctrl C)",
+                "A imagem como está para a área de transferência (Ctrl C)"
+            );
+            copies = copy.on_hover_text(hint).clicked();
+            if button(ui, Some(Icon::Close), word!("Close save", "Fechar salvar"), false, Weight::Quiet).clicked() {
                 self.open = false;
             }
         });
@@ -117,21 +152,49 @@ impl SaveBar {
             let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(look.trouble);
             ui.add(Label::new(text).truncate());
         }
+        copies.then_some(Command::Copy)
     }
 
-    fn choose_kind(&mut self, ui: &mut Ui) {
-        let before = self.kind;
-        let named = KINDS.iter().find(|(kind, ..)| *kind == before).map_or("", |(_, name, _)| name);
-        let combo = ComboBox::from_id_salt("kind").selected_text(named).width(13.0 * GRID);
-        let combo = combo.show_ui(ui, |ui| {
-            for (kind, name, hint) in KINDS {
-                self.wants_focus |= ui.selectable_value(&mut self.kind, kind, name).on_hover_text(hint).clicked();
-            }
-        });
-        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, "What to save"));
-        if self.kind != before {
-            (self.warned, self.trouble) = (None, None);
+    /// Another kind: a name that was typed keeps all but its ending.
+    fn choose(&mut self, kind: Kind) {
+        (self.warned, self.trouble, self.wants_focus) = (None, None, true);
+        if self.path != self.suggested && !self.path.trim().is_empty() {
+            self.path = Path::new(&self.path).with_extension(kind.ending()).display().to_string();
         }
+        self.kind = kind;
+    }
+
+    /// Size and quality of a picture that is traced anew.
+    fn choose_size(&mut self, ui: &mut Ui, session: &Session, look: Look) {
+        let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
+        let own = session.header().size;
+        let own = [own.width(), own.height()];
+        let twice = own.map(|side| 2 * side);
+        ui.horizontal(|ui| {
+            for (name, size) in [(word!("Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", FOUR_K)] {
+                let weight = if self.size == size { Weight::On } else { Weight::Quiet };
+                if button(ui, None, name, true, weight).clicked() {
+                    self.size = size;
+                }
+            }
+            let [width, height] = &mut self.size;
+            number(ui, width, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels across", "Pixels na horizontal"));
+            ui.label(quiet("×"));
+            number(ui, height, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels down", "Pixels na vertical"));
+            ui.label(quiet(word!("samples a pixel, n × n:", "amostras por pixel, n × n:")));
+            number(ui, &mut self.samples, 1..=16, "", 6.0 * GRID, word!("Samples a pixel", "Amostras por pixel"));
+        });
+    }
+
+    /// Title and memo of a run.
+    fn describe(&mut self, ui: &mut Ui) {
+        let half = (ui.available_width() - 5.0 * GRID) / 2.0;
+        ui.horizontal(|ui| {
+            let name = word!("Title of the run", "Título da execução");
+            path_field(ui, (&mut self.title, name), 0.7 * half, name, &mut false);
+            let name = word!("What is to be known of it", "O que se deve saber dela");
+            path_field(ui, (&mut self.memo, name), 1.3 * half, name, &mut false);
+        });
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
@@ -144,14 +207,23 @@ impl SaveBar {
             return self.trouble = Some(error.to_string());
         }
         let opened = session.opened().and_then(|opened| opened.path.as_deref());
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if opened.is_some_and(|opened| is_same_file(opened, &path)) {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            return self.trouble = Some(format!("{name} is the scene that is open; choose another name"));
+            return self.trouble = Some(say!(
+                "{name} is the scene that is open; choose another name",
+                "{name} é a cena que está aberta; escolha outro nome"
+            ));
         }
+        let size = match large(self.size) {
+            Ok(size) => size,
+            Err(why) => return self.trouble = Some(why),
+        };
         let warned = self.warned.take();
         if path.is_file() && warned.as_ref() != Some(&path) {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            self.trouble = Some(format!("{name} exists; press Save again to replace it"));
+            self.trouble = Some(say!(
+                "{name} exists; press Save again to replace it",
+                "{name} já existe; pressione Salvar outra vez para substituí-lo"
+            ));
             self.warned = Some(path);
             return;
         }
@@ -160,8 +232,18 @@ impl SaveBar {
             Kind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
             Kind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
             Kind::Costs => session.save_picture(path, (Layer::Costs, 1.0)),
+            Kind::Arrival => session.save_picture(path, (Layer::Arrival, 1.0)),
             Kind::Blend => session.save_picture(path, shown),
-            Kind::Run => session.save_run(path),
+            Kind::Run => session.save_run(path, &self.title, &self.memo),
+            Kind::Large => {
+                let quality = Quality { samples: self.samples, ..session.header().quality };
+                session.export(path, Export::Picture(size, quality));
+            }
+            Kind::Ring => session.export(path, Export::Drawing(Drawing::Ring(session.now()))),
+            Kind::Timeline => session.export(path, Export::Drawing(Drawing::Timeline)),
+            Kind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
+            Kind::Table => session.export(path, Export::Table),
+            Kind::Chrome => session.export(path, Export::Chrome),
         }
     }
 
@@ -169,7 +251,9 @@ impl SaveBar {
     fn suggest(&mut self, session: &Session) {
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
-        let suggested = directory.join(file_name(session.header(), self.kind, done)).display().to_string();
+        let size = format!("{}x{}", self.size[0], self.size[1]);
+        let name = self.kind.file_name(session.header(), done, &size);
+        let suggested = directory.join(name).display().to_string();
         if self.path == self.suggested {
             self.path.clone_from(&suggested);
         }
@@ -181,36 +265,34 @@ impl SaveBar {
 pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
     let typed = typed.trim();
     if typed.is_empty() {
-        return Err("There is no path: type one, for instance ~/picture.png".into());
+        return Err(word!(
+            "There is no path: type one, for instance ~/picture.png",
+            "Falta o caminho: escreva um, por exemplo ~/imagem.png"
+        )
+        .into());
     }
     let path = match Path::new(typed).strip_prefix("~") {
-        Ok(rest) => home.ok_or("The home directory is not known: type it instead of ~")?.join(rest),
+        Ok(rest) => {
+            let unknown = word!(
+                "The home directory is not known: type it instead of ~",
+                "O diretório pessoal não é conhecido: escreva-o em vez de ~"
+            );
+            home.ok_or(unknown)?.join(rest)
+        }
         Err(_) => PathBuf::from(typed),
     };
     if path.is_dir() || typed.ends_with(std::path::is_separator) {
-        return Err(format!("{} is a directory: add the name of a file in it", path.display()));
+        let path = path.display();
+        return Err(say!(
+            "{path} is a directory: add the name of a file in it",
+            "{path} é um diretório: acrescente o nome de um arquivo"
+        ));
     }
     Ok(path)
 }
 
-/// A name that says what is saved.
-fn file_name(header: &Header, kind: Kind, done: bool) -> String {
-    let scene = as_file_name(&header.scene);
-    let what = match kind {
-        Kind::Render => String::new(),
-        Kind::Owners => "-owners".into(),
-        Kind::Costs => "-costs".into(),
-        Kind::Blend => "-blend".into(),
-        Kind::Run => format!("-{}-{}", header.strategy_name(), header.speeds.len()),
-    };
-    let unfinished = if done { "" } else { "-unfinished" };
-    let ending = if kind == Kind::Run { "anel" } else { "png" };
-    format!("{scene}-{}{what}{unfinished}.{ending}", header.size)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::settings::Settings;
     use super::*;
 
     #[test]
@@ -227,14 +309,5 @@ mod tests {
         assert!(resolve("  ", None).is_err_and(|why| why.contains("no path")));
         assert!(resolve(".", None).is_err_and(|why| why.contains("is a directory")));
         assert!(resolve("pictures/", None).is_err_and(|why| why.contains("is a directory")));
-    }
-
-    #[test]
-    fn a_name_says_what_is_saved() {
-        let header = Settings::default().header("my scene", "", Default::default(), 2);
-        let named = |kind, done| file_name(&header, kind, done);
-        assert_eq!(named(Kind::Render, true), "my-scene-640x480.png");
-        assert_eq!(named(Kind::Owners, false), "my-scene-640x480-owners-unfinished.png");
-        assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
     }
 }

@@ -9,6 +9,7 @@ use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button};
 use crate::language::{Language, word};
 use crate::runlog::Driver;
+use crate::sentence::shown;
 use crate::view::{Sharing, count, time_words};
 
 /// What is open, and so shown as pressed.
@@ -39,10 +40,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         let shown: String = name.chars().take(if wide { 24 } else { 14 }).collect();
         let shown = if shown.is_empty() { "Scenes" } else { &shown };
         let weight = if open.scenes { Weight::On } else { Weight::Quiet };
-        if named_button(ui, Some(Icon::Scenes), "Scenes", Some(shown), weight)
-            .on_hover_text("Open a scene or a recorded run (O)")
-            .clicked()
-        {
+        if named_button(ui, Some(Icon::Scenes), "Scenes", Some(shown), weight).on_hover_text(hint(session)).clicked() {
             clicked = Some(Command::Scenes);
         }
         let from_right = Layout::right_to_left(Align::Center);
@@ -63,6 +61,12 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         });
     });
     clicked
+}
+
+/// What the scene's button does, and what is said of the run.
+fn hint(session: &Session) -> String {
+    let first = std::iter::once("Open a scene or a recorded run (O)");
+    first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 
 /// From right to left.
@@ -148,6 +152,8 @@ fn what(ui: &Ui, session: &Session) -> String {
     let virtually = if header.driver == Driver::Sim { " · virtual time" } else { "" };
     let machines = format!("{machines}{virtually}");
     let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
+    let title = &header.caption.title;
+    let machines = if title.is_empty() { machines } else { format!("“{}” · {machines}", shown(title, 60)) };
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");
     let (atoms, pixels) = (count(header.division.atoms()), header.division.atom_pixels());

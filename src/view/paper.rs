@@ -30,7 +30,7 @@ const RING: Point = [900.0, 760.0];
 
 /// Of the timeline's sheet, and of what stands left of its lanes.
 const WIDTH: f32 = 1200.0;
-const LEFT: f32 = 84.0;
+const LEFT: f32 = 96.0;
 
 impl Paper {
     /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
@@ -38,11 +38,13 @@ impl Paper {
     pub fn ring(log: &RunLog, at: Time) -> Self {
         /// Longer than the last message is drawn: at the end all is at rest.
         const LINGER: Duration = Duration::from_secs(5);
-        let (at, drawn_at) = if at < end(log) { (at, at) } else { (end(log), end(log) + LINGER) };
+        let at = at.min(end(log));
         let mut moment = Moment::new(&log.header);
         log.records()[..log.until(at)].iter().for_each(|record| moment.apply(record));
         let state = &moment.state;
         let outcome = Outcome::of(log).filter(|_| state.finished().is_some());
+        let is_over = outcome.is_some() && at == end(log);
+        let drawn_at = if is_over { at + LINGER } else { at };
         let [width, height] = RING;
         let mut marks = Vec::new();
         let top = heading(log, outcome.as_ref(), width, &mut marks);
@@ -99,7 +101,7 @@ fn heads(log: &RunLog, plan: &LanePlan, marks: &mut Vec<Mark>) {
     for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
         let [top, bottom] = plan.lane(node);
         let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if every > 1 { 0.8 } else { 1.0 }));
-        marks.push(label([-46.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
+        marks.push(label([-56.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
         marks.push(label([-8.0, y], Anchor::Right, fraction(*speed), size, Hue::Quiet));
     }
     if plan.head > 0.0 {
@@ -131,7 +133,10 @@ fn heading(log: &RunLog, outcome: Option<&Outcome>, width: f32, marks: &mut Vec<
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };
-    let mut what = format!("{}, {}: {}, {nodes} machine{plural}", header.scene, header.size, header.strategy_name());
+    let mut what = format!("{}: {}, {nodes} machine{plural}", header.size, header.strategy_name());
+    if header.title() != header.scene {
+        what = format!("{}, {what}", header.scene);
+    }
     if let Some(outcome) = outcome {
         what += &format!("; {}, efficiency {}", duration(outcome.makespan), fraction(outcome.efficiency));
     }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use anel::runlog::RunLog;
 use egui::Key;
-use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
@@ -13,10 +12,7 @@ const FIELD: &str = "Where to save";
 
 /// Chooses what to save.
 fn choose(window: &mut Window, kind: &str) {
-    window.get_by_label("What to save").click();
-    window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, kind).click();
-    window.run_steps(3);
+    press(window, kind);
 }
 
 fn typed(window: &Window) -> PathBuf {
@@ -117,6 +113,105 @@ fn a_run_file_is_saved_and_can_be_loaded() {
     let log = RunLog::load(&path).expect("a run file");
     assert_eq!(log.header, *session(&window).header());
     assert!(log.records().len() > 100);
+}
+
+#[test]
+fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 100);
+    key(&mut window, Key::S);
+    choose(&mut window, "run");
+    window.get_by_label("Title of the run").click();
+    window.run_steps(2);
+    window.get_by_label("Title of the run").type_text("Eight of them");
+    window.run_steps(2);
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+    type_path(&mut window, FIELD, &path);
+    press(&mut window, "Save");
+    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    let log = RunLog::load(&path).expect("a run file");
+    assert_eq!(log.header.caption.title, "Eight of them");
+    assert!(log.header.caption.machine.contains("core"), "{:?}", log.header.caption);
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    until(&mut window, "the title", |window| notice(window).contains("Eight of them"));
+}
+
+#[test]
+fn the_ending_of_a_typed_name_follows_the_kind() {
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    key(&mut window, Key::S);
+    type_path(&mut window, FIELD, "/tmp/mine.png".as_ref());
+    for (kind, name) in
+        [("timeline", "mine.svg"), ("animation", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
+    {
+        choose(&mut window, kind);
+        assert_eq!(file_name(&typed(&window)), name);
+    }
+}
+
+#[test]
+fn drawings_and_records_are_written_in_the_background() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 300);
+    let starts = [("timeline", "<svg"), ("ring", "<svg"), ("table", "time_s,"), ("Perfetto", "{\"displayTimeUnit\"")];
+    for (kind, start) in starts {
+        press(&mut window, "Save…");
+        choose(&mut window, kind);
+        let path = directory.path().join(kind);
+        type_path(&mut window, FIELD, &path);
+        press(&mut window, "Save");
+        until(&mut window, "a sentence", |window| notice(window).contains(kind));
+        assert!(std::fs::read_to_string(&path).expect("a file").starts_with(start), "{kind}");
+    }
+}
+
+#[test]
+fn a_picture_of_another_size_is_traced_anew_and_can_be_cancelled() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    let save = |window: &mut Window, name: &str| {
+        press(window, "Save…");
+        choose(window, "any size");
+        let path = directory.path().join(name);
+        type_path(window, FIELD, &path);
+        path
+    };
+    let path = save(&mut window, "small.png");
+    type_number(&mut window, "Pixels across", "200");
+    type_number(&mut window, "Pixels down", "50");
+    press(&mut window, "Save");
+    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    assert_eq!(image::image_dimensions(&path).expect("a PNG"), (200, 50));
+    let path = save(&mut window, "huge.png");
+    press(&mut window, "4K");
+    type_number(&mut window, "Samples a pixel", "16");
+    press(&mut window, "Save");
+    until(&mut window, "progress", |window| window.query_by_label("Cancel").is_some());
+    press(&mut window, "Cancel");
+    assert!(notice(&window).starts_with("Cancelled"), "{}", notice(&window));
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    window.run_steps(3);
+    assert!(!path.exists() && notice(&window).starts_with("Cancelled"));
+}
+
+#[test]
+fn the_picture_is_copied_with_two_keys() {
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    window.event(egui::Event::Copy);
+    window.step();
+    let copied = window.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyImage(image) => Some(image.size),
+        _ => None,
+    });
+    assert_eq!(copied, Some([640, 480]));
+    assert!(notice(&window).contains("clipboard"), "{}", notice(&window));
 }
 
 #[test]

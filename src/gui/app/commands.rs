@@ -5,6 +5,7 @@ use egui::{Context, Theme, ViewportCommand};
 use super::super::history::Gesture;
 use super::super::keys::Command;
 use super::App;
+use crate::language::word;
 use crate::time::Time;
 use crate::view::{About, Step};
 
@@ -35,6 +36,10 @@ impl App {
             Command::Zoom(nearer) => {
                 self.shows_timeline = true;
                 self.timeline.zoom(if nearer { 0.5 } else { 2.0 }, self.session.stage().lasted());
+            }
+            Command::Copy => {
+                ctx.copy_image(session.copied_picture(self.picture.shown()));
+                session.note(word!("The picture is in the clipboard", "A imagem está na área de transferência"));
             }
             Command::Save => self.save_bar.toggle(session),
             Command::SaveRun => self.save_bar.open_for_run(session),

@@ -11,9 +11,11 @@ use super::performer::Performer;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
 use crate::driver::Retrace;
+use crate::language::say;
 use crate::output::is_same_file;
 use crate::runlog::RunLog;
 use crate::scene::Opened;
+use crate::sentence::shown;
 use crate::view::{Known, Layer, picture_pixels};
 
 impl Session {
@@ -67,17 +69,31 @@ impl Session {
 
     /// Writes the picture, as far as it is, in the background: the render (`blend` 0), a layer (1) or a blend.
     pub fn save_picture(&mut self, path: PathBuf, look: (Layer, f32)) {
-        self.note(format!("Saving {} …", path.display()));
+        self.note_saving(&path);
         let Stage { frame, colours, .. } = &self.stage;
         let (frame, state, colours) = (frame.clone(), self.stage.latest().clone(), colours.clone());
         self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, look));
     }
 
-    /// Writes the run, as far as it is, in the background.
-    pub fn save_run(&mut self, path: PathBuf) {
-        self.note(format!("Saving {} …", path.display()));
+    /// The picture, as far as it is, as it can be put elsewhere at once.
+    pub fn copied_picture(&self, look: (Layer, f32)) -> egui::ColorImage {
+        let Stage { frame, colours, .. } = &self.stage;
+        let size = [frame.size().width() as usize, frame.size().height() as usize];
+        egui::ColorImage::from_rgb(size, &picture_pixels(frame, self.stage.latest(), colours, look))
+    }
+
+    /// Writes the run, as far as it is, in the background, under this title and with this memo.
+    pub fn save_run(&mut self, path: PathBuf, title: &str, memo: &str) {
+        self.note_saving(&path);
+        let caption = &mut self.stage.log.header.caption;
+        (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
         self.remember(path.to_string_lossy().into_owned());
         self.jobs.save_run(path, self.stage.log.clone());
+    }
+
+    fn note_saving(&mut self, path: &Path) {
+        let path = path.display();
+        self.note(say!("Saving {path} …", "Salvando {path} …"));
     }
 
     /// Writes the run's records to where the user asked for them, if so, before the window closes. A failure is told on
@@ -92,6 +108,11 @@ impl Session {
 
     /// Plays a recorded run from its beginning.
     pub(super) fn play(&mut self, recorded: Recorded) {
+        let caption = &recorded.log.header.caption;
+        let said: Vec<&str> = [&*caption.title, &*caption.memo].into_iter().filter(|said| !said.is_empty()).collect();
+        if !said.is_empty() {
+            self.note(shown(&said.join(" — "), 400));
+        }
         self.jobs.watch(None);
         let retrace = Retrace::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
         let (log, known) = (RunLog::clone(&recorded.log), Known::clone(&recorded.known));

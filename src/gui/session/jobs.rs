@@ -15,6 +15,7 @@ use super::comparing::Compared;
 use super::measuring::Finding;
 use super::moving::Moved;
 use crate::driver::{RAY, probe};
+use crate::language::{Language, say};
 use crate::output::OutputError;
 use crate::palette::Rgb;
 use crate::picture::{Frame, Quality, Size, srgb8, write_png};
@@ -29,6 +30,10 @@ pub enum Done {
     Ready(u64, Result<Ready, String>),
     /// A file is written: a sentence says where, or why not.
     Saved(Result<String, String>),
+    /// What the job of this number makes is done to this part, 0 to 1.
+    Progress(u64, f64),
+    /// What the job of this number makes is made: a sentence says where, or why not.
+    Made(u64, Result<String, String>),
     /// The user has chosen a file in the system's dialog; `None` if not.
     Chosen(Purpose, Option<PathBuf>),
     /// A small picture of a scene, by the scene's name or path; or why there is none.
@@ -185,12 +190,14 @@ impl Jobs {
 
     /// Writes a picture of these pixels.
     pub fn save_picture(&self, path: PathBuf, size: Size, pixels: impl FnOnce() -> Vec<u8> + Send + 'static) {
-        self.start("save", move || Done::Saved(told(&path, write_png(&path, size, &pixels()))));
+        let language = Language::spoken();
+        self.start("save", move || Done::Saved(told(&path, write_png(&path, size, &pixels()), language)));
     }
 
     /// Writes a run file.
     pub fn save_run(&self, path: PathBuf, log: RunLog) {
-        self.start("save", move || Done::Saved(told(&path, log.save(&path))));
+        let language = Language::spoken();
+        self.start("save", move || Done::Saved(told(&path, log.save(&path), language)));
     }
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
@@ -269,7 +276,7 @@ impl Jobs {
         &self,
         name: &str,
         failed: impl FnOnce(String) -> Done,
-        job: impl FnOnce(&dyn Fn(Done)) + Send + 'static,
+        job: impl FnOnce(&(dyn Fn(Done) + Sync)) + Send + 'static,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {
@@ -331,10 +338,12 @@ fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
     fs::metadata(path).ok().map(|data| (data.modified().ok(), data.len()))
 }
 
-/// How saving went, in a sentence.
-fn told(path: &Path, saved: Result<(), OutputError>) -> Result<String, String> {
+/// How saving went, in a sentence of this language. What is in files is English, so that only now the thread speaks it.
+pub(super) fn told(path: &Path, saved: Result<(), OutputError>, language: Language) -> Result<String, String> {
+    language.speak();
     let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    saved.map(|()| format!("Saved to {}", shown.display())).map_err(|error| error.to_string())
+    let shown = shown.display();
+    saved.map(|()| say!("Saved to {shown}", "Salvo em {shown}")).map_err(|error| error.to_string())
 }
 
 fn thumbnail(scene: &Scene) -> Thumbnail {

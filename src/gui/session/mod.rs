@@ -2,6 +2,7 @@
 //! those of runs behind [`Performer`], those of everything else in [`jobs`].
 
 mod comparing;
+mod exporting;
 mod files;
 mod inspecting;
 pub mod jobs;
@@ -28,6 +29,8 @@ use crate::scene::{Camera, Opened};
 use crate::time::Time;
 
 pub use comparing::{Compared, Grown, Growth, Known, Pictured, Subject, Tracing};
+pub use exporting::Export;
+use exporting::Making;
 use inspecting::Inspecting;
 pub use jobs::{Done, Prepared, Purpose};
 use jobs::{Jobs, Ready, Recorded};
@@ -60,6 +63,7 @@ pub struct Session {
     /// Measurements that have not ended, although they may have been asked to.
     measurements: usize,
     notice: Option<Notice>,
+    making: Option<Making>,
     /// Where each run's records are written when it ends.
     log_path: Option<PathBuf>,
     /// The files that were opened last, the latest first.
@@ -98,6 +102,7 @@ impl Session {
             begun: 0,
             measurements: 0,
             notice: None,
+            making: None,
             log_path,
             recent: Vec::new(),
             ground,
@@ -145,6 +150,8 @@ impl Session {
                 Done::Ready(..) => {}
                 Done::Saved(Ok(said)) => self.note(said),
                 Done::Saved(Err(why)) => self.trouble(why),
+                Done::Progress(job, part) => self.progress(job, part),
+                Done::Made(job, made) => self.made(job, made),
                 Done::FileChanged(path, change) => self.file_changed(&path, change),
                 Done::Found(job, finding) => {
                     self.measurements -= usize::from(matches!(finding, Finding::Over(_)));

@@ -1,0 +1,167 @@
+//! What can be saved: its names, and the name of its file.
+
+use crate::language::word;
+use crate::output::as_file_name;
+use crate::picture::Size;
+use crate::runlog::Header;
+
+/// What is saved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// The picture as the tracer made it.
+    #[default]
+    Render,
+    /// The picture in the colours of who traced it.
+    Owners,
+    /// The picture in the colours of what its atoms cost.
+    Costs,
+    /// The picture in the colours of when its atoms came.
+    Arrival,
+    /// As it is shown, between the render and a layer.
+    Blend,
+    /// The picture at another size, traced anew.
+    Large,
+    /// The ring as it is shown.
+    Ring,
+    /// The timeline of all of the run.
+    Timeline,
+    /// The run as an animation.
+    Film,
+    /// The run's records, to be played again.
+    Run,
+    /// The run's records as a table.
+    Table,
+    /// The run's records for Perfetto.
+    Chrome,
+}
+
+impl Kind {
+    /// All of them: pictures, then drawings, then records.
+    pub const ALL: [Self; 12] = [
+        Self::Render,
+        Self::Owners,
+        Self::Costs,
+        Self::Arrival,
+        Self::Blend,
+        Self::Large,
+        Self::Ring,
+        Self::Timeline,
+        Self::Film,
+        Self::Run,
+        Self::Table,
+        Self::Chrome,
+    ];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Render => word!("render", "imagem"),
+            Self::Owners => word!("owners", "donas"),
+            Self::Costs => word!("costs", "custos"),
+            Self::Arrival => word!("arrival", "chegada"),
+            Self::Blend => word!("blend", "mistura"),
+            Self::Large => word!("any size", "outro tamanho"),
+            Self::Ring => word!("ring", "anel"),
+            Self::Timeline => word!("timeline", "linha do tempo"),
+            Self::Film => word!("animation", "animação"),
+            Self::Run => word!("run", "execução"),
+            Self::Table => word!("table", "tabela"),
+            Self::Chrome => "Perfetto",
+        }
+    }
+
+    /// What it is, in a sentence.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Render => word!("The picture as it was traced", "A imagem como foi traçada"),
+            Self::Owners => {
+                word!("The picture in the colours of who traced it", "A imagem nas cores de quem a traçou")
+            }
+            Self::Costs => word!("The picture in the colours of what it cost", "A imagem nas cores do que custou"),
+            Self::Arrival => word!("The picture in the colours of when it came", "A imagem nas cores de quando chegou"),
+            Self::Blend => word!("The picture as it is blended now", "A imagem misturada como está agora"),
+            Self::Large => {
+                word!(
+                    "The picture at any size and quality, traced anew",
+                    "A imagem em qualquer tamanho e qualidade, traçada de novo"
+                )
+            }
+            Self::Ring => word!("The ring as it is shown: SVG, or PNG", "O anel como está: SVG, ou PNG"),
+            Self::Timeline => {
+                word!("The timeline of all of the run: SVG, or PNG", "A linha do tempo de toda a execução: SVG, ou PNG")
+            }
+            Self::Film => word!("The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
+            Self::Run => word!(
+                "All records of the run, to be played again",
+                "Todos os registros da execução, para vê-la de novo"
+            ),
+            Self::Table => word!("All records of the run: CSV", "Todos os registros da execução: CSV"),
+            Self::Chrome => {
+                word!("What each machine did, for ui.perfetto.dev", "O que cada máquina fez, para ui.perfetto.dev")
+            }
+        }
+    }
+
+    /// How the name of its file ends.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Render | Self::Owners | Self::Costs | Self::Arrival | Self::Blend | Self::Large => "png",
+            Self::Ring | Self::Timeline => "svg",
+            Self::Film => "gif",
+            Self::Run => "anel",
+            Self::Table => "csv",
+            Self::Chrome => "json",
+        }
+    }
+
+    /// A name for its file, which says what is saved; a picture that is traced anew is so `large`.
+    pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
+        let scene = as_file_name(&header.scene);
+        let of_run = format!("-{}-{}", header.strategy_name(), header.speeds.len());
+        let what = match self {
+            Self::Render | Self::Large => String::new(),
+            Self::Owners => "-owners".into(),
+            Self::Costs => "-costs".into(),
+            Self::Arrival => "-arrival".into(),
+            Self::Blend => "-blend".into(),
+            Self::Run | Self::Film | Self::Table => of_run,
+            Self::Ring => of_run + "-moment",
+            Self::Timeline => of_run + "-timeline",
+            Self::Chrome => of_run + "-perfetto",
+        };
+        let size = header.size.to_string();
+        let size = if self == Self::Large { large } else { &size };
+        let unfinished = if done || self == Self::Large { "" } else { "-unfinished" };
+        format!("{scene}-{size}{what}{unfinished}.{}", self.ending())
+    }
+}
+
+/// A side of a picture that is traced anew is at most so long.
+pub const LONGEST_SIDE: u32 = 16_384;
+
+/// The size of a picture that is traced anew.
+///
+/// # Errors
+/// A sentence, if there can be none.
+pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
+    Size::new(width.min(LONGEST_SIDE), height.min(LONGEST_SIDE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::settings::Settings;
+    use super::*;
+
+    #[test]
+    fn a_name_says_what_is_saved() {
+        let header = Settings::default().header("my scene", "", Default::default(), 2);
+        let named = |kind: Kind, done| kind.file_name(&header, done, "3840x2160");
+        assert_eq!(named(Kind::Render, true), "my-scene-640x480.png");
+        assert_eq!(named(Kind::Owners, false), "my-scene-640x480-owners-unfinished.png");
+        assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
+        assert_eq!(named(Kind::Large, false), "my-scene-3840x2160.png");
+        assert_eq!(named(Kind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
+        let names: std::collections::BTreeSet<String> = Kind::ALL.into_iter().map(|kind| named(kind, true)).collect();
+        assert_eq!(names.len(), Kind::ALL.len(), "no two are the same");
+    }
+}

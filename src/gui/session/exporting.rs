@@ -1,0 +1,161 @@
+//! The job that makes what takes its time: pictures of another size, films, drawings, tables.
+
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use crossbeam_channel::{Sender, TryRecvError, bounded};
+
+use super::Session;
+use super::jobs::{Done, told};
+use crate::driver::{Whole, trace_strips};
+use crate::export::{Drawing, Film, write_chrome, write_csv};
+use crate::language::{Language, say};
+use crate::output::{OutputError, write_whole};
+use crate::picture::{Frame, Quality, Size, write_png};
+use crate::runlog::RunLog;
+use crate::scene::Scene;
+use crate::tracer::Tracer;
+
+/// What is made of what is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Export {
+    /// The picture, traced anew.
+    Picture(Size, Quality),
+    /// The ring or the timeline: as PNG if the file is named so, else as SVG.
+    Drawing(Drawing),
+    /// The run as an animation.
+    Film(Film),
+    /// The records as CSV.
+    Table,
+    /// The records for Perfetto.
+    Chrome,
+}
+
+/// What is being made.
+pub(super) struct Making {
+    job: u64,
+    name: String,
+    since: f64,
+    part: f64,
+    /// Dropping it ends the job.
+    _stop: Sender<()>,
+}
+
+/// What the job is made of.
+struct Source {
+    log: RunLog,
+    /// The picture, if all that is known of it is there.
+    frame: Option<Frame>,
+}
+
+/// Tells what part is done, and says whether to go on.
+type Tell<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+
+impl Session {
+    /// Makes it in the background and writes it to `path`.
+    pub fn export(&mut self, path: PathBuf, export: Export) {
+        if let Some(Making { name, .. }) = &self.making {
+            return self.trouble(say!(
+                "{name} is still being made: cancel it first",
+                "{name} ainda está sendo feito: cancele antes"
+            ));
+        }
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // The picture of a recorded run is traced again while it is shown.
+        let is_known = !self.is_recorded() || self.stage.performer.has_ended();
+        let source = Source { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
+        let (job, (stop, stopped), language) = (self.jobs.number(), bounded::<()>(0), Language::spoken());
+        self.making = Some(Making { job, name, since: self.clock, part: 0.0, _stop: stop });
+        let failed = move |why| Done::Made(job, Err(why));
+        self.jobs.start_many("export", failed, move |tell| {
+            let percent = AtomicU32::new(0);
+            let goes_on = |part: f64| {
+                let now = (100.0 * part) as u32;
+                // The window need not hear more often.
+                if percent.fetch_max(now, Ordering::Relaxed) < now {
+                    tell(Done::Progress(job, part));
+                }
+                stopped.try_recv() != Err(TryRecvError::Disconnected)
+            };
+            let made = source.make(&path, export, &goes_on);
+            tell(Done::Made(job, made.and_then(|written| told(&path, written, language))));
+        });
+    }
+
+    /// What is being made, how many seconds already, and what part of it is done.
+    pub fn making(&self) -> Option<(&str, f64, f64)> {
+        self.making.as_ref().map(|making| (&*making.name, self.clock - making.since, making.part))
+    }
+
+    /// Gives up what is being made; nothing of it is kept.
+    pub fn stop_making(&mut self) {
+        if let Some(Making { name, .. }) = self.making.take() {
+            self.note(say!("Cancelled: nothing of {name} was kept", "Cancelado: nada de {name} foi guardado"));
+        }
+    }
+
+    pub(super) fn progress(&mut self, job: u64, part: f64) {
+        if let Some(making) = self.making.as_mut().filter(|making| making.job == job) {
+            making.part = part;
+        }
+    }
+
+    pub(super) fn made(&mut self, job: u64, made: Result<String, String>) {
+        // What was given up may end later.
+        if self.making.take_if(|making| making.job == job).is_some() {
+            match made {
+                Ok(said) => self.note(said),
+                Err(why) => self.trouble(why),
+            }
+        }
+    }
+}
+
+impl Source {
+    /// Makes it and writes it.
+    ///
+    /// # Errors
+    /// A sentence, if it cannot be made; within it what writing came to.
+    fn make(&self, path: &Path, export: Export, tell: Tell<'_>) -> Result<Result<(), OutputError>, String> {
+        let log = &self.log;
+        let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
+        Ok(match export {
+            Export::Picture(size, quality) => {
+                let tracer = self.tracer(size, quality)?;
+                let rgb = trace_strips(&tracer, &|part| _ = tell(part), &|| !tell(0.0))?;
+                write_png(path, size, &rgb.ok_or("it was stopped")?)
+            }
+            Export::Drawing(drawing) => {
+                let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+                write(&|file| drawing.write(file, log, is_png))
+            }
+            Export::Film(film) => {
+                let frame = match &self.frame {
+                    Some(frame) => frame.clone(),
+                    None => self.traced(tell)?,
+                };
+                write(&|file| film.write(file, log, &frame, &mut |part| tell(part)))
+            }
+            Export::Table => write(&|file| write_csv(file, log)),
+            Export::Chrome => write(&|file| write_chrome(file, log)),
+        })
+    }
+
+    fn tracer(&self, size: Size, quality: Quality) -> Result<Arc<Tracer>, String> {
+        // The text has the camera of what is shown.
+        let scene = Scene::parse(&self.log.header.scene_text).map_err(|error| error.to_string())?;
+        Ok(Arc::new(Tracer::new(&scene, size, quality)))
+    }
+
+    fn traced(&self, tell: Tell<'_>) -> Result<Frame, String> {
+        let header = &self.log.header;
+        let tracer = self.tracer(header.size, header.quality)?;
+        let whole = Whole::unless(&tracer, header.division, &|_| {}, &|| !tell(0.0))?.ok_or("it was stopped")?;
+        let mut frame = Frame::new(header.size);
+        frame.place(0..header.size.pixels(), &whole.pixels);
+        Ok(frame)
+    }
+}
