@@ -18,6 +18,9 @@ use serde_json::Value;
 /// Process and track.
 type Track = (u64, u64);
 
+/// A point of an arrow: its phase, when and where.
+type Point = (String, u64, Track);
+
 fn events(log: &RunLog) -> Vec<Value> {
     let mut text = Vec::new();
     write_chrome(&mut text, log).expect("memory takes everything");
@@ -42,7 +45,7 @@ fn nanos(event: &Value, key: &str) -> u64 {
 fn check(events: &[Value]) -> BTreeMap<String, usize> {
     let mut phases: BTreeMap<String, usize> = BTreeMap::new();
     let mut slices: BTreeMap<Track, Vec<(u64, u64)>> = BTreeMap::new();
-    let mut arrows: BTreeMap<(String, u64), Vec<(String, u64, Track)>> = BTreeMap::new();
+    let mut arrows: BTreeMap<(String, u64), Vec<Point>> = BTreeMap::new();
     let (mut named, mut used) = (BTreeSet::new(), BTreeSet::new());
     for event in events {
         let phase = event["ph"].as_str().expect("a phase");
