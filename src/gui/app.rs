@@ -1,6 +1,7 @@
 //! The window's content: which panel goes where.
 
 mod commands;
+mod heroes;
 
 use std::time::Duration;
 
@@ -13,7 +14,8 @@ use super::compare::Compare;
 use super::focus::Focus;
 use super::gallery::Gallery;
 use super::keys;
-use super::picture_panel::{self, PicturePanel};
+use super::learn::{self, Learn};
+use super::picture_panel::PicturePanel;
 use super::save_bar::SaveBar;
 use super::session::{Done, Purpose, Session};
 use super::settings::Settings;
@@ -26,6 +28,7 @@ use crate::balance::NodeId;
 use crate::language::Language;
 use crate::time::Time;
 use crate::view::{About, Dossier, Lit};
+use heroes::heroes;
 
 /// The window's content.
 pub struct App {
@@ -37,6 +40,7 @@ pub struct App {
     gallery: Gallery,
     accuracy: Accuracy,
     compare: Compare,
+    learn: Learn,
     help: bool,
     timeline: TimelinePanel,
     /// The timeline stands in the machines' place.
@@ -48,6 +52,8 @@ pub struct App {
     lit: Lit,
     begun: usize,
     language: Language,
+    /// Large, in strong colours, and nothing but what is looked at.
+    projector: bool,
 }
 
 /// What is remembered from one window to the next, beside what egui itself remembers.
@@ -61,6 +67,7 @@ struct Remembered {
     setup: bool,
     timeline: bool,
     language: Option<Language>,
+    projector: bool,
 }
 
 const REMEMBERED: &str = "anel";
@@ -75,6 +82,7 @@ impl App {
         theme::install(ctx);
         places::install(ctx);
         zoom::install(ctx);
+        Look::set_strong(ctx, remembered.projector);
         let settings = if remembered.settings.check().is_ok() { remembered.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_recent(remembered.recent);
@@ -94,6 +102,7 @@ impl App {
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
             compare: Compare::default(),
+            learn: Learn::default(),
             help: false,
             timeline: TimelinePanel::default(),
             shows_timeline: remembered.timeline,
@@ -103,6 +112,7 @@ impl App {
             lit: Lit::default(),
             begun: 0,
             language,
+            projector: remembered.projector,
         }
     }
 
@@ -119,6 +129,11 @@ impl App {
     /// What is compared, for tests.
     pub fn compared(&self) -> Vec<(String, Option<Duration>)> {
         self.compare.runs()
+    }
+
+    /// The lesson that is taken and its step, for tests.
+    pub fn lesson(&self) -> Option<(&str, usize)> {
+        self.learn.step()
     }
 
     /// The selected machine, for tests.
@@ -148,12 +163,60 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut Ui) {
-        let side = 2 * GRID as i8;
-        let panel = |top: i8, bottom: i8| Frame::NONE.inner_margin(Margin { left: side, right: side, top, bottom });
+        if !self.projector {
+            self.bars(ui);
+        }
+        if self.shows_page() {
+            let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
+            ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
+                if self.gallery.is_open() {
+                    self.gallery.show(ui, &mut self.session);
+                } else if self.learn.is_open() {
+                    self.learn.show(ui, &mut self.session);
+                } else if self.compare.is_open() {
+                    self.compare.show(ui, &mut self.session);
+                } else {
+                    self.accuracy.show(ui, &mut self.session);
+                }
+            });
+            return;
+        }
+        if self.setup.open && !self.projector {
+            let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup_panel::WIDTH).resizable(false);
+            panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
+        }
+        self.light();
+        // What stands on a wall is looked at; hands are at the keys.
+        if self.shows_timeline || !self.projector {
+            self.machines(ui);
+        }
+        let on = self.learn.is_on();
+        let height = if on { learn::height(ui) } else { words_panel::height(ui) };
+        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
+        words.show(ui, |ui| {
+            if on {
+                self.learn.show_step(ui, &mut self.session);
+            } else {
+                words_panel::show(ui, &self.session, self.selected.as_ref());
+            }
+        });
+        if !self.projector {
+            let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
+            let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
+            if let Some(command) = time.show(ui, row).inner {
+                self.obey(command, ui.ctx());
+            }
+        }
+        self.heroes(ui);
+    }
+
+    /// The bar at the top, and what is opened from there.
+    fn bars(&mut self, ui: &mut Ui) {
         let open = top_bar::Open {
             scenes: self.gallery.is_open(),
             accuracy: self.accuracy.is_open(),
             compare: self.compare.is_open(),
+            learn: self.learn.is_open() || self.learn.is_on(),
             setup: self.setup.open,
             save: self.save_bar.is_open(),
         };
@@ -168,24 +231,10 @@ impl App {
                 self.obey(command, ui.ctx());
             }
         }
-        if self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open() {
-            let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
-            ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
-                if self.gallery.is_open() {
-                    self.gallery.show(ui, &mut self.session);
-                } else if self.compare.is_open() {
-                    self.compare.show(ui, &mut self.session);
-                } else {
-                    self.accuracy.show(ui, &mut self.session);
-                }
-            });
-            return;
-        }
-        if self.setup.open {
-            let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup_panel::WIDTH).resizable(false);
-            panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
-        }
-        self.light();
+    }
+
+    /// Machines, or their timeline.
+    fn machines(&mut self, ui: &mut Ui) {
         let nodes = self.session.header().speeds.len();
         let height =
             if self.shows_timeline { timeline_panel::height(ui, nodes) } else { nodes_panel::height(ui, nodes) };
@@ -198,15 +247,6 @@ impl App {
                 nodes_panel::show(ui, &mut self.session, &mut self.focus, &self.lit);
             }
         });
-        let about = self.selected.as_ref();
-        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(words_panel::height(ui) + 18.0);
-        words.show(ui, |ui| words_panel::show(ui, &self.session, about));
-        let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
-        let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
-        if let Some(command) = time.show(ui, row).inner {
-            self.obey(command, ui.ctx());
-        }
-        self.heroes(ui);
     }
 
     /// Finds what stands out in this frame.
@@ -272,10 +312,15 @@ impl eframe::App for App {
                 Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
                 Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
+                Done::Lesson(job, taught) => self.learn.take(job, taught, &mut self.session),
                 Done::Compared(job, compared) => self.compare.take(job, compared),
                 Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
+        }
+        if let Some(points) = self.learn.tick(&mut self.session) {
+            self.focus.selected = points;
+            self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
         }
         if !ctx.input(|input| input.pointer.any_down()) {
             self.session.let_go();
@@ -316,6 +361,7 @@ impl eframe::App for App {
             setup: self.setup.open,
             timeline: self.shows_timeline,
             language: Some(self.language),
+            projector: self.projector,
         };
         eframe::set_value(storage, REMEMBERED, &remembered);
     }
@@ -331,30 +377,8 @@ impl eframe::App for App {
     }
 }
 
-/// Where the picture and the ring go: beside each other, as large as they get. `aspect` is the picture's width
-/// divided by its height.
-fn heroes(area: Rect, aspect: f32) -> (Rect, Rect) {
-    const GAP: f32 = 3.0 * GRID;
-    // The ring wants a little more breadth than height, for its labels.
-    const RING: f32 = 1.15;
-    let fair = (area.width() - GAP).max(0.0) * aspect / (aspect + RING);
-    let highest = (area.height() - picture_panel::BELOW).max(0.0) * aspect;
-    let split = area.left() + fair.min(highest);
-    (area.with_max_x(split), area.with_min_x((split + GAP).min(area.right())))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn picture_and_ring_share_the_area() {
-        for size in [[1248.0, 470.0], [1888.0, 800.0], [650.0, 180.0], [300.0, 900.0], [10.0, 10.0]] {
-            let area = Rect::from_min_size(egui::pos2(16.0, 60.0), size.into());
-            let (picture, ring) = heroes(area, 4.0 / 3.0);
-            assert!(area.contains_rect(picture) && area.contains_rect(ring), "{size:?}");
-            assert!(picture.right() < ring.left() || ring.width() < 1.0);
-            assert!(picture.width() * 0.75 <= (area.height() - picture_panel::BELOW).max(0.0) + 0.1);
-        }
-    }
+/// A panel's frame, with so much room above and below.
+fn panel(top: i8, bottom: i8) -> Frame {
+    let side = 2 * GRID as i8;
+    Frame::NONE.inner_margin(Margin { left: side, right: side, top, bottom })
 }

@@ -25,6 +25,8 @@ pub enum Icon {
     Chart,
     /// Runs beside each other.
     Compare,
+    /// Lessons.
+    Learn,
     /// Take back.
     Undo,
     /// To what happened before.
@@ -113,6 +115,12 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             for (x, y) in [(0.3, 0.22), (0.46, 0.52), (0.82, 0.68)] {
                 painter.circle_filled(at(x, y), rect.width() * 0.1, colour);
             }
+        }
+        Icon::Learn => {
+            // A mortarboard.
+            let board = vec![at(0.0, 0.36), at(0.5, 0.12), at(1.0, 0.36), at(0.5, 0.6)];
+            painter.add(Shape::convex_polygon(board, colour, Stroke::NONE));
+            line(&[(0.24, 0.52), (0.24, 0.78), (0.5, 0.9), (0.76, 0.78), (0.76, 0.52)]);
         }
         Icon::Compare => {
             for (y, length) in [(0.2, 0.55), (0.5, 0.9), (0.8, 0.35)] {

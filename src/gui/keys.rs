@@ -42,6 +42,8 @@ pub enum Command {
     Accuracy,
     /// Runs beside each other.
     Compare,
+    /// The lessons.
+    Learn,
     /// The scene's file once more.
     Reload,
     /// What can be set.
@@ -75,6 +77,8 @@ pub enum Command {
     Theme,
     /// English or Portuguese.
     Language,
+    /// Large and plain, for a room.
+    Projector,
     /// The whole screen, or a window.
     FullScreen,
     /// This table.
@@ -168,6 +172,7 @@ pub const TABLE: &[Line] = &[
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
     Line { shown: "A", what: "Accuracy: what other qualities cost", keys: &[(NONE, Key::A, Command::Accuracy)] },
+    Line { shown: "N", what: "Learn: lessons with questions", keys: &[(NONE, Key::N, Command::Learn)] },
     Line { shown: "K", what: "Compare: the same by other strategies", keys: &[(NONE, Key::K, Command::Compare)] },
     Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
     Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
@@ -228,7 +233,16 @@ pub const TABLE: &[Line] = &[
     Line { shown: "Ctrl +  −  0", what: "Everything larger, smaller, as usual", keys: &[] },
     Line { shown: "D", what: "Dark or light", keys: &[(NONE, Key::D, Command::Theme)] },
     Line { shown: "Shift L", what: "English, or Portuguese", keys: &[(SHIFT, Key::L, Command::Language)] },
-    Line { shown: "F11", what: "Full screen, or a window again", keys: &[(NONE, Key::F11, Command::FullScreen)] },
+    Line {
+        shown: "F11",
+        what: "For a projector: large, plain; Page ↓ ↑ go on",
+        keys: &[(NONE, Key::F11, Command::Projector)],
+    },
+    Line {
+        shown: "Alt Enter",
+        what: "Full screen, or a window again",
+        keys: &[(Modifiers::ALT, Key::Enter, Command::FullScreen)],
+    },
     Line { shown: "Esc", what: "Close what is open", keys: &[(NONE, Key::Escape, Command::Back)] },
     Line { shown: "F1", what: "This list of keys", keys: &[(NONE, Key::F1, Command::Help)] },
     Line { shown: "Ctrl Q", what: "Quit", keys: &[(CTRL, Key::Q, Command::Quit)] },

@@ -12,6 +12,7 @@ mod history;
 mod icons;
 mod inspector;
 mod keys;
+mod learn;
 mod nodes_panel;
 mod notice;
 mod opening;

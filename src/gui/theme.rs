@@ -62,12 +62,48 @@ const LIGHT: Look = Look {
     trouble: Color32::from_rgb(0xb4, 0x23, 0x18),
 };
 
+/// For a room: black and white, and nothing pale.
+const STRONG_DARK: Look = Look {
+    ground: Color32::BLACK,
+    hairline: Color32::from_rgb(0x55, 0x60, 0x6e),
+    text: Color32::WHITE,
+    quiet: Color32::from_rgb(0xd2, 0xd9, 0xe2),
+    accent: Color32::from_rgb(0xc0, 0xb4, 0xff),
+    ..DARK
+};
+
+const STRONG_LIGHT: Look = Look {
+    ground: Color32::WHITE,
+    hairline: Color32::from_rgb(0x88, 0x92, 0x9e),
+    text: Color32::BLACK,
+    quiet: Color32::from_rgb(0x2f, 0x36, 0x40),
+    ..LIGHT
+};
+
+fn strong_id() -> egui::Id {
+    egui::Id::unique("strong colours")
+}
+
 impl Look {
     /// The colours of the theme in use.
     pub fn of(ctx: &egui::Context) -> Self {
-        match ctx.theme() {
-            Theme::Dark => DARK,
-            Theme::Light => LIGHT,
+        Self::with(ctx.theme(), ctx.data(|data| data.get_temp(strong_id()).unwrap_or(false)))
+    }
+
+    fn with(theme: Theme, strong: bool) -> Self {
+        match (theme, strong) {
+            (Theme::Dark, false) => DARK,
+            (Theme::Light, false) => LIGHT,
+            (Theme::Dark, true) => STRONG_DARK,
+            (Theme::Light, true) => STRONG_LIGHT,
+        }
+    }
+
+    /// Strong colours, which are seen from afar and by daylight, or the usual ones.
+    pub fn set_strong(ctx: &egui::Context, strong: bool) {
+        ctx.data_mut(|data| data.insert_temp(strong_id(), strong));
+        for theme in [Theme::Dark, Theme::Light] {
+            ctx.style_mut_of(theme, |style| style.visuals = visuals(theme, Self::with(theme, strong)));
         }
     }
 }

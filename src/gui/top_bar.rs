@@ -21,6 +21,8 @@ pub struct Open {
     pub accuracy: bool,
     /// Runs beside each other.
     pub compare: bool,
+    /// The lessons.
+    pub learn: bool,
     /// What can be set.
     pub setup: bool,
     /// Saving.
@@ -92,6 +94,8 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     press(Icon::Contrast, "Dark or light", false, Weight::Quiet, Command::Theme, "Dark or light (D)");
     press(Icon::Save, "Save…", words, shown(open.save), Command::Save, "Save a picture, or the run (S)");
     press(Icon::Chart, "Accuracy", words, shown(open.accuracy), Command::Accuracy, "What other qualities cost (A)");
+    let hint = word!("Lessons with questions (N)", "Lições com perguntas (N)");
+    press(Icon::Learn, word!("Learn", "Aprender"), words, shown(open.learn), Command::Learn, hint);
     let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
     press(Icon::Compare, word!("Compare", "Comparar"), words, shown(open.compare), Command::Compare, hint);
     press(Icon::Sliders, "Set up", words, shown(open.setup), Command::Setup, "Machines, picture, strategy (E)");

@@ -4,6 +4,7 @@ use egui::{Context, Theme, ViewportCommand};
 
 use super::super::history::Gesture;
 use super::super::keys::Command;
+use super::super::theme::Look;
 use super::App;
 use crate::language::word;
 use crate::time::Time;
@@ -11,7 +12,15 @@ use crate::view::{About, Step};
 
 impl App {
     pub(super) fn obey(&mut self, command: Command, ctx: &Context) {
+        // A clicker knows forward and back.
+        if let (true, false, Command::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
+            let forward = if back { Command::Beginning } else { Command::Pause };
+            return self.obey(forward, ctx);
+        }
         if self.compare.is_open() && !self.gallery.is_open() && self.compare.obey(command) {
+            return;
+        }
+        if !self.shows_page() && self.learn.obey(command, &mut self.session) {
             return;
         }
         let session = &mut self.session;
@@ -46,14 +55,23 @@ impl App {
             Command::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
+                self.learn.close();
                 self.gallery.toggle(session);
             }
             Command::Accuracy => {
                 self.gallery.close();
+                self.learn.close();
                 self.compare.close(session);
                 self.accuracy.toggle(session);
             }
+            Command::Learn => {
+                self.gallery.close();
+                self.accuracy.close(session);
+                self.compare.close(session);
+                self.learn.toggle();
+            }
             Command::Compare => {
+                self.learn.close();
                 self.gallery.close();
                 self.accuracy.close(session);
                 self.compare.toggle(session);
@@ -89,10 +107,27 @@ impl App {
                 let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
+            Command::Projector => self.project(!self.projector, ctx),
             Command::Help => self.help = !self.help,
-            Command::Back => self.back(),
+            Command::Back => self.back(ctx),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
+    }
+
+    /// Whether a page lies over the picture and the ring.
+    pub(super) fn shows_page(&self) -> bool {
+        self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open() || self.learn.is_open()
+    }
+
+    /// Shows it for a room, or for whoever sits before it.
+    fn project(&mut self, projector: bool, ctx: &Context) {
+        /// How much larger everything is for a room.
+        const LARGER: f32 = 1.5;
+        self.projector = projector;
+        Look::set_strong(ctx, projector);
+        let zoom = ctx.zoom_factor();
+        ctx.set_zoom_factor(if projector { zoom * LARGER } else { zoom / LARGER });
+        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(projector));
     }
 
     fn obey_for_node(&mut self, command: Command) {
@@ -110,7 +145,7 @@ impl App {
     }
 
     /// Whatever was opened last goes away.
-    fn back(&mut self) {
+    fn back(&mut self, ctx: &Context) {
         if self.help {
             self.help = false;
         } else if self.time.is_finding() {
@@ -121,18 +156,24 @@ impl App {
             self.accuracy.close(&mut self.session);
         } else if self.compare.is_open() {
             self.compare.close(&mut self.session);
+        } else if self.learn.is_open() {
+            self.learn.close();
         } else if self.save_bar.is_open() {
             self.save_bar.close();
         } else if self.session.notice().is_some() {
             self.session.close_notice();
         } else if self.session.inspected_place().is_some() {
             self.session.stop_inspecting();
+        } else if self.projector {
+            self.project(false, ctx);
         } else if self.picture.moves_camera {
             self.picture.moves_camera = false;
         } else if self.picture.is_zoomed() {
             self.picture.show_all();
-        } else {
+        } else if self.focus.selected.is_some() {
             self.focus.selected = None;
+        } else {
+            self.learn.leave();
         }
     }
 }

@@ -14,6 +14,7 @@ use super::super::settings::Settings;
 use super::comparing::Compared;
 use super::measuring::Finding;
 use super::moving::Moved;
+use super::teaching::Taught;
 use crate::driver::{RAY, probe};
 use crate::language::{Language, say};
 use crate::output::OutputError;
@@ -42,6 +43,8 @@ pub enum Done {
     Found(u64, Finding),
     /// What has come of a comparison, and the number of its job.
     Compared(u64, Compared),
+    /// A lesson, or a sentence that says why it cannot be shown, and the number of its job.
+    Lesson(u64, Result<Taught, String>),
     /// A pixel, with all that is known of it; nothing if there is no such pixel.
     Inspected(Option<Box<Inspected>>),
     /// What is about seen by a camera that was moved.

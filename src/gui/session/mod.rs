@@ -10,6 +10,7 @@ mod measuring;
 mod moving;
 mod performer;
 mod stage;
+mod teaching;
 mod timing;
 
 use std::path::PathBuf;
@@ -39,6 +40,7 @@ pub use moving::Moved;
 use moving::Moving;
 use performer::Performer;
 pub use stage::{Phase, Stage};
+pub use teaching::{Preparing, Taught};
 
 /// What the window shows, what is set, and what goes on in the background.
 pub struct Session {
@@ -159,7 +161,9 @@ impl Session {
                 }
                 Done::Inspected(inspected) => self.take_inspected(inspected),
                 Done::Moved(moved) => self.take_moved(moved),
-                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Compared(..)) => others.push(done),
+                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Compared(..) | Done::Lesson(..)) => {
+                    others.push(done)
+                }
             }
         }
         others

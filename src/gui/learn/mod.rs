@@ -1,0 +1,206 @@
+//! Lessons: a list to choose from, and the one that is being taken.
+
+mod course;
+mod panel;
+
+use std::path::Path;
+
+use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::icons::Icon;
+use super::keys::Command;
+use super::save_bar::resolve;
+use super::session::{Preparing, Session, Taught};
+use super::theme::{self, GRID, Look};
+use super::widgets::{Weight, button, path_field};
+use crate::language::word;
+use crate::lesson::{BUILT_IN, Lesson};
+use crate::time::Time;
+use crate::view::About;
+use course::Course;
+pub use panel::height;
+
+/// The page of lessons, and the lesson that is being taken.
+#[derive(Default)]
+pub struct Learn {
+    open: bool,
+    path: String,
+    trouble: Option<String>,
+    preparing: Option<Preparing>,
+    course: Option<Course>,
+}
+
+impl Learn {
+    /// Opens the list, or closes it.
+    pub fn toggle(&mut self) {
+        (self.open, self.trouble) = (!self.open, None);
+    }
+
+    /// Whether the list is to be shown.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Closes the list.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Whether a lesson is being taken.
+    pub fn is_on(&self) -> bool {
+        self.course.is_some()
+    }
+
+    /// Whether the step of the lesson wants the timeline.
+    pub fn wants_timeline(&self) -> Option<bool> {
+        self.course.as_ref().map(Course::wants_timeline)
+    }
+
+    /// The lesson's name and the step's number, for tests.
+    pub fn step(&self) -> Option<(&str, usize)> {
+        self.course.as_ref().map(|course| (course.name(), course.step()))
+    }
+
+    /// Leaves the lesson; its run stays.
+    pub fn leave(&mut self) {
+        self.course = None;
+    }
+
+    /// Reads a lesson's file, or a built-in lesson, and prepares it.
+    pub fn start(&mut self, argument: &str, session: &mut Session) {
+        match Lesson::open(argument) {
+            Ok(lesson) => {
+                let directory = Path::new(argument).parent().unwrap_or(Path::new("")).to_path_buf();
+                self.preparing = Some(session.prepare_lesson(lesson, directory));
+                self.trouble = None;
+            }
+            Err(error) => self.trouble = Some(error.to_string()),
+        }
+    }
+
+    /// Takes in a lesson that was prepared. Returns what its first step points at.
+    pub fn take(&mut self, job: u64, taught: Result<Taught, String>, session: &mut Session) {
+        if self.preparing.as_ref().is_none_or(|preparing| preparing.job != job) {
+            return;
+        }
+        self.preparing = None;
+        match taught {
+            Ok(taught) => {
+                self.course = Some(Course::begin(taught, session));
+                self.open = false;
+            }
+            Err(why) => (self.open, self.trouble) = (true, Some(why)),
+        }
+    }
+
+    /// Lets the lesson's time go on; returns what stands out from now on, if that is something else.
+    pub fn tick(&mut self, session: &mut Session) -> Option<Option<About>> {
+        self.course.as_mut()?.tick(session)
+    }
+
+    /// Does what a key asks for, if it is meant for the lesson.
+    pub fn obey(&mut self, command: Command, session: &mut Session) -> bool {
+        let Some(course) = &mut self.course else { return false };
+        match command {
+            Command::Dolly(true) => course.back(session),
+            Command::Dolly(false) => course.next(session),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Shows the step of the lesson that is being taken.
+    pub fn show_step(&mut self, ui: &mut Ui, session: &mut Session) {
+        let Some(course) = &mut self.course else { return };
+        match panel::show(ui, course) {
+            Some(panel::Asked::Back) => course.back(session),
+            Some(panel::Asked::Next) if course.is_last() => {
+                self.course = None;
+                self.open = true;
+            }
+            Some(panel::Asked::Next) => course.next(session),
+            Some(panel::Asked::Answer(place)) => course.answer(place, session),
+            Some(panel::Asked::Leave) => self.course = None,
+            None => {}
+        }
+    }
+
+    /// Shows the list.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let look = Look::of(ui.ctx());
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(word!("Learn", "Aprender")).font(theme::strong(theme::LARGE)).color(look.text));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let close = word!("Close the lessons", "Fechar as lições");
+                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
+                    self.open = false;
+                }
+                if let Some(preparing) = &self.preparing {
+                    let bar = ProgressBar::new(preparing.share()).desired_width(20.0 * GRID);
+                    let bar = ui.add(bar.desired_height(0.75 * GRID).fill(look.accent));
+                    let words = word!("The lesson's pictures are traced", "As imagens da lição são calculadas");
+                    bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, words));
+                    ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
+                }
+            });
+        });
+        ui.add_space(GRID);
+        ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
+            for (number, (name, _)) in (1..).zip(BUILT_IN) {
+                // Built-in lessons can be read, which a test holds.
+                let Ok(lesson) = Lesson::open(name) else { continue };
+                if line(ui, number, &lesson, look) {
+                    self.start(name, session);
+                }
+            }
+            ui.add_space(2.0 * GRID);
+            self.other(ui, session, look);
+        });
+    }
+
+    /// A lesson of one's own.
+    fn other(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+        let about = word!("A lesson of your own, a text file:", "Uma lição sua, um arquivo de texto:");
+        ui.label(RichText::new(about).font(theme::regular(theme::BODY)).color(look.quiet));
+        ui.horizontal(|ui| {
+            let hint = word!("a lesson's file, such as mine.ron", "o arquivo de uma lição, como minha.ron");
+            let name = word!("Path of a lesson", "Caminho de uma lição");
+            let typed = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
+            let opens = button(ui, None, word!("Open the lesson", "Abrir a lição"), true, Weight::Quiet).clicked();
+            if (typed.entered || opens) && !self.path.trim().is_empty() {
+                match resolve(&self.path, std::env::home_dir()) {
+                    Ok(path) => self.start(&path.to_string_lossy(), session),
+                    Err(why) => self.trouble = Some(why),
+                }
+            }
+        });
+        if let Some(why) = &self.trouble {
+            ui.label(RichText::new(why).font(theme::regular(theme::BODY)).color(look.trouble));
+        }
+    }
+}
+
+/// A lesson of the list; returns whether it was chosen.
+fn line(ui: &mut Ui, number: u32, lesson: &Lesson, look: Look) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width() - GRID, 7.5 * GRID), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.spoken()));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 6.0, look.raised);
+    }
+    let painter = ui.painter_at(rect);
+    let left = rect.left() + 6.0 * GRID;
+    let middle = pos2(rect.left() + 3.0 * GRID, rect.center().y);
+    painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);
+    let title = pos2(left, rect.top() + 2.5 * GRID);
+    painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.spoken(), theme::strong(18.0), look.text);
+    let about = pos2(left, rect.top() + 5.25 * GRID);
+    painter.text(about, egui::Align2::LEFT_CENTER, lesson.about.spoken(), theme::regular(theme::BODY), look.quiet);
+    response.clicked()
+}
+
+/// So long a way through a run is shown in about so many seconds.
+fn rate_for(way: Time) -> usize {
+    const SECONDS: f64 = 7.0;
+    let rates = crate::view::RATES;
+    rates.iter().position(|&rate| rate * SECONDS >= way.secs()).unwrap_or(rates.len() - 2).min(rates.len() - 2)
+}

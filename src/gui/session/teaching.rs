@@ -1,0 +1,72 @@
+//! The job that runs a lesson's runs, and what shows them.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::Session;
+use super::jobs::{Done, Jobs, Recorded, guess};
+use crate::lesson::Lesson;
+use crate::view::Known;
+
+/// A lesson whose runs have been run.
+pub struct Taught {
+    /// What it says.
+    pub lesson: Arc<Lesson>,
+    /// Its runs, by name.
+    runs: Vec<(String, Recorded)>,
+}
+
+/// A lesson that is being prepared.
+pub struct Preparing {
+    /// The job's number.
+    pub job: u64,
+    /// How many pixels are traced.
+    traced: Arc<AtomicU32>,
+    pixels: u32,
+}
+
+impl Preparing {
+    /// How far it is, 0 to 1.
+    pub fn share(&self) -> f32 {
+        self.traced.load(Ordering::Relaxed) as f32 / self.pixels.max(1) as f32
+    }
+}
+
+impl Session {
+    /// Runs a lesson's runs in the background; scenes that are files stand in `directory`.
+    pub fn prepare_lesson(&mut self, lesson: Lesson, directory: PathBuf) -> Preparing {
+        let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
+        let job = self.jobs.prepare_lesson(lesson, directory, Arc::clone(&traced));
+        Preparing { job, traced, pixels }
+    }
+
+    /// Shows a run of a lesson from its beginning.
+    pub fn show_run_of(&mut self, taught: &Taught, name: &str) {
+        if let Some((_, recorded)) = taught.runs.iter().find(|(other, _)| other == name) {
+            self.loading = None;
+            self.play(recorded.clone());
+        }
+    }
+}
+
+impl Jobs {
+    fn prepare_lesson(&mut self, lesson: Lesson, directory: PathBuf, traced: Arc<AtomicU32>) -> u64 {
+        let number = self.number();
+        self.start("lesson", move || {
+            let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
+            // A lesson's pictures are small, and soon traced.
+            let performed = lesson.perform(&directory, &done, &|| false);
+            let taught = performed.map(|performed| {
+                let recorded = performed.unwrap_or_default().into_iter().map(|(name, run)| {
+                    let known = Arc::new(Known::of(&run.log));
+                    let preview = guess(&run.tracer);
+                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
+                });
+                Taught { runs: recorded.collect(), lesson: Arc::new(lesson) }
+            });
+            Done::Lesson(number, taught.map_err(|why| format!("The lesson cannot be shown: {why}")))
+        });
+        number
+    }
+}

@@ -1,0 +1,91 @@
+//! Every lesson's claims are true of the runs that it shows; and a lesson's file with a mistake says where.
+
+use std::fs;
+use std::path::Path;
+
+use anel::lesson::{BUILT_IN, Lesson, Performed};
+
+fn performed(lesson: &Lesson, directory: &Path) -> Vec<(String, Performed)> {
+    let performed = lesson.perform(directory, &|_| {}, &|| false);
+    performed.expect("its scenes can be read").expect("nobody gives it up")
+}
+
+#[test]
+fn what_every_lesson_claims_is_true() {
+    for (name, _) in BUILT_IN {
+        let lesson = Lesson::open(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let told = lesson.check(&performed(&lesson, Path::new("")));
+        let wrong: Vec<_> = told.iter().filter(|(_, holds)| !holds).map(|(claim, _)| claim).collect();
+        assert!(wrong.is_empty(), "{name}: {wrong:#?}");
+        // A lesson that claims nothing could say anything.
+        assert!(told.len() >= 3, "{name} claims {} things", told.len());
+        assert!(lesson.steps.iter().any(|step| step.ask.is_some()), "{name} asks nothing");
+    }
+}
+
+#[test]
+fn the_same_lesson_shows_the_same_runs() {
+    let lesson = Lesson::open("sizes").expect("a built-in lesson");
+    let [one, other] = [(); 2].map(|()| performed(&lesson, Path::new("")));
+    for ((name, one), (_, other)) in one.iter().zip(&other) {
+        assert!(one.log == other.log, "the run {name}");
+    }
+}
+
+/// A lesson of one step whose run and whose step have these fields too.
+fn written(run: &str, step: &str) -> String {
+    format!(
+        "Lesson(\n    title: (\"A\", \"B\"),\n    about: \"C\",\n    runs: {{\"one\": (size: (40, 30), {run})}},\n    \
+         steps: [\n        (say: \"D\", {step}),\n    ],\n)\n"
+    )
+}
+
+#[test]
+fn a_false_claim_is_found() {
+    let lesson =
+        Lesson::parse("mine", &written("", "until: End, holds: [(figure: Atoms, at_least: 25)]")).expect("a lesson");
+    let told = lesson.check(&performed(&lesson, Path::new("")));
+    assert_eq!(told.len(), 1);
+    assert!(!told[0].1 && told[0].0.contains("Atoms of `one` is 24"), "{told:?}");
+    let lesson = Lesson::parse("mine", &written("strategy: \"static\"", "until: FirstTransfer")).expect("a lesson");
+    let told = lesson.check(&performed(&lesson, Path::new("")));
+    assert_eq!(told, [("step 1: the run `one` has no FirstTransfer".to_owned(), false)]);
+}
+
+#[test]
+fn a_mistake_is_told_with_its_place() {
+    let told = |text: &str| Lesson::parse("mine", text).expect_err("it is wrong").to_string();
+    let place = |run: &str, step: &str, expected: &str| {
+        let told = told(&written(run, step));
+        assert!(told.contains(expected), "{told}, not {expected}");
+    };
+    place("colour: 3", "", "line 4");
+    place("strategy: \"tree\"", "", "there is no strategy `tree`");
+    place("speeds: []", "", "line 4, column 12: the run `one`: there can be 1 to 32 machines");
+    place("speeds: [2]", "", "a speed can be 0 to 1");
+    place("script: [(at: 1, machine: 9, speed: 0.1)]", "", "there are machines 1 to 8, not 9");
+    place("seconds: -1", "", "`seconds` can be 0.1 to 3600, not -1");
+    place("", "run: \"two\"", "line 6, column 26: step 1: there is no run `two`; there are `one`");
+    place("", "machine: 0", "step 1: there are machines 1 to 8, not 0");
+    place("", "until: Noon", "line 6");
+    place("", "holds: [(figure: Seconds)]", "step 1: a claim needs `at_least` or `at_most`");
+    let ask = "ask: (question: \"Q\", answers: [\"a\", \"b\"], right: 3, because: \"c\")";
+    place("", ask, "`right` is the number of the right answer, 1 to 2, not 3");
+    assert!(told("").contains("the file is empty; a lesson needs at least a title, runs and steps"));
+    assert!(told("Lesson(title: \"A\", about: \"B\", runs: {}, steps: [])").contains("at least one run"));
+    assert!(told(&(written("", "") + "x")).contains("something follows the end of the lesson"));
+    let error = Lesson::open("no/such.ron").expect_err("there is none").to_string();
+    assert!(error.starts_with("no/such.ron: there is no such file, and no built-in lesson of that name"), "{error}");
+}
+
+#[test]
+fn a_scene_may_stand_beside_the_lesson() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let scene = "Scene(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), lights: [], objects: [Sphere(radius: 1)])";
+    fs::write(directory.path().join("ball.ron"), scene).expect("a file");
+    let lesson = Lesson::parse("mine", &written("scene: \"ball.ron\"", "until: End")).expect("a lesson");
+    let performed = performed(&lesson, directory.path());
+    assert_eq!(performed[0].1.opened.name, "ball");
+    let missing = lesson.perform(Path::new("/nowhere"), &|_| {}, &|| false);
+    assert!(missing.is_err_and(|why| why.starts_with("the run `one`: ")), "it names the run");
+}
