@@ -25,7 +25,7 @@ use super::time_panel::{self, TimePanel};
 use super::timeline_panel::{self, TimelinePanel};
 use super::{Launch, frames, help, inspector, nodes_panel, notice, places, ring_panel, top_bar, words_panel, zoom};
 use crate::balance::NodeId;
-use crate::language::Language;
+use crate::language::{Language, say};
 use crate::time::Time;
 use crate::view::{About, Dossier, Lit};
 use heroes::heroes;
@@ -158,7 +158,11 @@ impl App {
         self.session.open(&first.to_string_lossy());
         if dropped.len() > 1 {
             let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            self.session.note(format!("{} files were dropped; {name} is opened", dropped.len()));
+            let many = dropped.len();
+            self.session.note(say!(
+                "{many} files were dropped; {name} is opened",
+                "{many} arquivos foram soltos; {name} é aberto"
+            ));
         }
     }
 

@@ -11,6 +11,7 @@ use super::session::jobs::Thumbnail;
 use super::session::{Purpose, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
+use crate::language::{say, word};
 use crate::scene::BUILT_IN;
 
 /// The page of scenes.
@@ -92,9 +93,11 @@ impl Gallery {
                 session.open(&path.to_string_lossy());
             }
             None => {
-                self.trouble = Some(
-                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed".into(),
+                let trouble = word!(
+                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
+                    "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
                 );
+                self.trouble = Some(trouble.into());
             }
         }
     }
@@ -113,15 +116,19 @@ impl Gallery {
 
     fn path_row(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Scenes").font(theme::strong(theme::LARGE)).color(look.text));
+            ui.label(RichText::new(word!("Scenes", "Cenas")).font(theme::strong(theme::LARGE)).color(look.text));
             ui.add_space(GRID);
             let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
-            let hint = "path of a scene (.ron) or of a recorded run (.anel)";
-            let field = path_field(ui, (&mut self.path, hint), width, "What to open", &mut self.wants_focus);
+            let hint = word!(
+                "path of a scene (.ron) or of a recorded run (.anel)",
+                "caminho de uma cena (.ron) ou de uma execução gravada (.anel)"
+            );
+            let name = word!("What to open", "O que abrir");
+            let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);
             if field.changed {
                 self.trouble = None;
             }
-            if button(ui, None, "Open", true, Weight::Primary).clicked() || field.entered {
+            if button(ui, None, word!("Open", "Abrir"), true, Weight::Primary).clicked() || field.entered {
                 match resolve(&self.path, std::env::home_dir()) {
                     Ok(path) => {
                         self.open = false;
@@ -130,21 +137,22 @@ impl Gallery {
                     Err(why) => self.trouble = Some(why),
                 }
             }
-            if button(ui, None, "Browse…", true, Weight::Quiet).clicked() {
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
                 session.jobs().choose(Purpose::Open, directory.join("scene"));
             }
-            if button(ui, Some(Icon::Close), "Close scenes", false, Weight::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), word!("Close scenes", "Fechar cenas"), false, Weight::Quiet).clicked() {
                 self.open = false;
             }
         });
         ui.horizontal(|ui| {
-            let text = "Or drop a file on the window.";
+            let text = word!("Or drop a file on the window.", "Ou soltar um arquivo na janela.");
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
             let last =
                 session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
+            let name = word!("Open the run saved last", "Abrir a última execução salva");
             if let Some(last) = last
-                && button(ui, None, "Open the run saved last", true, Weight::Quiet).on_hover_text(&last).clicked()
+                && button(ui, None, name, true, Weight::Quiet).on_hover_text(&last).clicked()
             {
                 self.open = false;
                 session.open(&last);
@@ -168,7 +176,8 @@ impl Gallery {
             let place = Rect::from_min_size(corner, vec2(width, height + caption));
             let response = ui.interact(place, ui.scope_id().with(("tile", &tile.scene)), Sense::click());
             let name = name_of(&tile.scene);
-            response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Open {name}")));
+            let open = say!("Open {name}", "Abrir {name}");
+            response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &open));
             let picture = place.with_max_y(place.top() + height);
             let painter = ui.painter();
             painter.rect_filled(picture, 6.0, look.raised);
@@ -179,7 +188,8 @@ impl Gallery {
                 }
                 Picture::Pending => {
                     let (at, font) = (picture.center(), theme::regular(theme::SMALL));
-                    painter.text(at, Align2::CENTER_CENTER, "is being traced …", font, look.quiet);
+                    let words = word!("is being traced …", "sendo calculada …");
+                    painter.text(at, Align2::CENTER_CENTER, words, font, look.quiet);
                 }
                 Picture::None(why) => {
                     let font = theme::regular(theme::SMALL);

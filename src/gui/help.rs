@@ -6,6 +6,7 @@ use super::icons::Icon;
 use super::keys::TABLE;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button};
+use crate::language::word;
 
 /// Shows the page over everything else; returns whether it is to be closed.
 pub fn show(ctx: &egui::Context) -> bool {
@@ -16,9 +17,10 @@ pub fn show(ctx: &egui::Context) -> bool {
     let shown = modal.show(ctx, |ui| {
         let closed = ui
             .horizontal(|ui| {
-                ui.label(RichText::new("Keys").font(theme::strong(theme::LARGE)).color(look.text));
+                let title = word!("Keys", "Teclas");
+                ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    button(ui, Some(Icon::Close), "Close help", false, Weight::Quiet).clicked()
+                    button(ui, Some(Icon::Close), word!("Close help", "Fechar ajuda"), false, Weight::Quiet).clicked()
                 })
                 .inner
             })
@@ -42,12 +44,13 @@ fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
     const LINE: f32 = 3.5 * GRID;
     let size = vec2(WIDTH * columns as f32, LINE * lines as f32);
     let (area, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, "What the keys do"));
+    let name = word!("What the keys do", "O que fazem as teclas");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, name));
     for (i, line) in TABLE.iter().enumerate() {
         let corner = area.min + vec2((i / lines) as f32 * WIDTH, (i % lines) as f32 * LINE);
         let middle = corner.y + LINE / 2.0;
         let font = theme::strong(theme::SMALL);
-        let galley = ui.painter().layout_no_wrap(line.shown.to_owned(), font, look.text);
+        let galley = ui.painter().layout_no_wrap(line.shown().to_owned(), font, look.text);
         let cap = Rect::from_min_size(
             Pos2::new(corner.x, middle - 1.5 * GRID),
             vec2(galley.size().x + 2.0 * GRID, 3.0 * GRID),
@@ -55,6 +58,6 @@ fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
         ui.painter().rect(cap, 5.0, look.raised, egui::Stroke::new(1.0, look.hairline), StrokeKind::Inside);
         ui.painter().galley(cap.center() - galley.size() / 2.0, galley, look.text);
         let what = Pos2::new(corner.x + 12.0 * GRID, middle);
-        ui.painter().text(what, Align2::LEFT_CENTER, line.what, theme::regular(theme::BODY), look.text);
+        ui.painter().text(what, Align2::LEFT_CENTER, line.what(), theme::regular(theme::BODY), look.text);
     }
 }

@@ -9,6 +9,7 @@ use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, GRID, Look};
 use super::widgets::{self, Weight, button};
+use crate::language::{say, word};
 use crate::picture::srgb8;
 use crate::view::{Chosen, Inspected, Mark, RaySpot};
 
@@ -37,14 +38,14 @@ pub fn show(ui: &mut Ui, place: [u32; 2], session: &mut Session) {
             });
             asked = asked.or(scrolled.inner);
         }
-        None => quiet(ui, "Tracing it once more …"),
+        None => quiet(ui, word!("Tracing it once more …", "Calculando-o mais uma vez …")),
     }
     match asked {
         Some(Asked::Choose(chosen)) => session.choose_ray(chosen),
         Some(Asked::Copy) => {
             let text = session.inspected().map(Inspected::text).unwrap_or_default();
             ui.ctx().copy_text(text);
-            session.note("Copied as text");
+            session.note(word!("Copied as text", "Copiado como texto"));
         }
         Some(Asked::Close) => session.stop_inspecting(),
         None => {}
@@ -63,14 +64,14 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
         let title = RichText::new(format!("Pixel {x}, {y}")).font(theme::strong(theme::LARGE)).color(look.text);
         ui.label(title);
         ui.with_layout(Layout::right_to_left(egui::Align::Center), |ui| {
-            if button(ui, Some(Icon::Close), "Close inspector", false, Weight::Quiet)
-                .on_hover_text("Close (Esc)")
+            if button(ui, Some(Icon::Close), word!("Close inspector", "Fechar inspetor"), false, Weight::Quiet)
+                .on_hover_text(word!("Close (Esc)", "Fechar (Esc)"))
                 .clicked()
             {
                 asked = Some(Asked::Close);
             }
             ui.add_enabled_ui(inspected.is_some(), |ui| {
-                if button(ui, None, "Copy as text", true, Weight::Quiet).clicked() {
+                if button(ui, None, word!("Copy as text", "Copiar como texto"), true, Weight::Quiet).clicked() {
                     asked = Some(Asked::Copy);
                 }
             });
@@ -110,14 +111,15 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
     let mut asked = None;
     let (chosen, samples) = (inspected.chosen, inspected.samples.len());
     ui.horizontal(|ui| {
-        title(ui, "Its rays", inks.look);
+        title(ui, word!("Its rays", "Seus raios"), inks.look);
         if samples > 1 {
             asked = sample_buttons(ui, chosen.sample, samples, inks.look);
         }
     });
     let tree = inspected.ray_tree(ui.available_width());
     let names: Vec<_> = tree.spots.iter().map(|spot| spot.name.clone()).collect();
-    let rect = drawing(ui, "Tree of rays", &names.join("; "), (&tree.marks, tree.height), inks);
+    let name = word!("Tree of rays", "Árvore de raios");
+    let rect = drawing(ui, name, &names.join("; "), (&tree.marks, tree.height), inks);
     for spot in tree.spots {
         let at = rect.min + Vec2::from(spot.at);
         let place = Rect::from_center_size(at, Vec2::splat(2.0 * RaySpot::REACH));
@@ -134,7 +136,11 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
     if inspected.sample().rays.len() > 1 {
         quiet(
             ui,
-            "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
+            word!(
+                "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
+                "P do observador, R refletido (tracejado), T através de superfície; quanto mais largo, mais conta. \
+                 Clique num."
+            ),
         );
     }
     asked
@@ -143,32 +149,33 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
 /// From one sample to the next.
 fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Option<Asked> {
     let mut asked = None;
-    for (name, words, to) in [
-        ("Sample before", "<", sample.checked_sub(1)),
-        ("Next sample", ">", Some(sample + 1).filter(|next| *next < samples)),
-    ] {
-        if name == "Next sample" {
-            let text = format!("sample {} of {samples}", sample + 1);
-            ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
-        }
+    let mut step = |ui: &mut Ui, name, words, to: Option<usize>| {
         ui.add_enabled_ui(to.is_some(), |ui| {
             if widgets::named_button(ui, None, name, Some(words), Weight::Quiet).clicked() {
                 asked = to.map(|sample| Asked::Choose(Chosen { sample, ray: 0 }));
             }
         });
-    }
+    };
+    step(ui, word!("Sample before", "Amostra anterior"), "<", sample.checked_sub(1));
+    let which = sample + 1;
+    let text = say!("sample {which} of {samples}", "amostra {which} de {samples}");
+    ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
+    step(ui, word!("Next sample", "Próxima amostra"), ">", Some(which).filter(|next| *next < samples));
     asked
 }
 
 /// The chosen ray: the terms of its equation, and what it passes.
 fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) {
-    ui.horizontal(|ui| title(ui, &format!("Ray {}", inspected.chosen.ray + 1), inks.look));
+    let which = inspected.chosen.ray + 1;
+    ui.horizontal(|ui| title(ui, &say!("Ray {which}", "Raio {which}"), inks.look));
     quiet(ui, &inspected.ray_sentences().join(" "));
     let terms = inspected.draw_terms(ui.available_width());
-    drawing(ui, "Terms of the equation", &inspected.term_words(), (&terms.marks, terms.height), inks);
+    let name = word!("Terms of the equation", "Termos da equação");
+    drawing(ui, name, &inspected.term_words(), (&terms.marks, terms.height), inks);
     ui.add_space(GRID);
     let spans = inspected.spans(ui.available_width(), MOST_ROWS);
-    drawing(ui, "Spans along the ray", &inspected.span_words(), (&spans.marks, spans.height), inks);
+    let name = word!("Spans along the ray", "Trechos ao longo do raio");
+    drawing(ui, name, &inspected.span_words(), (&spans.marks, spans.height), inks);
 }
 
 /// A display list as high as it is; returns its place.

@@ -3,6 +3,7 @@
 use egui::{Context, Event, Key, Modifiers};
 
 use crate::balance::NodeId;
+use crate::language::word;
 use crate::view::{About, Step};
 
 /// What can be asked for, by a key or by a button.
@@ -91,11 +92,29 @@ pub enum Command {
 
 /// A line of the table: what the keys are called, what they do, and the keys.
 pub struct Line {
-    /// What the keys are called.
-    pub shown: &'static str,
-    /// What they do.
-    pub what: &'static str,
+    shown: Both,
+    what: Both,
     keys: &'static [(Modifiers, Key, Command)],
+}
+
+/// The same in English and in Portuguese.
+type Both = (&'static str, &'static str);
+
+/// What is on the keys themselves.
+const fn same(shown: &'static str) -> Both {
+    (shown, shown)
+}
+
+impl Line {
+    /// What the keys are called.
+    pub fn shown(&self) -> &'static str {
+        word!(self.shown.0, self.shown.1)
+    }
+
+    /// What they do.
+    pub fn what(&self) -> &'static str {
+        word!(self.what.0, self.what.1)
+    }
 }
 
 const NONE: Modifiers = Modifiers::NONE;
@@ -104,10 +123,14 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 
 /// Everything that keys do, in the order in which it is listed.
 pub const TABLE: &[Line] = &[
-    Line { shown: "Space", what: "Pause, or go on", keys: &[(NONE, Key::Space, Command::Pause)] },
     Line {
-        shown: "←  →",
-        what: "An event back or on; or the pixel beside",
+        shown: ("Space", "Espaço"),
+        what: ("Pause, or go on", "Pausar, ou continuar"),
+        keys: &[(NONE, Key::Space, Command::Pause)],
+    },
+    Line {
+        shown: same("←  →"),
+        what: ("An event back or on; or the pixel beside", "Um evento atrás ou adiante; ou o pixel ao lado"),
         keys: &[
             (NONE, Key::ArrowLeft, Command::Arrow([-1, 0])),
             (NONE, Key::ArrowRight, Command::Arrow([1, 0])),
@@ -116,69 +139,101 @@ pub const TABLE: &[Line] = &[
         ],
     },
     Line {
-        shown: "Shift ←  →",
-        what: "An atom back or on",
+        shown: same("Shift ←  →"),
+        what: ("An atom back or on", "Um átomo atrás ou adiante"),
         keys: &[
             (SHIFT, Key::ArrowLeft, Command::Step(Step::Atom, false)),
             (SHIFT, Key::ArrowRight, Command::Step(Step::Atom, true)),
         ],
     },
     Line {
-        shown: "Ctrl ←  →",
-        what: "An offer back or on, from when it is made",
+        shown: same("Ctrl ←  →"),
+        what: ("An offer back or on, from when it is made", "Uma oferta atrás ou adiante, ao ser feita"),
         keys: &[
             (CTRL, Key::ArrowLeft, Command::Step(Step::Lap, false)),
             (CTRL, Key::ArrowRight, Command::Step(Step::Lap, true)),
         ],
     },
     Line {
-        shown: ",  .",
-        what: "Time goes slower, or faster",
+        shown: same(",  ."),
+        what: ("Time goes slower, or faster", "O tempo passa mais devagar, ou mais depressa"),
         keys: &[(NONE, Key::Comma, Command::Rate(false)), (NONE, Key::Period, Command::Rate(true))],
     },
-    Line { shown: "Home", what: "To the beginning", keys: &[(NONE, Key::Home, Command::Beginning)] },
     Line {
-        shown: "L",
-        what: "Live: what happens now; or the end",
+        shown: same("Home"),
+        what: ("To the beginning", "Ao início"),
+        keys: &[(NONE, Key::Home, Command::Beginning)],
+    },
+    Line {
+        shown: same("L"),
+        what: ("Live: what happens now; or the end", "Ao vivo: o que acontece agora; ou o fim"),
         keys: &[(NONE, Key::L, Command::Live), (NONE, Key::End, Command::Live)],
     },
     Line {
-        shown: "F",
-        what: "Find the first offer, the biggest transfer …",
+        shown: same("F"),
+        what: ("Find the first offer, the biggest transfer …", "Achar a primeira oferta, a maior transferência …"),
         keys: &[(NONE, Key::F, Command::Find), (CTRL, Key::F, Command::Find)],
     },
-    Line { shown: "T", what: "The timeline, or the machines", keys: &[(NONE, Key::T, Command::Timeline)] },
     Line {
-        shown: "Ctrl ↑  ↓",
-        what: "Zoom the timeline",
+        shown: same("T"),
+        what: ("The timeline, or the machines", "A linha do tempo, ou as máquinas"),
+        keys: &[(NONE, Key::T, Command::Timeline)],
+    },
+    Line {
+        shown: same("Ctrl ↑  ↓"),
+        what: ("Zoom the timeline", "Ampliar a linha do tempo"),
         keys: &[(CTRL, Key::ArrowUp, Command::Zoom(true)), (CTRL, Key::ArrowDown, Command::Zoom(false))],
     },
-    Line { shown: "R", what: "Restart with what is set", keys: &[(NONE, Key::R, Command::Restart)] },
     Line {
-        shown: "S",
-        what: "Save a picture, or the run",
+        shown: same("R"),
+        what: ("Restart with what is set", "Reiniciar com o que está ajustado"),
+        keys: &[(NONE, Key::R, Command::Restart)],
+    },
+    Line {
+        shown: same("S"),
+        what: ("Save a picture, or the run", "Salvar uma imagem, ou a execução"),
         keys: &[(NONE, Key::S, Command::Save), (CTRL, Key::S, Command::Save)],
     },
     Line {
-        shown: "Ctrl Shift S",
-        what: "Save the run; then Enter",
+        shown: same("Ctrl Shift S"),
+        what: ("Save the run; then Enter", "Salvar a execução; depois, Enter"),
         keys: &[(CTRL.plus(SHIFT), Key::S, Command::SaveRun)],
     },
     // Windows tell of these keys as of one.
     Line { shown: "Ctrl C", what: "Copy the picture as it is shown", keys: &[] },
     Line {
-        shown: "O",
-        what: "Scenes: open one, or a recorded run",
+        shown: same("O"),
+        what: ("Scenes: open one, or a recorded run", "Cenas: abrir uma, ou uma execução gravada"),
         keys: &[(NONE, Key::O, Command::Scenes), (CTRL, Key::O, Command::Scenes)],
     },
-    Line { shown: "A", what: "Accuracy: what other qualities cost", keys: &[(NONE, Key::A, Command::Accuracy)] },
-    Line { shown: "N", what: "Learn: lessons with questions", keys: &[(NONE, Key::N, Command::Learn)] },
-    Line { shown: "K", what: "Compare: the same by other strategies", keys: &[(NONE, Key::K, Command::Compare)] },
-    Line { shown: "F5", what: "Read the scene's file again", keys: &[(NONE, Key::F5, Command::Reload)] },
-    Line { shown: "E", what: "Set up machines, picture and strategy", keys: &[(NONE, Key::E, Command::Setup)] },
     Line {
-        shown: "1 … 9",
-        what: "Select a machine (a click on it, too)",
+        shown: same("A"),
+        what: ("Accuracy: what other qualities cost", "Precisão: o que custam outras qualidades"),
+        keys: &[(NONE, Key::A, Command::Accuracy)],
+    },
+    Line {
+        shown: same("N"),
+        what: ("Learn: lessons with questions", "Aprender: lições com perguntas"),
+        keys: &[(NONE, Key::N, Command::Learn)],
+    },
+    Line {
+        shown: same("K"),
+        what: ("Compare: the same by other strategies", "Comparar: o mesmo com outras estratégias"),
+        keys: &[(NONE, Key::K, Command::Compare)],
+    },
+    Line {
+        shown: same("F5"),
+        what: ("Read the scene's file again", "Ler de novo o arquivo da cena"),
+        keys: &[(NONE, Key::F5, Command::Reload)],
+    },
+    Line {
+        shown: same("E"),
+        what: ("Set up machines, picture and strategy", "Ajustar máquinas, imagem e estratégia"),
+        keys: &[(NONE, Key::E, Command::Setup)],
+    },
+    Line {
+        shown: same("1 … 9"),
+        what: ("Select a machine (a click on it, too)", "Selecionar uma máquina (um clique também)"),
         keys: &[
             (NONE, Key::Num1, Command::Select(0)),
             (NONE, Key::Num2, Command::Select(1)),
@@ -192,8 +247,8 @@ pub const TABLE: &[Line] = &[
         ],
     },
     Line {
-        shown: "+  −",
-        what: "The selected machine faster, or slower",
+        shown: same("+  −"),
+        what: ("The selected machine faster, or slower", "A máquina selecionada mais rápida, ou mais lenta"),
         keys: &[
             (NONE, Key::Plus, Command::Faster),
             (NONE, Key::Equals, Command::Faster),
@@ -201,51 +256,83 @@ pub const TABLE: &[Line] = &[
         ],
     },
     Line {
-        shown: "P",
-        what: "Pause the selected machine, or let it go on",
+        shown: same("P"),
+        what: ("Pause the selected machine, or let it go on", "Pausar a máquina selecionada, ou retomá-la"),
         keys: &[(NONE, Key::P, Command::PauseNode)],
     },
-    Line { shown: "Click", what: "Inspect a pixel of the picture", keys: &[] },
-    Line { shown: "Wheel", what: "Zoom the picture or timeline; drag moves it", keys: &[] },
-    Line { shown: "V", what: "Who traced it, what it cost, when it came", keys: &[(NONE, Key::V, Command::Layer)] },
     Line {
-        shown: "C",
-        what: "Drag or arrows move the camera; Shift C: back",
+        shown: ("Click", "Clique"),
+        what: ("Inspect a pixel of the picture", "Inspecionar um pixel da imagem"),
+        keys: &[],
+    },
+    Line {
+        shown: ("Wheel", "Roda"),
+        what: ("Zoom the picture or timeline; drag moves it", "Ampliar imagem ou linha do tempo; arrastar move"),
+        keys: &[],
+    },
+    Line {
+        shown: same("V"),
+        what: ("Who traced it, what it cost, when it came", "Quem calculou, quanto custou, quando chegou"),
+        keys: &[(NONE, Key::V, Command::Layer)],
+    },
+    Line {
+        shown: same("C"),
+        what: ("Drag or arrows move the camera; Shift C: back", "Arrastar ou setas: câmera; Shift C: de volta"),
         keys: &[(NONE, Key::C, Command::Camera), (SHIFT, Key::C, Command::CameraHome)],
     },
     Line {
-        shown: "Page ↑  ↓",
-        what: "The camera nearer, or further away",
+        shown: same("Page ↑  ↓"),
+        what: ("The camera nearer, or further away", "A câmera mais perto, ou mais longe"),
         keys: &[(NONE, Key::PageUp, Command::Dolly(true)), (NONE, Key::PageDown, Command::Dolly(false))],
     },
-    Line { shown: "B", what: "Lines between bands, and from near atoms", keys: &[(NONE, Key::B, Command::Outlines)] },
     Line {
-        shown: "Ctrl Z",
-        what: "Undo the last change of a speed or a setting",
+        shown: same("B"),
+        what: ("Lines between bands, and from near atoms", "Linhas entre faixas e, de perto, átomos"),
+        keys: &[(NONE, Key::B, Command::Outlines)],
+    },
+    Line {
+        shown: same("Ctrl Z"),
+        what: ("Undo the last change of a speed or a setting", "Desfazer a última mudança de ajuste"),
         keys: &[(CTRL, Key::Z, Command::Undo)],
     },
     Line {
-        shown: "Ctrl Y",
-        what: "Redo",
+        shown: same("Ctrl Y"),
+        what: ("Redo", "Refazer"),
         keys: &[(CTRL.plus(Modifiers::SHIFT), Key::Z, Command::Redo), (CTRL, Key::Y, Command::Redo)],
     },
     // The keys of the zoom are egui's own.
-    Line { shown: "Ctrl +  −  0", what: "Everything larger, smaller, as usual", keys: &[] },
-    Line { shown: "D", what: "Dark or light", keys: &[(NONE, Key::D, Command::Theme)] },
-    Line { shown: "Shift L", what: "English, or Portuguese", keys: &[(SHIFT, Key::L, Command::Language)] },
     Line {
-        shown: "F11",
-        what: "For a projector: large, plain; Page ↓ ↑ go on",
+        shown: same("Ctrl +  −  0"),
+        what: ("Everything larger, smaller, as usual", "Tudo maior, menor, normal"),
+        keys: &[],
+    },
+    Line { shown: same("D"), what: ("Dark or light", "Escuro ou claro"), keys: &[(NONE, Key::D, Command::Theme)] },
+    Line {
+        shown: same("Shift L"),
+        what: ("English, or Portuguese", "Inglês, ou português"),
+        keys: &[(SHIFT, Key::L, Command::Language)],
+    },
+    Line {
+        shown: same("F11"),
+        what: ("For a projector: large, plain; Page ↓ ↑ go on", "Para o projetor: grande; Page ↓ ↑ avançam"),
         keys: &[(NONE, Key::F11, Command::Projector)],
     },
     Line {
-        shown: "Alt Enter",
-        what: "Full screen, or a window again",
+        shown: same("Alt Enter"),
+        what: ("Full screen, or a window again", "Tela cheia, ou janela de novo"),
         keys: &[(Modifiers::ALT, Key::Enter, Command::FullScreen)],
     },
-    Line { shown: "Esc", what: "Close what is open", keys: &[(NONE, Key::Escape, Command::Back)] },
-    Line { shown: "F1", what: "This list of keys", keys: &[(NONE, Key::F1, Command::Help)] },
-    Line { shown: "Ctrl Q", what: "Quit", keys: &[(CTRL, Key::Q, Command::Quit)] },
+    Line {
+        shown: same("Esc"),
+        what: ("Close what is open", "Fechar o que está aberto"),
+        keys: &[(NONE, Key::Escape, Command::Back)],
+    },
+    Line {
+        shown: same("F1"),
+        what: ("This list of keys", "Esta lista de teclas"),
+        keys: &[(NONE, Key::F1, Command::Help)],
+    },
+    Line { shown: same("Ctrl Q"), what: ("Quit", "Sair"), keys: &[(CTRL, Key::Q, Command::Quit)] },
 ];
 
 /// What the keys ask for. While somebody `types`, letters and digits are what is typed.

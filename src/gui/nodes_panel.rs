@@ -10,8 +10,9 @@ use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::balance::NodeId;
+use crate::language::{decimal, say, word};
 use crate::palette::text_on;
-use crate::view::{About, Activity, Lit, Row, activity_word, count, node_name, rows};
+use crate::view::{About, Activity, Lit, Row, activity_word, count, fraction, node_name, rows};
 
 /// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
@@ -53,27 +54,34 @@ fn head(ui: &Ui, places: &Places, look: Look) {
     let words = |x: f32, anchor, text: &str| {
         ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
     };
-    words(places.slider.left(), Align2::LEFT_CENTER, "speed");
+    words(places.slider.left(), Align2::LEFT_CENTER, word!("speed", "velocidade"));
     if let Some(bar) = places.bar {
-        words(bar.left(), Align2::LEFT_CENTER, "progress");
+        words(bar.left(), Align2::LEFT_CENTER, word!("progress", "progresso"));
     }
-    for (x, text) in
-        [(places.done, "done"), (Some(places.left), "left"), (places.rate, "atoms/s"), (places.idle, "idle")]
-    {
+    for (x, text) in [
+        (places.done, word!("done", "feitos")),
+        (Some(places.left), word!("left", "restam")),
+        (places.rate, word!("atoms/s", "átomos/s")),
+        (places.idle, word!("idle", "ociosa")),
+    ] {
         if let Some(x) = x {
             words(x, Align2::RIGHT_CENTER, text);
         }
     }
-    words(places.activity, Align2::LEFT_CENTER, "now");
+    words(places.activity, Align2::LEFT_CENTER, word!("now", "agora"));
 }
 
 /// What lies under a row: its name for those who cannot see it, and what tells that it is selected or stands out.
 fn background(ui: &Ui, places: &Places, row: &Row, (selected, is_lit): (bool, bool), look: Look) -> Response {
     let name = node_name(row.node);
     let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::click());
-    widgets::describe(&response, &format!("Node {name}"), || {
-        let selected = if selected { ", selected" } else { "" };
-        format!("{} atoms done, {} left, {}{selected}", row.done, row.left, activity_word(row.activity))
+    widgets::describe(&response, &say!("Node {name}", "Máquina {name}"), || {
+        let selected = if selected { word!(", selected", ", selecionada") } else { "" };
+        let (done, left, does) = (row.done, row.left, activity_word(row.activity));
+        say!(
+            "{done} atoms done, {left} left, {does}{selected}",
+            "átomos feitos: {done}, restantes: {left}, {does}{selected}"
+        )
     });
     if selected || is_lit {
         let place = places.row.expand2(vec2(0.5 * GRID, -0.5));
@@ -104,7 +112,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     number(places.done, count(row.done), look.text);
     number(Some(places.left), count(row.left), some(row.left > 0));
     number(places.rate, a_second(row.rate), some(row.rate > 0.0));
-    number(places.idle, format!("{:.0} %", row.idle * 100.0), look.text);
+    number(places.idle, fraction(row.idle), look.text);
     let calm = row.activity.is_retired() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
     let now = pos2(places.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(size), some(!calm));
@@ -125,7 +133,7 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
     let mut percent = before;
     ui.scope_builder(at(places.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
-            let name = format!("Exact speed of node {name}");
+            let name = say!("Exact speed of node {name}", "Velocidade exata da máquina {name}");
             widgets::number(ui, &mut percent, 0.0..=100.0, " %", places.speed.width(), &name);
         });
     });
@@ -135,7 +143,7 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
     let paused = session.is_node_paused(node);
     let response = ui.interact(places.pause, ui.scope_id().with(("pause", node)), Sense::click());
     response.widget_info(|| {
-        let name = format!("Pause node {name}");
+        let name = say!("Pause node {name}", "Pausar a máquina {name}");
         egui::WidgetInfo::selected(egui::Role::Button, goes_on, paused, name)
     });
     let (icon, ink) = match (paused, response.hovered() || response.has_focus()) {
@@ -145,7 +153,11 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
         (false, false) => (Icon::Pause, look.quiet),
     };
     icons::paint(ui.painter(), icon, Rect::from_center_size(places.pause.center(), Vec2::splat(1.75 * GRID)), ink);
-    let hint = if paused { "Let it go on" } else { "Let this machine stand still" };
+    let hint = if paused {
+        word!("Let it go on", "Retomar esta máquina")
+    } else {
+        word!("Let this machine stand still", "Parar esta máquina")
+    };
     if response.on_hover_text(hint).clicked() && goes_on {
         session.toggle_node_pause(node);
     }
@@ -157,7 +169,8 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
     let before = (session.speed(node) * 100.0).round();
     let mut percent = before;
     ui.add_enabled_ui(!session.is_recorded(), |ui| {
-        let name = format!("Speed of node {}", node_name(node));
+        let name = node_name(node);
+        let name = say!("Speed of node {name}", "Velocidade da máquina {name}");
         widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
     });
     if percent != before {
@@ -167,5 +180,5 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
 
 /// Atoms a second, as exactly as can be read while it changes.
 fn a_second(rate: f64) -> String {
-    if rate > 0.0 && rate < 9.95 { format!("{rate:.1}") } else { count(rate.round() as u32) }
+    if rate > 0.0 && rate < 9.95 { decimal(rate, 1) } else { count(rate.round() as u32) }
 }

@@ -76,8 +76,10 @@ impl Notice {
                 ui.set_max_width(widest(ui) - buttons * GRID);
                 ui.add(Label::new(text).wrap());
             });
-            let reload = self.kind == Kind::Changed && button(ui, None, "Reload", true, Weight::Primary).clicked();
-            let close = button(ui, Some(Icon::Close), "Close notice", false, Weight::Quiet).clicked();
+            let name = word!("Reload", "Recarregar");
+            let reload = self.kind == Kind::Changed && button(ui, None, name, true, Weight::Primary).clicked();
+            let close = word!("Close notice", "Fechar aviso");
+            let close = button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked();
             if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
         })
     }
@@ -88,7 +90,7 @@ pub fn loading(ctx: &Context, name: &str) {
     let look = Look::of(ctx);
     floating(ctx, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
-        let text = format!("{name} is being read and compiled …");
+        let text = say!("{name} is being read and compiled …", "{name} está sendo lida e compilada …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
@@ -131,7 +133,7 @@ pub fn drop_here(ui: &Ui) {
     painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
     let frame = area.shrink(3.0 * GRID);
     painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
-    let text = "Drop a scene or a recorded run";
+    let text = word!("Drop a scene or a recorded run", "Soltar uma cena ou uma execução gravada");
     painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
 }
 

@@ -15,6 +15,7 @@ use super::picture_view::PictureView;
 use super::session::{Moved, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
+use crate::language::{say, word};
 use crate::picture::Atom;
 use crate::view::{About, Layer, Lit, atom_words, outlines, percent};
 
@@ -80,7 +81,10 @@ impl PicturePanel {
         let texture = self.texture.upload(ui.ctx(), canvas, scale >= SQUARE);
         self.move_camera(ui, &response, frame, session);
         let state = session.stage().state();
-        widgets::describe(&response, "Picture", || format!("{} done", percent(state.done(), state.atoms())));
+        widgets::describe(&response, word!("Picture", "Imagem"), || {
+            let done = percent(state.done(), state.atoms());
+            say!("{done} done", "{done} pronta")
+        });
         let painter = ui.painter_at(frame);
         if let Some(texture) = texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -123,7 +127,10 @@ impl PicturePanel {
             focus.hover(About::Atom(atom));
             if !self.moves_camera && !response.dragged() {
                 let words = atom_words(session.stage().state(), atom, session.now());
-                response.on_hover_text_at_pointer(format!("{words}\nClick to inspect pixel {x}, {y}"));
+                response.on_hover_text_at_pointer(say!(
+                    "{words}\nClick to inspect pixel {x}, {y}",
+                    "{words}\nClique para inspecionar o pixel {x}, {y}"
+                ));
             }
         }
         let below = Rect::from_min_size(frame.left_bottom(), vec2(frame.width(), BELOW));
@@ -184,17 +191,20 @@ impl PicturePanel {
                     && widgets::button(
                         ui,
                         Some(Icon::Undo),
-                        "Camera back",
+                        word!("Camera back", "Câmera de volta"),
                         frame.width() > 300.0,
                         widgets::Weight::Quiet,
                     )
-                    .on_hover_text("The scene's own camera (Shift C)")
+                    .on_hover_text(word!("The scene's own camera (Shift C)", "A câmera da própria cena (Shift C)"))
                     .clicked()
                 {
                     session.camera_home();
                 }
                 if self.moves_camera {
-                    let text = "Drag to turn, Shift to move, wheel: nearer";
+                    let text = word!(
+                        "Drag to turn, Shift to move, wheel: nearer",
+                        "Arrastar gira, com Shift move; roda: mais perto"
+                    );
                     let text = egui::RichText::new(text).font(theme::regular(theme::SMALL)).color(look.text);
                     ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                         ui.add(egui::Label::new(text).truncate());
@@ -226,14 +236,19 @@ impl PicturePanel {
         if fits {
             let place = Rect::from_min_size(pos2(left - 4.0, middle - 1.5 * GRID), Vec2::splat(3.0 * GRID));
             let response = ui.interact(place, ui.scope_id().with("camera"), Sense::click());
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.moves_camera, "Move the camera"));
+            let name = word!("Move the camera", "Mover a câmera");
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.moves_camera, name));
             let ink = match (self.moves_camera, response.hovered() || response.has_focus()) {
                 (true, _) => look.accent,
                 (false, true) => look.text,
                 (false, false) => look.quiet,
             };
             icons::paint(ui.painter(), Icon::Camera, place.shrink(3.0), ink);
-            if response.on_hover_text("Move the camera (C), or drag with the right button at any time").clicked() {
+            let hint = word!(
+                "Move the camera (C), or drag with the right button at any time",
+                "Mover a câmera (C), ou arrastar com o botão direito a qualquer momento"
+            );
+            if response.on_hover_text(hint).clicked() {
                 self.moves_camera = !self.moves_camera;
             }
             left += 3.5 * GRID;
@@ -241,7 +256,8 @@ impl PicturePanel {
         if fits {
             let colour = look.quiet.lerp_to_gamma(look.text, 1.0 - self.blend as f32 / 100.0);
             let place = pos2(left, middle);
-            left += ui.painter().text(place, Align2::LEFT_CENTER, "Render", font.clone(), colour).width() + 1.5 * GRID;
+            let text = word!("Render", "Imagem");
+            left += ui.painter().text(place, Align2::LEFT_CENTER, text, font.clone(), colour).width() + 1.5 * GRID;
         }
         let colour = look.quiet.lerp_to_gamma(look.text, self.blend as f32 / 100.0);
         let right =
@@ -254,8 +270,9 @@ impl PicturePanel {
         }
         let place = Rect::from_min_size(pos2(left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, "Render or layer")
-                .on_hover_text("From the render to what lies over it");
+            let name = word!("Render or layer", "Imagem ou camada");
+            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, name)
+                .on_hover_text(word!("From the render to what lies over it", "Da imagem ao que está sobre ela"));
         });
     }
 
@@ -285,7 +302,9 @@ impl PicturePanel {
             ui.painter().rect_filled(place, 4.0, look.raised);
         }
         ui.painter().galley(pos2(place.left() + GRID, right.y - galley.size().y / 2.0), galley, colour);
-        if response.on_hover_text("What lies over the render: press for the next (V)").clicked() {
+        let hint =
+            word!("What lies over the render: press for the next (V)", "A camada sobre a imagem: pressionar muda (V)");
+        if response.on_hover_text(hint).clicked() {
             self.next_layer();
         }
         place.left()

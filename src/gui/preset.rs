@@ -1,5 +1,7 @@
 //! Speeds that are offered for all machines at once.
 
+use crate::language::word;
+
 /// Speeds for all machines at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preset {
@@ -33,20 +35,30 @@ impl Preset {
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Equal => "All equal",
-            Self::OneSlow => "One slow",
-            Self::Random => "Random",
-            Self::Laboratory => "Old laboratory",
+            Self::Equal => word!("All equal", "Iguais"),
+            Self::OneSlow => word!("One slow", "Uma lenta"),
+            Self::Random => word!("Random", "Ao acaso"),
+            Self::Laboratory => word!("Old laboratory", "Laboratório antigo"),
         }
     }
 
     /// What it does, in a sentence.
     pub fn hint(self) -> &'static str {
         match self {
-            Self::Equal => "Every machine at full speed",
-            Self::OneSlow => "One machine at 10 %, the others at full speed",
-            Self::Random => "Each machine anywhere from 10 to 100 %, by the seed",
-            Self::Laboratory => "Machines of a laboratory of 1997: Pentiums, 486s, and a busy HP 9000/710",
+            Self::Equal => word!("Every machine at full speed", "Todas as máquinas a 100 %"),
+            Self::OneSlow => {
+                word!("One machine at 10 %, the others at full speed", "Uma máquina a 10 %, as outras a 100 %")
+            }
+            Self::Random => {
+                word!(
+                    "Each machine anywhere from 10 to 100 %, by the seed",
+                    "Cada máquina entre 10 e 100 %, pela semente"
+                )
+            }
+            Self::Laboratory => word!(
+                "Machines of a laboratory of 1997: Pentiums, 486s, and a busy HP 9000/710",
+                "Máquinas de um laboratório de 1997: Pentiums, 486s e uma HP 9000/710 sobrecarregada"
+            ),
         }
     }
 

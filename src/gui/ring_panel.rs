@@ -7,6 +7,7 @@ use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, Look};
 use super::widgets;
+use crate::language::{say, word};
 use crate::view::{
     About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
     ring, ring_at, small_print,
@@ -17,9 +18,12 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
-    widgets::describe(&response, "The ring", || {
-        let say = |node| format!("{} is {}", node_name(node), activity_word(state.activity(node, now)));
-        let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| say(node)).collect();
+    widgets::describe(&response, word!("The ring", "O anel"), || {
+        let told = |node| {
+            let (name, does) = (node_name(node), activity_word(state.activity(node, now)));
+            say!("{name} is {does}", "{name} está {does}")
+        };
+        let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| told(node)).collect();
         nodes.join(", ")
     });
     let look = Look::of(ui.ctx());
@@ -51,8 +55,11 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
     // Messages fly over everything else.
     let more = match (message, spot) {
         (Some(message), _) => Some((flight_words(message), Vec::new())),
-        (None, Some(Spot::Node(node))) => Some((format!("Machine {}", node_name(node)), node_words(state, node, now))),
-        (None, Some(Spot::Parent)) => Some(("The parent".to_owned(), parent_words(state, now))),
+        (None, Some(Spot::Node(node))) => {
+            let name = node_name(node);
+            Some((say!("Machine {name}", "Máquina {name}"), node_words(state, node, now)))
+        }
+        (None, Some(Spot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
         (None, None) => None,
     };
     if let Some((title, lines)) = more {

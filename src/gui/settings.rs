@@ -1,5 +1,7 @@
 //! What the user has set: what a run is made from, and what acts on the run that goes on.
 
+mod difference;
+
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -8,6 +10,7 @@ use super::preset::Preset;
 use super::tempo::Tempo;
 use crate::balance::{Rules, Strategy};
 use crate::driver::auto_pace;
+use crate::language::{say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::{Caption, Driver, Header, Link};
 use crate::view::Sharing;
@@ -72,32 +75,42 @@ impl Settings {
     pub fn check(&self) -> Result<(), String> {
         let within = |what: &str, value: u32, least: u32, most: u32| {
             let possible = (least..=most).contains(&value);
-            if possible { Ok(()) } else { Err(format!("{what} can be {least} to {most}, not {value}")) }
+            let why = || {
+                say!(
+                    "{what} can be {least} to {most}, not {value}",
+                    "{what}: pode ser de {least} a {most}, não {value}"
+                )
+            };
+            if possible { Ok(()) } else { Err(why()) }
         };
         Size::new(self.size.width(), self.size.height())?;
-        within("The width", self.size.width(), 16, Self::LONGEST_SIDE)?;
-        within("The height", self.size.height(), 16, Self::LONGEST_SIDE)?;
-        within("Samples", self.quality.samples, 1, Self::MOST_SAMPLES)?;
+        within(word!("The width", "Largura"), self.size.width(), 16, Self::LONGEST_SIDE)?;
+        within(word!("The height", "Altura"), self.size.height(), 16, Self::LONGEST_SIDE)?;
+        within(word!("Samples", "Amostras"), self.quality.samples, 1, Self::MOST_SAMPLES)?;
         self.quality.check()?;
-        within("The number of machines", self.speeds.len() as u32, 1, Self::MOST_NODES as u32)?;
-        within("An atom's pixels", self.atom, 1, self.size.pixels())?;
-        within("A part", self.part, 1, Self::MOST_ATOMS)?;
-        within("The latency", self.latency, 0, Self::MOST_LATENCY)?;
-        within("The parent's time for a message", self.handling, 0, Self::MOST_HANDLING)?;
-        within("A link's kB a second", self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
+        let machines = word!("The number of machines", "Número de máquinas");
+        within(machines, self.speeds.len() as u32, 1, Self::MOST_NODES as u32)?;
+        within(word!("An atom's pixels", "Pixels de um átomo"), self.atom, 1, self.size.pixels())?;
+        within(word!("A part", "Uma parte"), self.part, 1, Self::MOST_ATOMS)?;
+        within(word!("The latency", "Latência"), self.latency, 0, Self::MOST_LATENCY)?;
+        let handling = word!("The parent's time for a message", "Tempo do pai por mensagem");
+        within(handling, self.handling, 0, Self::MOST_HANDLING)?;
+        let bandwidth = word!("A link's kB a second", "kB por segundo de um enlace");
+        within(bandwidth, self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
         if let Tempo::Lasts(seconds) = self.tempo {
-            within("A run's seconds", seconds, 1, Self::LONGEST_RUN)?;
+            within(word!("A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
         }
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
-            return Err("A speed can be 0 to 100 %".into());
+            return Err(word!("A speed can be 0 to 100 %", "Uma velocidade pode ser de 0 a 100 %").into());
         }
-        let atoms = self.division().atoms();
-        if atoms > Self::MOST_ATOMS {
-            return Err(format!(
-                "{} pixels in atoms of {} are {atoms} atoms; the window shows up to {}: larger atoms, or a smaller picture",
-                self.size,
-                self.atom,
-                Self::MOST_ATOMS
+        let (atoms, most) = (self.division().atoms(), Self::MOST_ATOMS);
+        if atoms > most {
+            let (size, atom) = (self.size, self.atom);
+            return Err(say!(
+                "{size} pixels in atoms of {atom} are {atoms} atoms; the window shows up to {most}: larger atoms, or a \
+                 smaller picture",
+                "{size} pixels em átomos de {atom} são {atoms} átomos; a janela mostra até {most}: átomos maiores, ou \
+                 imagem menor"
             ));
         }
         Ok(())
@@ -197,53 +210,6 @@ impl Settings {
             shared_wire: header.link.shared,
             ..Self::default()
         }
-    }
-
-    /// What these settings have that those `before` had not, in a few words.
-    pub fn difference(&self, before: &Self) -> String {
-        let mut words = Vec::new();
-        let mut say = |differs: bool, text: String| words.extend(differs.then_some(text));
-        let nodes = self.speeds.len();
-        if nodes == before.speeds.len() {
-            let changed: Vec<_> = (0..nodes).filter(|&node| self.speeds[node] != before.speeds[node]).collect();
-            match changed[..] {
-                [] => {}
-                [node] => say(true, format!("machine {} at {:.0} %", node + 1, 100.0 * self.speeds[node])),
-                _ => say(true, format!("other speeds for {} machines", changed.len())),
-            }
-        } else {
-            say(true, if nodes == 1 { "1 machine".into() } else { format!("{nodes} machines") });
-        }
-        say(self.size != before.size, format!("{} pixels", self.size));
-        let (quality, before_it) = (self.quality, before.quality);
-        say(quality.samples != before_it.samples, format!("{0} × {0} samples a pixel", quality.samples));
-        let threshold = match quality.threshold {
-            0.0 => "all samples for every pixel".into(),
-            threshold => format!("samples until the error is {threshold}"),
-        };
-        say(quality.threshold != before_it.threshold, threshold);
-        say(quality.max_depth != before_it.max_depth, format!("{} levels of rays", quality.max_depth));
-        say(quality.cutoff != before_it.cutoff, format!("rays left out up to {:.4}", quality.cutoff));
-        say(self.atom != before.atom, format!("atoms of {} pixels", self.atom));
-        let (sharing, before_it) = (self.sharing(), before.sharing());
-        say(sharing != before_it, sharing.name().to_lowercase());
-        let virtual_time = self.driver == Driver::Sim;
-        let time = if virtual_time { "virtual time" } else { "real time" };
-        say(virtual_time != (before.driver == Driver::Sim), time.into());
-        // A strategy brings its usual part with it.
-        let part = if self.strategy.is_farm() { "in a part" } else { "in a transfer at least" };
-        say(sharing == before_it && self.part != before.part, format!("{} atoms {part}", self.part));
-        say(self.tempo != before.tempo, self.tempo.words());
-        say(self.latency != before.latency, format!("{} ms a hop", self.latency));
-        say(self.handling != before.handling, format!("{} ms a message for the parent", self.handling));
-        let bandwidth = match self.bandwidth {
-            0 => "links of any speed".into(),
-            bandwidth => format!("links of {bandwidth} kB/s"),
-        };
-        say(self.bandwidth != before.bandwidth, bandwidth);
-        let wire = if self.shared_wire { "one wire for all" } else { "a wire for each pair" };
-        say(self.shared_wire != before.shared_wire, wire.into());
-        words.join(", ")
     }
 
     /// How long a message travels.

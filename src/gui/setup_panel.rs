@@ -14,6 +14,7 @@ use super::tempo::Tempo;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, choice, number, slider};
 use crate::balance::Strategy;
+use crate::language::{comma, decimal, say, word};
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
 use crate::view::{Sharing, count};
@@ -56,14 +57,14 @@ impl SetupPanel {
             // Everything is in sight in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 3.0;
             ui.spacing_mut().interact_size.y = 3.5 * GRID;
-            heading(ui, "Takes effect at once", look);
+            heading(ui, word!("Takes effect at once", "Vale de imediato"), look);
             at_once(ui, &mut draft, look);
             ui.add_space(GRID);
-            heading(ui, "Starts the run anew", look);
+            heading(ui, word!("Starts the run anew", "Reinicia a execução"), look);
             anew(ui, &mut draft, look);
             ui.add_space(GRID);
-            if button(ui, None, "Back to the demonstration", true, Weight::Quiet)
-                .on_hover_text("Everything here as it was at first")
+            if button(ui, None, word!("Back to the demonstration", "Voltar à demonstração"), true, Weight::Quiet)
+                .on_hover_text(word!("Everything here as it was at first", "Tudo aqui como era no começo"))
                 .clicked()
             {
                 draft = Settings::default();
@@ -82,11 +83,15 @@ impl SetupPanel {
 
 /// Of a recorded run nothing can be changed.
 fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
-    heading(ui, "A recorded run", look);
-    let text = "It is played as it was recorded. Made live, its scene is traced anew with what was set then, and everything \
-                can be changed.";
+    heading(ui, word!("A recorded run", "Uma execução gravada"), look);
+    let text = word!(
+        "It is played as it was recorded. Made live, its scene is traced anew with what was set then, and everything \
+         can be changed.",
+        "Ela se repete como foi gravada. Ao vivo, sua cena é calculada de novo com os ajustes de então, e tudo pode \
+         ser mudado."
+    );
     ui.add(Label::new(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet)).wrap());
-    if button(ui, None, "Make it live", true, Weight::Primary).clicked() {
+    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Weight::Primary).clicked() {
         session.make_live();
     }
 }
@@ -108,20 +113,22 @@ fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
             }
         }
     });
-    line(ui, "Random seed", look, |ui| {
+    line(ui, word!("Random seed", "Semente do acaso"), look, |ui| {
         let before = draft.seed;
-        number(ui, &mut draft.seed, 0..=999_999, "", VALUE, "Seed");
+        number(ui, &mut draft.seed, 0..=999_999, "", VALUE, word!("Seed", "Semente"));
         if draft.seed != before {
             draft.set_preset(Preset::Random);
         }
     });
-    line(ui, "Latency of a hop", look, |ui| {
-        number(ui, &mut draft.latency, 0..=Settings::MOST_LATENCY, " ms", VALUE, "Latency in milliseconds");
+    line(ui, word!("Latency of a hop", "Latência de um salto"), look, |ui| {
+        let name = word!("Latency in milliseconds", "Latência em milissegundos");
+        number(ui, &mut draft.latency, 0..=Settings::MOST_LATENCY, " ms", VALUE, name);
     });
     // Most of what is of interest lies below half a second.
     let mut root = f64::from(draft.latency).sqrt();
     let most = f64::from(Settings::MOST_LATENCY).sqrt();
-    if slider(ui, &mut root, (0.0..=most, false), width - GRID, look.accent, "Latency slider").changed() {
+    let name = word!("Latency slider", "Controle da latência");
+    if slider(ui, &mut root, (0.0..=most, false), width - GRID, look.accent, name).changed() {
         draft.latency = (root * root).round() as u32;
     }
 }
@@ -129,11 +136,13 @@ fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
 fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
     let width = ui.available_width();
     let mut nodes = draft.speeds.len() as u32;
-    line(ui, "Machines", look, |ui| {
-        number(ui, &mut nodes, 1..=Settings::MOST_NODES as u32, "", VALUE, "Number of machines");
+    line(ui, word!("Machines", "Máquinas"), look, |ui| {
+        let name = word!("Number of machines", "Número de máquinas");
+        number(ui, &mut nodes, 1..=Settings::MOST_NODES as u32, "", VALUE, name);
     });
     let mut dragged = f64::from(nodes);
-    slider(ui, &mut dragged, (1.0..=Settings::MOST_NODES as f64, true), width - GRID, look.accent, "Machines slider");
+    let name = word!("Machines slider", "Controle das máquinas");
+    slider(ui, &mut dragged, (1.0..=Settings::MOST_NODES as f64, true), width - GRID, look.accent, name);
     nodes = dragged as u32;
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
@@ -148,10 +157,11 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look) {
 /// Who shares the atoms, and how.
 fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
     let on = draft.sharing();
-    high_line(ui, "Strategy", look, |ui| {
+    let name = word!("Strategy", "Estratégia");
+    high_line(ui, name, look, |ui| {
         // Who rayon is, the list tells.
-        let name = on.name().split(" (").next().unwrap_or_default();
-        let combo = ComboBox::from_id_salt("strategy").selected_text(name).width(20.0 * GRID).height(60.0 * GRID);
+        let combo =
+            ComboBox::from_id_salt("strategy").selected_text(on.short_name()).width(20.0 * GRID).height(60.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.visuals_mut().selection.bg_fill = look.hairline;
@@ -162,20 +172,25 @@ fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
             }
         });
         combo.response.widget_info(|| {
-            let mut info = WidgetInfo::labeled(egui::Role::ComboBox, true, "Strategy");
+            let mut info = WidgetInfo::labeled(egui::Role::ComboBox, true, name);
             info.current_text_value = Some(on.name().to_owned());
             info
         });
     });
     small(ui, on.hint(), look);
     let stealing = on == Sharing::Stealing;
-    high_line(ui, "Time", look, |ui| {
+    high_line(ui, word!("Time", "Tempo"), look, |ui| {
         ui.add_enabled_ui(!stealing, |ui| {
-            let all = [
-                // From right to left.
-                (true, "Virtual", "The same rules in simulated time; a changed speed acts in virtual time"),
-                (false, "Real", "Threads of this computer trace, as fast as their machines"),
-            ];
+            let virtual_hint = word!(
+                "The same rules in simulated time; a changed speed acts in virtual time",
+                "As mesmas regras em tempo simulado; uma nova velocidade vale em tempo virtual"
+            );
+            let real_hint = word!(
+                "Threads of this computer trace, as fast as their machines",
+                "Threads deste computador calculam, tão rápido quanto suas máquinas"
+            );
+            // From right to left.
+            let all = [(true, "Virtual", virtual_hint), (false, "Real", real_hint)];
             if let Some(is_virtual) = choice(ui, draft.driver == Driver::Sim, &all) {
                 draft.driver = if is_virtual { Driver::Sim } else { Driver::Threads };
             }
@@ -183,11 +198,14 @@ fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
     });
     let is_farm = !stealing && draft.strategy.is_farm();
     let has_part = is_farm || !stealing && draft.strategy == Strategy::Ring;
-    let (what, name) =
-        if is_farm { ("A part is", "Atoms in a part") } else { ("Smallest parcel", "Least atoms worth sending") };
+    let (what, name) = if is_farm {
+        word!(("A part is", "Atoms in a part"), ("Uma parte tem", "Átomos numa parte"))
+    } else {
+        word!(("Smallest parcel", "Least atoms worth sending"), ("Menor pacote", "Mínimo de átomos que vale enviar"))
+    };
     ui.add_enabled_ui(has_part, |ui| {
         line(ui, what, look, |ui| {
-            let suffix = if draft.part == 1 { " atom" } else { " atoms" };
+            let suffix = if draft.part == 1 { word!(" atom", " átomo") } else { word!(" atoms", " átomos") };
             number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, name);
         });
     });
@@ -210,50 +228,64 @@ fn strategy(ui: &mut Ui, sharing: Sharing, on: bool, look: Look) -> Response {
 /// What messages cost; rayon's threads send none.
 fn network(ui: &mut Ui, draft: &mut Settings, look: Look) {
     ui.add_enabled_ui(draft.sharing() != Sharing::Stealing, |ui| {
-        line(ui, "The parent takes", look, |ui| {
-            let (most, name) = (Settings::MOST_HANDLING, "Parent's milliseconds for a message");
-            number(ui, &mut draft.handling, 0..=most, " ms each", 13.0 * GRID, name).on_hover_text(
-                "So long the parent is busy with each message. With many of them it cannot keep up: they wait in line, and so does whoever needs an answer",
-            );
+        line(ui, word!("The parent takes", "O pai leva"), look, |ui| {
+            let (most, suffix) = (Settings::MOST_HANDLING, word!(" ms each", " ms cada"));
+            let name = word!("Parent's milliseconds for a message", "Milissegundos do pai por mensagem");
+            number(ui, &mut draft.handling, 0..=most, suffix, 13.0 * GRID, name).on_hover_text(word!(
+                "So long the parent is busy with each message. With many of them it cannot keep up: they wait in line, \
+                 and so does whoever needs an answer",
+                "Tanto o pai se ocupa de cada mensagem. Se são muitas, ele não dá conta: elas esperam na fila, \
+                 e com elas quem precisa de resposta"
+            ));
         });
-        line(ui, "A link carries", look, |ui| {
-            let (most, suffix) = (Settings::MOST_BANDWIDTH, if draft.bandwidth == 0 { ": no limit" } else { " kB/s" });
-            number(ui, &mut draft.bandwidth, 0..=most, suffix, VALUE, "Kilobytes a second")
-                .on_hover_text("An Ethernet of 1997 carried at most 1250 kB/s; 0 is no limit");
+        line(ui, word!("A link carries", "Um enlace leva"), look, |ui| {
+            let no_limit = word!(": no limit", ": sem limite");
+            let (most, suffix) = (Settings::MOST_BANDWIDTH, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
+            let name = word!("Kilobytes a second", "Quilobytes por segundo");
+            number(ui, &mut draft.bandwidth, 0..=most, suffix, VALUE, name).on_hover_text(word!(
+                "An Ethernet of 1997 carried at most 1250 kB/s; 0 is no limit",
+                "Uma Ethernet de 1997 levava no máximo 1250 kB/s; 0 é sem limite"
+            ));
         });
         ui.add_enabled_ui(draft.bandwidth > 0, |ui| {
-            let text = RichText::new("All share one wire").font(theme::regular(theme::BODY)).color(look.quiet);
-            ui.checkbox(&mut draft.shared_wire, text)
-                .on_hover_text("Only one message at a time is sent, whoever sends it; else each pair has a wire");
+            let text = word!("All share one wire", "Todos num só cabo");
+            let text = RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
+            ui.checkbox(&mut draft.shared_wire, text).on_hover_text(word!(
+                "Only one message at a time is sent, whoever sends it; else each pair has a wire",
+                "Só uma mensagem é enviada por vez, seja de quem for; senão cada par tem um cabo"
+            ));
         });
     });
 }
 
 fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
-    high_line(ui, "Size", look, |ui| {
+    high_line(ui, word!("Size", "Tamanho"), look, |ui| {
         // From right to left.
-        let combo = ComboBox::from_id_salt("size").selected_text("usual").width(0.0);
+        let combo = ComboBox::from_id_salt("size").selected_text(word!("usual", "usual")).width(0.0);
         let combo = combo.show_ui(ui, |ui| {
             for (width, height) in SIZES {
                 let size = Size::new(width, height).unwrap_or(draft.size);
                 ui.selectable_value(&mut draft.size, size, size.to_string());
             }
         });
-        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, "Usual sizes"));
+        let name = word!("Usual sizes", "Tamanhos usuais");
+        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
         let (mut width, mut height) = (draft.size.width(), draft.size.height());
-        number(ui, &mut height, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, "Height in pixels");
+        let [wide, high] = word!(["Width in pixels", "Height in pixels"], ["Largura em pixels", "Altura em pixels"]);
+        number(ui, &mut height, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, high);
         ui.label(RichText::new("×").font(theme::regular(theme::BODY)).color(look.quiet));
-        number(ui, &mut width, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, "Width in pixels");
+        number(ui, &mut width, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, wide);
         if let Ok(size) = Size::new(width, height) {
             draft.size = size;
         }
     });
-    line(ui, "Samples", look, |ui| {
+    let name = word!("Samples", "Amostras");
+    line(ui, name, look, |ui| {
         let samples = &mut draft.quality.samples;
         let suffix = format!(" × {samples}");
-        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, "Samples");
-        let more =
-            button(ui, None, "Quality…", true, Weight::Quiet).on_hover_text("What else makes a picture good or fast");
+        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, name);
+        let hint = word!("What else makes a picture good or fast", "O que mais torna uma imagem boa ou rápida");
+        let more = button(ui, None, word!("Quality…", "Qualidade…"), true, Weight::Quiet).on_hover_text(hint);
         let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
         let popup = Popup::from_toggle_button_response(&more).frame(frame.inner_margin(1.5 * GRID));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
@@ -261,26 +293,44 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
             quality(ui, &mut draft.quality, look);
         });
     });
-    line(ui, "An atom is", look, |ui| {
-        number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, "Pixels in an atom");
+    line(ui, word!("An atom is", "Um átomo tem"), look, |ui| {
+        let name = word!("Pixels in an atom", "Pixels num átomo");
+        number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, name);
     });
-    small(ui, &format!("That makes {} atoms", count(draft.division().atoms())), look);
+    let atoms = count(draft.division().atoms());
+    small(ui, &say!("That makes {atoms} atoms", "Isso dá {atoms} átomos"), look);
 }
 
 /// What is seldom changed.
 fn quality(ui: &mut Ui, quality: &mut Quality, look: Look) {
     if quality.samples > 1 {
-        let until =
-            |error: f64| if error > 0.0 { format!("until the error is {error}") } else { "for every pixel".into() };
-        line(ui, "All samples", look, |ui| {
-            one_of(ui, &mut quality.threshold, &THRESHOLDS, "When a pixel has enough samples", until)
+        let until = |error: f64| {
+            let least = comma(error.to_string());
+            if error > 0.0 {
+                say!("until the error is {least}", "até o erro ser {least}")
+            } else {
+                word!("for every pixel", "em todo pixel").into()
+            }
+        };
+        let name = word!("When a pixel has enough samples", "Quando um pixel tem amostras bastantes");
+        line(ui, word!("All samples", "Todas as amostras"), look, |ui| {
+            one_of(ui, &mut quality.threshold, &THRESHOLDS, name, until)
         });
     }
-    line(ui, "Tree of rays", look, |ui| {
-        number(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, " levels", VALUE, "Levels of the tree of rays");
+    line(ui, word!("Tree of rays", "Árvore de raios"), look, |ui| {
+        let (suffix, name) = word!((" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
+        number(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, suffix, VALUE, name);
     });
-    let part = |part: f64| if part > 0.0 { format!("up to {:.2} % of a pixel", 100.0 * part) } else { "none".into() };
-    line(ui, "Weak rays left out", look, |ui| one_of(ui, &mut quality.cutoff, &CUTOFFS, "Weak rays left out", part));
+    let part = |part: f64| {
+        let most = decimal(100.0 * part, 2);
+        if part > 0.0 {
+            say!("up to {most} % of a pixel", "até {most} % de um pixel")
+        } else {
+            word!("none", "nenhum").into()
+        }
+    };
+    let name = word!("Weak rays left out", "Raios fracos omitidos");
+    line(ui, name, look, |ui| one_of(ui, &mut quality.cutoff, &CUTOFFS, name, part));
 }
 
 /// One value of a list, or what it is if it is not in the list.
@@ -295,19 +345,25 @@ fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f
 }
 
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look) {
-    high_line(ui, "Pace", look, |ui| {
+    high_line(ui, word!("Pace", "Andamento"), look, |ui| {
         let seconds = if let Tempo::Lasts(seconds) = draft.tempo { seconds } else { 20 };
+        let full = word!(
+            "As fast as this computer can: a machine at 100 % never waits",
+            "O mais rápido que este computador pode: uma máquina a 100 % nunca espera"
+        );
+        let slowly = word!("So that everybody can follow", "Para que todos possam acompanhar");
         let all = [
-            (Tempo::Full, "Full speed", "As fast as this computer can: a machine at 100 % never waits"),
-            (Tempo::Lasts(seconds), "Slowly", "So that everybody can follow"),
+            (Tempo::Full, word!("Full speed", "Total"), full),
+            (Tempo::Lasts(seconds), word!("Slowly", "Devagar"), slowly),
         ];
         if let Some(tempo) = choice(ui, draft.tempo, &all) {
             draft.tempo = tempo;
         }
     });
     if let Tempo::Lasts(seconds) = &mut draft.tempo {
-        line(ui, "The run takes about", look, |ui| {
-            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, "Seconds of the run");
+        line(ui, word!("The run takes about", "A execução leva uns"), look, |ui| {
+            let name = word!("Seconds of the run", "Segundos da execução");
+            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, name);
         });
     }
 }

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::language::{say, word};
+
 /// How fast the reference machine is emulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tempo {
@@ -17,8 +19,8 @@ impl Tempo {
     /// How fast that is, in a few words.
     pub fn words(self) -> String {
         match self {
-            Self::Lasts(seconds) => format!("a run of about {seconds} s"),
-            Self::Full => "full speed".into(),
+            Self::Lasts(seconds) => say!("a run of about {seconds} s", "uma execução de uns {seconds} s"),
+            Self::Full => word!("full speed", "velocidade total").into(),
         }
     }
 

@@ -12,6 +12,7 @@ use super::keys::Command;
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button, next_of};
+use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{Landmark, RATES, Sign, SignKind, Step, landmarks, rate_of_time_words, short_rate_words, time_words};
 
@@ -23,8 +24,8 @@ pub struct TimePanel {
     step: Step,
     /// What was found when the list was opened.
     found: Vec<Landmark>,
-    /// The version of the run's lanes that it was found in.
-    found_in: u64,
+    /// The version of the run's lanes that it was found in, and the language.
+    found_in: (u64, Language),
     /// The list is to be opened or closed.
     toggles: bool,
     is_finding: bool,
@@ -32,7 +33,8 @@ pub struct TimePanel {
 
 impl Default for TimePanel {
     fn default() -> Self {
-        Self { step: Step::Event, found: Vec::new(), found_in: 0, toggles: false, is_finding: false }
+        let found_in = (0, Language::default());
+        Self { step: Step::Event, found: Vec::new(), found_in, toggles: false, is_finding: false }
     }
 }
 
@@ -64,9 +66,14 @@ impl TimePanel {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
                 let weight = if shows_timeline { Weight::On } else { Weight::Quiet };
-                let words = (ui.available_width() > 760.0).then_some("Timeline");
-                let timeline = named_button(ui, Some(Icon::Lanes), "Show the timeline", words, weight);
-                if timeline.on_hover_text("Who did what and when, in place of the machines (T)").clicked() {
+                let words = (ui.available_width() > 760.0).then_some(word!("Timeline", "Linha do tempo"));
+                let name = word!("Show the timeline", "Mostrar a linha do tempo");
+                let hint = word!(
+                    "Who did what and when, in place of the machines (T)",
+                    "Quem fez o quê e quando, no lugar das máquinas (T)"
+                );
+                let timeline = named_button(ui, Some(Icon::Lanes), name, words, weight);
+                if timeline.on_hover_text(hint).clicked() {
                     pressed = Some(Command::Timeline);
                 }
                 pressed = pressed.or(live(ui, session.stage(), look));
@@ -83,17 +90,25 @@ impl TimePanel {
     fn steps(&mut self, ui: &mut Ui) -> Option<Command> {
         let step = self.step;
         let mut pressed = None;
-        let back = button(ui, Some(Icon::StepBack), "Step back", false, Weight::Quiet);
-        if back.on_hover_text(format!("Back by one {} ({})", step.name(), keys(step, '←'))).clicked() {
+        let (name, [back_keys, on_keys]) = (step.name(), ['←', '→'].map(|arrow| keys(step, arrow)));
+        let back = button(ui, Some(Icon::StepBack), word!("Step back", "Passo atrás"), false, Weight::Quiet);
+        let hint = say!("Back by one {name} ({back_keys})", "Voltar: {name} ({back_keys})");
+        if back.on_hover_text(hint).clicked() {
             pressed = Some(Command::Step(step, false));
         }
-        let by = named_button(ui, None, "What a step is", Some(step.name()), Weight::Quiet);
-        if by.on_hover_text("Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to change").clicked()
-        {
+        let by = named_button(ui, None, word!("What a step is", "O que é um passo"), Some(name), Weight::Quiet);
+        let hint = word!(
+            "Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to \
+             change",
+            "Evento: uma mensagem, ou uma intervenção. Átomo: um é calculado. Volta: a oferta de uma máquina parte. \
+             Pressionar para mudar"
+        );
+        if by.on_hover_text(hint).clicked() {
             self.step = next_of(&Step::ALL, step);
         }
-        let on = button(ui, Some(Icon::StepOn), "Step on", false, Weight::Quiet);
-        if on.on_hover_text(format!("On by one {} ({})", step.name(), keys(step, '→'))).clicked() {
+        let on = button(ui, Some(Icon::StepOn), word!("Step on", "Passo adiante"), false, Weight::Quiet);
+        let hint = say!("On by one {name} ({on_keys})", "Avançar: {name} ({on_keys})");
+        if on.on_hover_text(hint).clicked() {
             pressed = Some(Command::Step(step, true));
         }
         pressed
@@ -102,7 +117,9 @@ impl TimePanel {
     /// What is worth jumping to.
     fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<Command> {
         let weight = if self.is_finding { Weight::On } else { Weight::Quiet };
-        let find = button(ui, None, "Find", true, weight).on_hover_text("The first offer, the biggest transfer … (F)");
+        let hint =
+            word!("The first offer, the biggest transfer … (F)", "A primeira oferta, a maior transferência … (F)");
+        let find = button(ui, None, word!("Find", "Achar"), true, weight).on_hover_text(hint);
         let id = Popup::default_response_id(&find);
         if std::mem::take(&mut self.toggles) {
             Popup::toggle_id(ui.ctx(), id);
@@ -111,7 +128,7 @@ impl TimePanel {
         let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
         let popup = Popup::from_toggle_button_response(&find).frame(frame.inner_margin(GRID));
         let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-            let known = session.stage().lanes().version();
+            let known = (session.stage().lanes().version(), Language::spoken());
             if !was_open || self.found_in != known {
                 (self.found, self.found_in) = (landmarks(&session.stage().log), known);
             }
@@ -124,7 +141,8 @@ impl TimePanel {
                 }
             }
             if self.found.is_empty() {
-                ui.label(RichText::new("Nothing has happened yet").font(theme::regular(theme::BODY)).color(look.quiet));
+                let text = word!("Nothing has happened yet", "Nada aconteceu ainda");
+                ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
             }
             chosen
         });
@@ -160,11 +178,14 @@ fn entry(ui: &mut Ui, mark: &Landmark, rate: f64, look: Look) -> Response {
 /// How fast time goes.
 fn rate(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
     let (mut pressed, rate) = (None, stage.time.rate());
-    if button(ui, Some(Icon::Slower), "Slower", false, Weight::Quiet).on_hover_text("Time goes slower (,)").clicked() {
+    let slower = button(ui, Some(Icon::Slower), word!("Slower", "Mais devagar"), false, Weight::Quiet);
+    if slower.on_hover_text(word!("Time goes slower (,)", "O tempo passa mais devagar (,)")).clicked() {
         pressed = Some(Command::Rate(false));
     }
     let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, HEIGHT), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Time goes {}", rate_of_time_words(rate))));
+    let how = rate_of_time_words(rate);
+    let goes = say!("Time goes {how}", "O tempo passa {how}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &goes));
     let colour = look.text;
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
@@ -172,8 +193,9 @@ fn rate(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
     let words = ui.painter().layout_no_wrap(short_rate_words(rate), theme::regular(theme::SMALL), colour);
     ui.painter().galley(rect.center() - words.size() / 2.0, words, colour);
     pressed = pressed.or(rates(&response, rate, look));
-    response.on_hover_text(format!("Time goes {}; press for others", rate_of_time_words(rate)));
-    if button(ui, Some(Icon::Faster), "Faster", false, Weight::Quiet).on_hover_text("Time goes faster (.)").clicked() {
+    response.on_hover_text(say!("{goes}; press for others", "{goes}; pressionar para outros ritmos"));
+    let faster = button(ui, Some(Icon::Faster), word!("Faster", "Mais depressa"), false, Weight::Quiet);
+    if faster.on_hover_text(word!("Time goes faster (.)", "O tempo passa mais depressa (.)")).clicked() {
         pressed = Some(Command::Rate(true));
     }
     pressed
@@ -207,7 +229,11 @@ fn rates(opener: &Response, now: f64, look: Look) -> Option<Command> {
 /// Back to what happens now, or to the end.
 fn live(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
     let runs = matches!(stage.phase, Phase::Running | Phase::Preparing);
-    let (name, hint) = if runs { ("Live", "What happens now (L)") } else { ("End", "The end of the run (L)") };
+    let (name, hint) = if runs {
+        word!(("Live", "What happens now (L)"), ("Ao vivo", "O que acontece agora (L)"))
+    } else {
+        word!(("End", "The end of the run (L)"), ("Fim", "O fim da execução (L)"))
+    };
     let is_there = if runs { stage.is_live() } else { stage.shows_end() };
     let weight = if is_there { Weight::On } else { Weight::Quiet };
     let icon = if runs { Icon::Live } else { Icon::End };
@@ -256,9 +282,10 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     let now = stage.lasted();
     let grain = stage.grain();
     response.widget_info(|| {
-        let mut info = WidgetInfo::slider(true, now.secs(), "The run's time");
-        let of = if stage.phase == Phase::Running { "so far" } else { "in all" };
-        info.current_text_value = Some(format!("{} of {} {of}", time_words(now, grain), time_words(length, grain)));
+        let mut info = WidgetInfo::slider(true, now.secs(), word!("The run's time", "O tempo da execução"));
+        let of = if stage.phase == Phase::Running { word!("so far", "até agora") } else { word!("in all", "ao todo") };
+        let [now, length] = [now, length].map(|time| time_words(time, grain));
+        info.current_text_value = Some(say!("{now} of {length} {of}", "{now} de {length} {of}"));
         info
     });
     let painter = ui.painter();

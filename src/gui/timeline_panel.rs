@@ -9,6 +9,7 @@ use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets;
 use crate::balance::{NodeId, Party};
+use crate::language::{say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
@@ -219,10 +220,11 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
     let look = Look::of(ui.ctx());
     let response = ui.interact(row, ui.scope_id().with(("lane", node)), Sense::click());
     let stage = session.stage();
-    widgets::describe(&response, &format!("Lane of {}", node_name(node)), || {
+    let name = node_name(node);
+    widgets::describe(&response, &say!("Lane of {name}", "Pista de {name}"), || {
         let usage = stage.lanes().lanes()[usize::from(node)].bars().len();
         let doing = activity_word(stage.state().activity(node, stage.now()));
-        format!("{usage} atoms traced so far, {doing}")
+        say!("{usage} atoms traced so far, {doing}", "{usage} átomos calculados até agora, {doing}")
     });
     if response.hovered() {
         focus.hover(About::Node(node));
@@ -265,37 +267,38 @@ fn usage(painter: &Painter, area: Rect, plan: &LanePlan, stage: &Stage, look: Lo
     }
     let layout = |text: String| painter.layout_no_wrap(text, theme::regular(theme::SMALL), look.quiet);
     let words = usage_words(stage);
-    let mut parts: Vec<&str> = words.split(" · ").collect();
-    let mut galley = layout(words.clone());
-    while galley.size().x > area.width() && parts.pop().is_some() {
-        galley = layout(parts.join(" · "));
+    let mut galleys = (1..=words.len()).rev().map(|parts| layout(words[..parts].join(" · ")));
+    if let Some(galley) = galleys.find(|galley| galley.size().x <= area.width()) {
+        painter.galley(area.min, galley, look.quiet);
     }
-    painter.galley(area.min, galley, look.quiet);
     // Beside low lanes there is no room for it.
     if plan.lane < SLIDER + 2.0 {
         return;
     }
-    let label = layout("machines in use".into());
+    let label = layout(word!("machines in use", "máquinas em uso").into());
     let place = pos2(area.left(), area.top() + plan.head - label.size().y - 4.0);
     painter.galley(place, label, look.quiet);
 }
 
-fn usage_words(stage: &Stage) -> String {
+fn usage_words(stage: &Stage) -> [String; 4] {
     let usage = stage.lanes().usage(stage.lasted());
-    let above = 100.0 * (usage.imbalance - 1.0).max(0.0);
-    format!(
-        "{} of the machines' time used · busiest machine {above:.0} % above the mean · {} spent asking or waiting · {} messages, {}",
-        fraction(usage.utilisation),
-        fraction(usage.asking),
-        count(u32::try_from(usage.messages).unwrap_or(u32::MAX)),
-        bytes_words(usage.bytes)
-    )
+    let [used, asking] = [usage.utilisation, usage.asking].map(fraction);
+    let above = fraction((usage.imbalance - 1.0).max(0.0));
+    let (messages, bytes) = (count(u32::try_from(usage.messages).unwrap_or(u32::MAX)), bytes_words(usage.bytes));
+    [
+        say!("{used} of the machines' time used", "{used} do tempo das máquinas usado"),
+        say!("busiest machine {above} above the mean", "a mais ocupada {above} acima da média"),
+        say!("{asking} spent asking or waiting", "{asking} pedindo ou esperando"),
+        say!("{messages} messages, {bytes}", "{messages} mensagens, {bytes}"),
+    ]
 }
 
 fn describe(response: &Response, stage: &Stage) {
-    widgets::describe(response, "Timeline", || {
-        let until = time_words(stage.lasted(), stage.grain());
-        let of = if stage.phase == Phase::Finished { "in all" } else { "so far" };
-        format!("{until} of {} {of}: {}", time_words(stage.length(), stage.grain()), usage_words(stage))
+    widgets::describe(response, word!("Timeline", "Linha do tempo"), || {
+        let [until, length] = [stage.lasted(), stage.length()].map(|time| time_words(time, stage.grain()));
+        let over = stage.phase == Phase::Finished;
+        let of = if over { word!("in all", "ao todo") } else { word!("so far", "até agora") };
+        let usage = usage_words(stage).join(" · ");
+        say!("{until} of {length} {of}: {usage}", "{until} de {length} {of}: {usage}")
     });
 }

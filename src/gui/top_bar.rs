@@ -7,7 +7,7 @@ use super::keys::Command;
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button};
-use crate::language::{Language, word};
+use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::sentence::shown;
 use crate::view::{Sharing, count, time_words};
@@ -32,7 +32,8 @@ pub struct Open {
 /// Shows the bar and returns what was pressed.
 pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
-    let wide = ui.available_width() > 1040.0;
+    let width = ui.available_width();
+    let wide = width > 1040.0;
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
@@ -40,17 +41,24 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         ui.add_space(GRID);
         let name = session.header().scene.as_str();
         let shown: String = name.chars().take(if wide { 24 } else { 14 }).collect();
-        let shown = if shown.is_empty() { "Scenes" } else { &shown };
+        let scenes = word!("Scenes", "Cenas");
+        let shown = if shown.is_empty() { scenes } else { &shown };
         let weight = if open.scenes { Weight::On } else { Weight::Quiet };
-        if named_button(ui, Some(Icon::Scenes), "Scenes", Some(shown), weight).on_hover_text(hint(session)).clicked() {
+        // Buttons and time come first.
+        let shown = Some(shown).filter(|_| width > 860.0);
+        if named_button(ui, Some(Icon::Scenes), scenes, shown, weight).on_hover_text(hint(session)).clicked() {
             clicked = Some(Command::Scenes);
         }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
             clicked = clicked.or(buttons(ui, session, wide, open));
-            ui.add_space(2.0 * GRID);
+            ui.add_space(if wide { 2.0 * GRID } else { GRID });
             let time = time_words(session.stage().lasted(), session.stage().grain());
-            ui.label(RichText::new(time).font(theme::strong(theme::LARGE)).color(look.text));
+            let font = theme::strong(theme::LARGE);
+            let needed = ui.painter().layout_no_wrap(time.clone(), font.clone(), look.text).size().x;
+            if needed < ui.available_width() {
+                ui.label(RichText::new(time).font(font).color(look.text));
+            }
             if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
                 ui.label(quiet(state.into(), look.quiet));
             }
@@ -67,7 +75,8 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
 
 /// What the scene's button does, and what is said of the run.
 fn hint(session: &Session) -> String {
-    let first = std::iter::once("Open a scene or a recorded run (O)");
+    let open = word!("Open a scene or a recorded run (O)", "Abrir uma cena ou uma execução gravada (O)");
+    let first = std::iter::once(open);
     first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 
@@ -80,7 +89,8 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
         }
     };
     let shown = |open: bool| if open { Weight::On } else { Weight::Quiet };
-    press(Icon::Help, "Help", false, Weight::Quiet, Command::Help, "Which key does what (F1)");
+    let hint = word!("Which key does what (F1)", "Que tecla faz o quê (F1)");
+    press(Icon::Help, word!("Help", "Ajuda"), false, Weight::Quiet, Command::Help, hint);
     let other = Language::spoken().other();
     let language = named_button(ui, None, other.name(), Some(other.short_name()), Weight::Quiet);
     if language.on_hover_text(word!("Em português (Shift L)", "In English (Shift L)")).clicked() {
@@ -91,17 +101,25 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
             clicked = Some(command);
         }
     };
-    press(Icon::Contrast, "Dark or light", false, Weight::Quiet, Command::Theme, "Dark or light (D)");
-    press(Icon::Save, "Save…", words, shown(open.save), Command::Save, "Save a picture, or the run (S)");
-    press(Icon::Chart, "Accuracy", words, shown(open.accuracy), Command::Accuracy, "What other qualities cost (A)");
+    let hint = word!("Dark or light (D)", "Escuro ou claro (D)");
+    press(Icon::Contrast, word!("Dark or light", "Escuro ou claro"), false, Weight::Quiet, Command::Theme, hint);
+    let hint = word!("Save a picture, or the run (S)", "Salvar uma imagem, ou a execução (S)");
+    press(Icon::Save, word!("Save…", "Salvar…"), words, shown(open.save), Command::Save, hint);
+    let hint = word!("What other qualities cost (A)", "O que custam outras qualidades (A)");
+    press(Icon::Chart, word!("Accuracy", "Precisão"), words, shown(open.accuracy), Command::Accuracy, hint);
     let hint = word!("Lessons with questions (N)", "Lições com perguntas (N)");
     press(Icon::Learn, word!("Learn", "Aprender"), words, shown(open.learn), Command::Learn, hint);
     let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
     press(Icon::Compare, word!("Compare", "Comparar"), words, shown(open.compare), Command::Compare, hint);
-    press(Icon::Sliders, "Set up", words, shown(open.setup), Command::Setup, "Machines, picture, strategy (E)");
+    let hint = word!("Machines, picture, strategy (E)", "Máquinas, imagem, estratégia (E)");
+    press(Icon::Sliders, word!("Set up", "Ajustar"), words, shown(open.setup), Command::Setup, hint);
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
-        let button = button(ui, Some(Icon::Undo), "Undo", false, Weight::Quiet);
-        if button.on_hover_text("Take back the last change of a speed or of what is set (Ctrl Z)").clicked() {
+        let button = button(ui, Some(Icon::Undo), word!("Undo", "Desfazer"), false, Weight::Quiet);
+        let hint = word!(
+            "Take back the last change of a speed or of what is set (Ctrl Z)",
+            "Desfazer a última mudança de velocidade ou de ajuste (Ctrl Z)"
+        );
+        if button.on_hover_text(hint).clicked() {
             clicked = Some(Command::Undo);
         }
     });
@@ -114,22 +132,23 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
     let weight = |first: bool| if first { Weight::Primary } else { Weight::Quiet };
     let hint = if session.is_recorded() {
-        "From its beginning (R); Set up can make it live"
+        word!("From its beginning (R); Set up can make it live", "Do início (R); em Ajustar pode tornar-se ao vivo")
     } else {
-        "A new run, with what is set (R)"
+        word!("A new run, with what is set (R)", "Uma nova execução, com o que está ajustado (R)")
     };
-    press(Icon::Restart, "Restart", true, weight(over && session.stage().shows_end()), Command::Restart, hint);
+    let (name, weight_now) = (word!("Restart", "Reiniciar"), weight(over && session.stage().shows_end()));
+    press(Icon::Restart, name, true, weight_now, Command::Restart, hint);
     let stage = session.stage();
     let (icon, name) = match stage.goes_on() {
-        _ if stage.is_at_end() => (Icon::Play, "Play again"),
-        true => (Icon::Pause, "Pause"),
-        false if stage.phase == Phase::Preparing => (Icon::Pause, "Pause"),
-        false => (Icon::Play, "Go on"),
+        _ if stage.is_at_end() => (Icon::Play, word!("Play again", "Repetir")),
+        true => (Icon::Pause, word!("Pause", "Pausar")),
+        false if stage.phase == Phase::Preparing => (Icon::Pause, word!("Pause", "Pausar")),
+        false => (Icon::Play, word!("Go on", "Continuar")),
     };
     let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
     ui.add_enabled_ui(can, |ui| {
         let button = button(ui, Some(icon), name, true, weight(!over || !stage.shows_end()));
-        if button.on_hover_text("Stand still or go on (space)").clicked() {
+        if button.on_hover_text(word!("Stand still or go on (space)", "Parar ou continuar (espaço)")).clicked() {
             clicked = Some(Command::Pause);
         }
     });
@@ -140,12 +159,12 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
 fn time_state(session: &Session) -> Option<&'static str> {
     let stage = session.stage();
     match (stage.phase == Phase::Running, stage.is_live(), stage.goes_on()) {
-        (_, true, _) if stage.paused => Some("paused at"),
+        (_, true, _) if stage.paused => Some(word!("paused at", "em pausa em")),
         (_, true, _) => None,
-        (true, false, true) => Some("earlier"),
-        (false, false, true) => Some("again"),
+        (true, false, true) => Some(word!("earlier", "antes")),
+        (false, false, true) => Some(word!("again", "de novo")),
         (_, false, false) if stage.shows_end() => None,
-        (_, false, false) => Some("stands at"),
+        (_, false, false) => Some(word!("stands at", "parado em")),
     }
 }
 
@@ -153,15 +172,17 @@ fn time_state(session: &Session) -> Option<&'static str> {
 fn what(ui: &Ui, session: &Session) -> String {
     let header = session.header();
     let machines = Sharing::of(header).machines(header.speeds.len());
-    let virtually = if header.driver == Driver::Sim { " · virtual time" } else { "" };
+    let virtually = if header.driver == Driver::Sim { word!(" · virtual time", " · tempo virtual") } else { "" };
     let machines = format!("{machines}{virtually}");
     let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
     let title = &header.caption.title;
     let machines = if title.is_empty() { machines } else { format!("“{}” · {machines}", shown(title, 60)) };
+    let machines =
+        if session.is_recorded() { say!("recorded · {machines}", "gravada · {machines}") } else { machines };
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");
     let (atoms, pixels) = (count(header.division.atoms()), header.division.atom_pixels());
-    let all = format!("{size} in {atoms} atoms of {pixels} pixels");
+    let all = say!("{size} in {atoms} atoms of {pixels} pixels", "{size} em {atoms} átomos de {pixels} pixels");
     let fits = |text: &String| {
         let galley = ui.painter().layout_no_wrap(text.clone(), theme::regular(theme::SMALL), Color32::PLACEHOLDER);
         galley.size().x <= ui.available_width()

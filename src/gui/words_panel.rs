@@ -5,6 +5,7 @@ use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBui
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets;
+use crate::language::{decimal, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares};
@@ -51,7 +52,7 @@ fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
     let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("selected"), Sense::hover());
-    widgets::describe(&response, "Selected", || format!("{title}. {more}"));
+    widgets::describe(&response, word!("Selected", "Selecionado"), || format!("{title}. {more}"));
     ui.allocate_ui(vec2(ui.available_width(), SENTENCE), |ui| {
         ui.set_min_height(SENTENCE);
         ui.add(Label::new(RichText::new(&title).font(theme::strong(18.0)).color(look.text)).truncate());
@@ -64,11 +65,15 @@ fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
 fn story(ui: &mut Ui, session: &Session, look: Look) {
     let stage = session.stage();
     let sentence = match &stage.phase {
-        Phase::Preparing => "Reading the scene, compiling it, and looking what it will cost …".to_owned(),
-        Phase::Failed(why) => format!("The run cannot go on: {why}"),
+        Phase::Preparing => word!(
+            "Reading the scene, compiling it, and looking what it will cost …",
+            "Lendo a cena, compilando-a e vendo quanto vai custar …"
+        )
+        .to_owned(),
+        Phase::Failed(why) => say!("The run cannot go on: {why}", "A execução não pode continuar: {why}"),
         Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => {
             let done = percent(stage.state().done(), stage.state().atoms());
-            format!("The record ends here, with {done} of the picture")
+            say!("The record ends here, with {done} of the picture", "O registro acaba aqui, com {done} da imagem")
         }
         _ => match stage.stepped_to() {
             Some(record) => record_words(record, stage.state()),
@@ -92,9 +97,9 @@ fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a str)>, look: 
     let font = theme::regular(theme::SMALL);
     for (at, event) in events {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
-        widgets::describe(&response, "Event", || event.to_owned());
+        widgets::describe(&response, word!("Event", "Evento"), || event.to_owned());
         let y = line.center().y;
-        let time = format!("{:.1} s", at.secs());
+        let time = format!("{} s", decimal(at.secs(), 1));
         ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
         let galley = one_line(ui, event, &font, look, line.width() - 6.0 * GRID);
         ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
@@ -107,7 +112,7 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let Some(result) = stage.result() else { return };
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("result"), Sense::hover());
-    widgets::describe(&response, "Result", || result.words.clone());
+    widgets::describe(&response, word!("Result", "Resultado"), || result.words.clone());
     // Where there is no room below a figure, what it means stands beside it.
     let is_high = area.height() > 5.5 * GRID;
     let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
@@ -151,7 +156,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
     let state = session.stage().state();
     let (shares, all) = (shares(state), state.atoms());
-    widgets::describe(&response, "Who has traced how much", || {
+    widgets::describe(&response, word!("Who has traced how much", "Quem calculou quanto"), || {
         let say = |share: &Share| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
     });
@@ -159,7 +164,8 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let end = shares.last().map_or(0.0, |share| share.end);
     if rect.width() * (1.0 - end) > 26.0 * GRID {
         let (at, font) = (pos2(rect.right() - GRID, rect.center().y), theme::regular(theme::SMALL));
-        ui.painter().text(at, Align2::RIGHT_CENTER, "who has traced how much", font, look.quiet);
+        let words = word!("who has traced how much", "quem calculou quanto");
+        ui.painter().text(at, Align2::RIGHT_CENTER, words, font, look.quiet);
     }
     let last = shares.iter().rposition(|share| share.end > share.start);
     for (i, share) in shares.iter().enumerate() {

@@ -3,6 +3,7 @@
 use super::lanes::Lanes;
 use super::moment::Moment;
 use super::signs::Signs;
+use crate::language::Language;
 use crate::record::Record;
 use crate::runlog::{Header, RunLog};
 
@@ -15,12 +16,15 @@ pub struct Known {
     pub signs: Signs,
     /// What each machine did and when.
     pub lanes: Lanes,
+    /// What its sentences are in.
+    pub language: Language,
 }
 
 impl Known {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
-        Self { latest: Moment::new(header), signs: Signs::default(), lanes: Lanes::new(header) }
+        let language = Language::spoken();
+        Self { latest: Moment::new(header), signs: Signs::default(), lanes: Lanes::new(header), language }
     }
 
     /// All of a recorded run.

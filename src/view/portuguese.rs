@@ -229,7 +229,7 @@ fn hovered(moment: &Moment, now: Time) -> Said {
 /// What is said of a run when it is over.
 fn summed_up(log: &RunLog) -> Said {
     let mut said = Vec::new();
-    let Known { latest: moment, signs, lanes } = Known::of(log);
+    let Known { latest: moment, signs, lanes, .. } = Known::of(log);
     let (state, mut past) = (&moment.state, Past::default());
     said.extend(signs.all().iter().map(|sign| (Room::Same, sign.words.clone())));
     let found = landmarks(log);

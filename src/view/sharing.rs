@@ -43,6 +43,14 @@ impl Sharing {
         }
     }
 
+    /// The same where there is little room.
+    pub fn short_name(self) -> &'static str {
+        match self {
+            Self::Stealing => word!("Work stealing", "Roubo de trabalho"),
+            _ => self.name(),
+        }
+    }
+
     /// What happens, in one short line.
     pub fn hint(self) -> &'static str {
         match self {

@@ -5,6 +5,7 @@ use egui::{Label, RichText, Ui, vec2};
 use super::super::theme::{self, GRID, Look};
 use super::super::widgets::{Weight, button, slider};
 use super::findings::{Choice, Findings};
+use crate::language::{say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
 use crate::view::{duration, error_words, quality_words, times_words};
@@ -35,12 +36,15 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
     let said = error_words(error);
     let limits = (best.rmse(), fastest.rmse());
-    if let Some(error) = limit(ui, ("The fastest within an error of", &said, "Largest error"), error, limits, look) {
+    let (words, name) =
+        word!(("The fastest within an error of", "Largest error"), ("A mais rápida com erro até", "Maior erro"));
+    if let Some(error) = limit(ui, (words, &said, name), error, limits, look) {
         done = Some(Chosen::Choice(Choice::Error(error)));
     }
     let said = duration(std::time::Duration::try_from_secs_f64(time).unwrap_or_default());
     let limits = (fastest.cpu_s, best.cpu_s);
-    if let Some(time) = limit(ui, ("The best within a time of", &said, "Longest time"), time, limits, look) {
+    let (words, name) = word!(("The best within a time of", "Longest time"), ("A melhor em tempo até", "Maior tempo"));
+    if let Some(time) = limit(ui, (words, &said, name), time, limits, look) {
         done = Some(Chosen::Choice(Choice::Time(time)));
     }
     ui.add_space(0.5 * GRID);
@@ -53,8 +57,12 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
     let is_set = place == Findings::PRESENT;
     let weight = if is_set { Weight::Quiet } else { Weight::Primary };
     ui.add_enabled_ui(!is_set, |ui| {
-        let take = button(ui, None, "Take these settings", true, weight);
-        if take.on_hover_text("Starts the run anew with this quality; Ctrl Z takes it back").clicked() {
+        let take = button(ui, None, word!("Take these settings", "Usar estes ajustes"), true, weight);
+        let hint = word!(
+            "Starts the run anew with this quality; Ctrl Z takes it back",
+            "Reinicia a execução com esta qualidade; Ctrl Z desfaz"
+        );
+        if take.on_hover_text(hint).clicked() {
             done = Some(Chosen::Take(point.quality));
         }
     });
@@ -64,19 +72,19 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
 /// What is chosen, and what it costs.
 fn sentence(findings: &Findings, place: usize, point: &Point) -> String {
     let (size, quality) = (findings.whole, quality_words(&point.quality));
-    let costs = format!(
-        "{} of one core for {} × {} pixels, with an error of {}",
-        duration(findings.time(place)),
-        size.width(),
-        size.height(),
-        error_words(point.rmse())
+    let (time, error) = (duration(findings.time(place)), error_words(point.rmse()));
+    let (width, height) = (size.width(), size.height());
+    let costs = say!(
+        "{time} of one core for {width} × {height} pixels, with an error of {error}",
+        "{time} de um núcleo para {width} × {height} pixels, com erro de {error}"
     );
     let present = findings.point(Findings::PRESENT).filter(|_| place != Findings::PRESENT);
     match present {
         Some(present) => {
-            format!("{quality}. That takes {costs}: {}.", times_words(point.cpu_s, present.cpu_s))
+            let times = times_words(point.cpu_s, present.cpu_s);
+            say!("{quality}. That takes {costs}: {times}.", "{quality}. Isso leva {costs}: {times}.")
         }
-        None => format!("Set now: {quality}. That takes {costs}."),
+        None => say!("Set now: {quality}. That takes {costs}.", "Atual: {quality}. Isso leva {costs}."),
     }
 }
 

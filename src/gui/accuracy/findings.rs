@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::super::session::{Finding, Prepared};
+use crate::language::say;
 use crate::picture::{Frame, Quality, Size};
 use crate::scene::Opened;
 use crate::study::accuracy::{Point, Reference, best_within, combinations, fastest_within, front};
@@ -129,25 +130,35 @@ impl Findings {
     /// What a chart shows of it.
     pub fn tradeoff(&self, chosen: Option<usize>) -> Tradeoff {
         let shown = (0..self.count()).filter_map(|place| self.point(place));
+        let (width, height) = (self.whole.width(), self.whole.height());
         Tradeoff {
             points: shown.map(|point| (point.cpu_s, point.rmse())).collect(),
             front: self.front_places(),
             floor: self.reference.as_ref().map_or(0.0, |reference| reference.floor),
             present: Some(Self::PRESENT),
             chosen,
-            time: format!("CPU seconds on one core, for {} × {} pixels", self.whole.width(), self.whole.height()),
+            time: say!(
+                "CPU seconds on one core, for {width} × {height} pixels",
+                "segundos de CPU num núcleo, para {width} × {height} pixels"
+            ),
         }
     }
 
     /// How far the measurement is, in words.
     pub fn progress(&self) -> String {
         let (points, all) = (self.count(), self.qualities.len());
+        let (begun, steps) = (self.begun.max(1), Reference::STEPS);
         match (&self.over, &self.reference) {
-            (Some(Ok(())), _) => format!("{points} points"),
-            (Some(Err(why)), _) => format!("This could not be measured: {why}"),
-            (None, None) => format!("What pictures are compared with: {} of {}", self.begun.max(1), Reference::STEPS),
-            (None, Some(_)) if points < all => format!("{points} of {all} points"),
-            (None, Some(_)) => format!("{points} points; their times are measured once more"),
+            (Some(Ok(())), _) => say!("{points} points", "{points} pontos"),
+            (Some(Err(why)), _) => say!("This could not be measured: {why}", "Isto não pôde ser medido: {why}"),
+            (None, None) => {
+                say!("What pictures are compared with: {begun} of {steps}", "Imagem de comparação: {begun} de {steps}")
+            }
+            (None, Some(_)) if points < all => say!("{points} of {all} points", "{points} de {all} pontos"),
+            (None, Some(_)) => say!(
+                "{points} points; their times are measured once more",
+                "{points} pontos; seus tempos são medidos mais uma vez"
+            ),
         }
     }
 

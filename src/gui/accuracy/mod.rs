@@ -11,6 +11,7 @@ use super::paint::{Inks, paint};
 use super::session::{Finding, Phase, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{self, Weight, button};
+use crate::language::{decimal, say, word};
 use crate::view::{measured_lines, needs_lines, needs_warnings, quality_lines, quality_words};
 use choosing::Chosen;
 use findings::{Choice, Findings};
@@ -76,7 +77,7 @@ impl Accuracy {
         } else if self.keep_up(session) {
             asked = self.content(ui, session, look).or(asked);
         } else {
-            note(ui, "The scene is being read and compiled …", look);
+            note(ui, word!("The scene is being read and compiled …", "A cena está sendo lida e compilada …"), look);
         }
         match asked {
             Some(Asked::Close) => self.close(session),
@@ -116,22 +117,26 @@ impl Accuracy {
     fn heading(&self, ui: &mut Ui, session: &Session, look: Look) -> Option<Asked> {
         let mut asked = None;
         ui.horizontal(|ui| {
-            ui.label(RichText::new("Speed against accuracy").font(theme::strong(theme::LARGE)).color(look.text));
+            let title = word!("Speed against accuracy", "Velocidade e precisão");
+            ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if button(ui, Some(Icon::Close), "Close accuracy", false, Weight::Quiet).clicked() {
+                let close = word!("Close accuracy", "Fechar precisão");
+                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
                     asked = Some(Asked::Close);
                 }
                 let Some(findings) = self.findings.as_ref().filter(|_| !session.is_recorded()) else { return };
                 let failed = matches!(findings.over, Some(Err(_)));
-                if failed && button(ui, Some(Icon::Restart), "Try again", true, Weight::Primary).clicked() {
+                let again = word!("Try again", "Tentar de novo");
+                if failed && button(ui, Some(Icon::Restart), again, true, Weight::Primary).clicked() {
                     asked = Some(Asked::Again);
                 }
                 if findings.over.is_none() {
                     let bar = ProgressBar::new(findings.share()).desired_width(20.0 * GRID).desired_height(0.75 * GRID);
                     let bar = ui.add(bar.fill(look.accent));
-                    let share = f64::from(findings.share());
+                    let share = decimal(findings.share().into(), 2);
                     bar.widget_info(|| {
-                        WidgetInfo::labeled(egui::Role::ProgressIndicator, true, format!("{share:.2} measured"))
+                        let words = say!("{share} measured", "{share} medido");
+                        WidgetInfo::labeled(egui::Role::ProgressIndicator, true, words)
                     });
                 }
                 let colour = if failed { look.trouble } else { look.quiet };
@@ -202,22 +207,27 @@ impl Accuracy {
 
 /// The chart; returns the place of the point that was clicked.
 fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Vec2, look: Look) -> Option<usize> {
-    const CHART: &str = "Chart of time and error";
+    let name = word!("Chart of time and error", "Gráfico de tempo e erro");
     /// Whoever points so near to a point means it.
     const NEAR: f32 = 2.0 * GRID;
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     if findings.count() == 0 {
-        let words = "First a picture is traced that is as good as true. Then points appear here, one for each quality: \
-                     the farther to the left the faster, the lower the better. The run stands still meanwhile, since one \
-                     would disturb the other.";
+        let words = word!(
+            "First a picture is traced that is as good as true. Then points appear here, one for each quality: \
+             the farther to the left the faster, the lower the better. The run stands still meanwhile, since one \
+             would disturb the other.",
+            "Primeiro se calcula uma imagem praticamente exata. Depois aparecem aqui pontos, um para cada qualidade: \
+             quanto mais à esquerda, mais rápida; quanto mais embaixo, melhor. A execução fica parada enquanto isso, \
+             pois uma atrapalharia a outra."
+        );
         let galley =
             ui.painter().layout(words.into(), theme::regular(theme::BODY), look.quiet, (0.7 * size.x).min(60.0 * GRID));
         let corner = rect.center() - galley.size() / 2.0;
         ui.painter().galley(corner, galley, look.quiet);
-        widgets::describe(&response, CHART, || words.into());
+        widgets::describe(&response, name, || words.into());
         return None;
     }
-    widgets::describe(&response, CHART, || findings.progress());
+    widgets::describe(&response, name, || findings.progress());
     let drawn = findings.tradeoff(chosen).drawn(rect.size().into());
     paint(&ui.painter_at(rect), rect.min, &drawn.marks, &Inks { look, nodes: &[] });
     let mut clicked = None;
@@ -225,9 +235,10 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
         let Some(point) = findings.point(place) else { continue };
         let near = Rect::from_center_size(rect.min + vec2(at[0], at[1]), vec2(NEAR, NEAR));
         let response = ui.interact(near, ui.scope_id().with(("point", place)), Sense::click());
+        let which = place + 1;
         response.widget_info(|| {
-            let mut info =
-                WidgetInfo::selected(egui::Role::Button, true, chosen == Some(place), format!("Point {}", place + 1));
+            let name = say!("Point {which}", "Ponto {which}");
+            let mut info = WidgetInfo::selected(egui::Role::Button, true, chosen == Some(place), name);
             info.current_text_value = Some(quality_words(&point.quality));
             info
         });
@@ -238,7 +249,9 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
             clicked = Some(place);
         }
         response.on_hover_ui(|ui| {
-            let title = if place == Findings::PRESENT { "What is set now" } else { "A quality" };
+            let is_set = place == Findings::PRESENT;
+            let title =
+                if is_set { word!("What is set now", "O ajuste atual") } else { word!("A quality", "Uma qualidade") };
             let mut lines = quality_lines(&point.quality);
             let measured = findings.frames[place].size();
             lines.extend(measured_lines(findings.time(place), findings.whole, &point.difference, measured));
@@ -252,7 +265,8 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
 fn needs(ui: &mut Ui, findings: &Findings, look: Look) {
     const WHAT: f32 = 12.0 * GRID;
     let Some((compiled, levels)) = &findings.needs else { return };
-    ui.label(RichText::new("What this scene needs").font(theme::strong(theme::BODY)).color(look.text));
+    let title = word!("What this scene needs", "O que esta cena pede");
+    ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
     let small = |text: &str, colour| RichText::new(text).font(theme::regular(theme::SMALL)).color(colour);
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
     for (what, words) in needs_lines(compiled, levels) {
@@ -274,8 +288,12 @@ fn needs(ui: &mut Ui, findings: &Findings, look: Look) {
 
 /// Of a recorded run nothing is measured.
 fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
-    note(ui, "This is a recorded run. Made live, its scene can be measured, and other settings tried.", look);
-    if button(ui, None, "Make it live", true, Weight::Primary).clicked() {
+    let text = word!(
+        "This is a recorded run. Made live, its scene can be measured, and other settings tried.",
+        "Esta é uma execução gravada. Ao vivo, sua cena pode ser medida, e outros ajustes, testados."
+    );
+    note(ui, text, look);
+    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Weight::Primary).clicked() {
         session.make_live();
     }
 }

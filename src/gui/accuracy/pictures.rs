@@ -5,6 +5,7 @@ use egui::{EventFilter, WidgetInfo, pos2, vec2};
 
 use super::super::theme::{self, GRID, Look};
 use super::super::widgets::{self, choice};
+use crate::language::{comma, say, word};
 use crate::palette::Rgb;
 use crate::picture::{Frame, srgb8};
 use crate::view::{ERRORS, false_colours, place_of_error, ramp};
@@ -48,10 +49,17 @@ impl Pictures {
         let all = [
             (
                 Shown::Both,
-                "Beside the reference",
-                "Drag the line: left of it the chosen quality, right of it the reference",
+                word!("Beside the reference", "Com a referência"),
+                word!(
+                    "Drag the line: left of it the chosen quality, right of it the reference",
+                    "Arrastar a linha: à esquerda a qualidade escolhida, à direita a referência"
+                ),
             ),
-            (Shown::Difference, "Difference", "How far each pixel is from the reference"),
+            (
+                Shown::Difference,
+                word!("Difference", "Diferença"),
+                word!("How far each pixel is from the reference", "O quanto cada pixel difere da referência"),
+            ),
         ];
         if let Some(shown) = choice(ui, self.shown, &all) {
             self.shown = shown;
@@ -69,13 +77,15 @@ impl Pictures {
                 self.move_divider(ui, &response, place);
                 self.both(ui, &textures, place, look);
                 let value = f64::from(100.0 * self.divider);
-                response.widget_info(|| WidgetInfo::slider(true, value, "Divider of the pictures"));
+                let name = word!("Divider of the pictures", "Divisória das imagens");
+                response.widget_info(|| WidgetInfo::slider(true, value, name));
                 response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
                 ui.add_space(legend_height());
             }
             Shown::Difference => {
                 whole(ui, &textures.difference, place, 0.0..1.0);
-                widgets::describe(&response, "Difference from the reference", || "in false colour".into());
+                let name = word!("Difference from the reference", "Diferença da referência");
+                widgets::describe(&response, name, || word!("in false colour", "em cores falsas").into());
                 legend(ui, place.width(), look);
             }
         }
@@ -108,9 +118,10 @@ impl Pictures {
         painter.vline(x, place.y_range(), Stroke::new(2.0, Color32::WHITE));
         painter.circle(pos2(x, place.center().y), 9.0, look.accent, Stroke::new(2.0, Color32::WHITE));
         let top = place.top() + GRID;
-        label(&painter.with_clip_rect(place.with_max_x(x)), pos2(place.left() + GRID, top), Align2::LEFT_TOP, "chosen");
-        let right = painter.with_clip_rect(place.with_min_x(x));
-        label(&right, pos2(place.right() - GRID, top), Align2::RIGHT_TOP, "reference");
+        let [left, right] = [place.with_max_x(x), place.with_min_x(x)].map(|side| painter.with_clip_rect(side));
+        let [chosen, reference] = word!(["chosen", "reference"], ["escolhida", "referência"]);
+        label(&left, pos2(place.left() + GRID, top), Align2::LEFT_TOP, chosen);
+        label(&right, pos2(place.right() - GRID, top), Align2::RIGHT_TOP, reference);
     }
 }
 
@@ -156,7 +167,9 @@ fn legend_height() -> f32 {
 fn legend(ui: &mut Ui, width: f32, look: Look) {
     const STEPS: usize = 64;
     let (place, response) = ui.allocate_exact_size(vec2(width, legend_height()), Sense::hover());
-    widgets::describe(&response, "Colours of errors", || "from 0.001 to 1, on a logarithmic scale".into());
+    widgets::describe(&response, word!("Colours of errors", "Cores dos erros"), || {
+        word!("from 0.001 to 1, on a logarithmic scale", "de 0,001 a 1, em escala logarítmica").into()
+    });
     let bar = place.with_max_y(place.top() + GRID);
     let at = |share: f64| bar.left() + bar.width() * share as f32;
     for i in 0..STEPS {
@@ -166,10 +179,11 @@ fn legend(ui: &mut Ui, width: f32, look: Look) {
     }
     let font = theme::regular(theme::SMALL);
     for (i, error) in ERRORS.into_iter().enumerate() {
+        let number = comma(error.to_string());
         let (text, anchor) = match i {
-            0 => (format!("error {}", error), Align2::LEFT_TOP),
-            _ if i + 1 == ERRORS.len() => (format!("{error} (linear light)"), Align2::RIGHT_TOP),
-            _ => (error.to_string(), Align2::CENTER_TOP),
+            0 => (say!("error {number}", "erro {number}"), Align2::LEFT_TOP),
+            _ if i + 1 == ERRORS.len() => (say!("{number} (linear light)", "{number} (luz linear)"), Align2::RIGHT_TOP),
+            _ => (number, Align2::CENTER_TOP),
         };
         ui.painter().text(pos2(at(place_of_error(error)), bar.bottom() + 3.0), anchor, text, font.clone(), look.quiet);
     }

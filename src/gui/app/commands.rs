@@ -6,9 +6,9 @@ use super::super::history::Gesture;
 use super::super::keys::Command;
 use super::super::theme::Look;
 use super::App;
-use crate::language::word;
+use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::{About, Step};
+use crate::view::{About, Step, node_name};
 
 impl App {
     pub(super) fn obey(&mut self, command: Command, ctx: &Context) {
@@ -83,7 +83,10 @@ impl App {
             Command::Select(node) if usize::from(node) < session.header().speeds.len() => {
                 self.focus.toggle(About::Node(node));
             }
-            Command::Select(node) => session.note(format!("There is no machine {}", node + 1)),
+            Command::Select(node) => {
+                let name = node_name(node);
+                session.note(say!("There is no machine {name}", "Não há máquina {name}"));
+            }
             Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
             Command::Camera => self.picture.moves_camera = !self.picture.moves_camera,
             Command::CameraHome => session.camera_home(),
@@ -102,6 +105,8 @@ impl App {
             Command::Language => {
                 self.language = self.language.other();
                 self.language.speak();
+                // They are told anew.
+                (self.hovered, self.selected) = (None, None);
             }
             Command::FullScreen => {
                 let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
@@ -132,7 +137,10 @@ impl App {
 
     fn obey_for_node(&mut self, command: Command) {
         let Some(node) = self.focus.node() else {
-            return self.session.note("First select a machine: press its number, or click it");
+            return self.session.note(word!(
+                "First select a machine: press its number, or click it",
+                "Selecionar antes uma máquina: pressionar seu número, ou clicar nela"
+            ));
         };
         if command == Command::PauseNode {
             return self.session.toggle_node_pause(node);

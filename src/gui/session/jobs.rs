@@ -16,7 +16,7 @@ use super::measuring::Finding;
 use super::moving::Moved;
 use super::teaching::Taught;
 use crate::driver::{RAY, probe};
-use crate::language::{Language, say};
+use crate::language::{Language, say, word};
 use crate::output::OutputError;
 use crate::palette::Rgb;
 use crate::picture::{Frame, Quality, Size, srgb8, write_png};
@@ -165,7 +165,9 @@ impl Jobs {
     ) -> u64 {
         let number = self.number();
         let (size, quality, division) = (settings.size, settings.quality, settings.division());
+        let language = Language::spoken();
         self.start("prepare", move || {
+            language.speak();
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
                     let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
@@ -178,7 +180,13 @@ impl Jobs {
                 Opening::Run(log) => {
                     check_size(log.header.size)?;
                     let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                    let opened = opened.map_err(|error| format!("The run's own scene cannot be read: {error}"))?;
+                    let unread = |error| {
+                        say!(
+                            "The run's own scene cannot be read: {error}",
+                            "A cena da própria execução não pode ser lida: {error}"
+                        )
+                    };
+                    let opened = opened.map_err(unread)?;
                     let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
                     let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
                     let known = Arc::new(Known::of(&log));
@@ -205,6 +213,7 @@ impl Jobs {
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
     pub fn choose(&self, purpose: Purpose, at: PathBuf) {
+        let [scenes, all] = word!(["Scenes and runs", "All"], ["Cenas e execuções", "Todos"]);
         self.start("file dialog", move || {
             let mut dialog = rfd::FileDialog::new();
             if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
@@ -212,9 +221,7 @@ impl Jobs {
             }
             let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let chosen = match purpose {
-                Purpose::Open => {
-                    dialog.add_filter("Scenes and runs", &["ron", "anel"]).add_filter("All", &["*"]).pick_file()
-                }
+                Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
                 Purpose::Save => dialog.set_file_name(name).save_file(),
             };
             Done::Chosen(purpose, chosen)
@@ -288,7 +295,8 @@ impl Jobs {
             ctx.request_repaint();
         };
         if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
-            let _ = self.sender.send(failed(format!("No thread could be started: {error}")));
+            let why = say!("No thread could be started: {error}", "Nenhuma thread pôde ser iniciada: {error}");
+            let _ = self.sender.send(failed(why));
         }
     }
 }
@@ -333,7 +341,10 @@ fn check_size(size: Size) -> Result<(), String> {
     if size.pixels() <= most {
         return Ok(());
     }
-    Err(format!("This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels"))
+    Err(say!(
+        "This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels",
+        "A imagem desta execução, de {size} pixels, é grande demais para a janela, que mostra até {most} pixels"
+    ))
 }
 
 /// What a file looked like; `None` if there is none.

@@ -23,6 +23,7 @@ use super::opening::Opening;
 use super::settings::Settings;
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
+use crate::language::say;
 use crate::palette::Rgb;
 use crate::picture::Quality;
 use crate::runlog::Header;
@@ -182,7 +183,8 @@ impl Session {
         self.history.keep(self.settings.clone(), gesture);
         let before = self.apply(settings);
         if self.settings.needs_restart(&before) {
-            self.note(format!("Started anew: {}", self.settings.difference(&before)));
+            let now = self.settings.difference(&before);
+            self.note(say!("Started anew: {now}", "Reiniciada: {now}"));
         }
     }
 
@@ -195,7 +197,8 @@ impl Session {
     pub fn undo(&mut self) {
         if let Some(settings) = self.history.undo(&self.settings) {
             let before = self.apply(settings);
-            self.note(format!("Undone; now {}", self.settings.difference(&before)));
+            let now = self.settings.difference(&before);
+            self.note(say!("Undone; now {now}", "Desfeito; agora {now}"));
         }
     }
 
@@ -203,7 +206,8 @@ impl Session {
     pub fn redo(&mut self) {
         if let Some(settings) = self.history.redo(&self.settings) {
             let before = self.apply(settings);
-            self.note(format!("Done again; now {}", self.settings.difference(&before)));
+            let now = self.settings.difference(&before);
+            self.note(say!("Done again; now {now}", "Refeito; agora {now}"));
         }
     }
 

@@ -6,6 +6,7 @@ use std::time::Duration;
 use super::super::opening::Opening;
 use super::Session;
 use super::jobs::{Done, Jobs, guess, with_preview};
+use crate::language::word;
 use crate::palette::Rgb;
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Scene};
@@ -55,7 +56,10 @@ impl Session {
 
     /// Says why the camera of a recorded run cannot be moved.
     pub fn refuse_camera(&mut self) {
-        self.note("A recorded run keeps its camera: make it live first, under Set up (E)");
+        self.note(word!(
+            "A recorded run keeps its camera: make it live first, under Set up (E)",
+            "Uma execução gravada mantém sua câmera: antes, executar ao vivo, em Ajustar (E)"
+        ));
     }
 
     /// Goes back to the scene's own camera.
@@ -94,11 +98,14 @@ impl Session {
         match opened {
             Some(opened) => {
                 self.show(Opening::Scene(Arc::new(opened)));
-                self.note("Seen from elsewhere: the run starts anew");
+                self.note(word!(
+                    "Seen from elsewhere: the run starts anew",
+                    "Vista de outro lugar: a execução reinicia"
+                ));
             }
             None => {
                 self.moving = None;
-                self.trouble("The camera cannot go there");
+                self.trouble(word!("The camera cannot go there", "A câmera não pode ir para lá"));
             }
         }
     }

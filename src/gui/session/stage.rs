@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::performer::Performer;
 use crate::driver::Update;
+use crate::language::Language;
 use crate::palette::{Rgb, node_colour};
 use crate::picture::Frame;
 use crate::record::Record;
@@ -121,6 +122,9 @@ impl Stage {
     pub fn tick(&mut self, clock: f64) -> bool {
         let passed = Duration::try_from_secs_f64(clock - self.ticked.unwrap_or(clock)).unwrap_or_default();
         self.ticked = Some(clock);
+        if self.known.language != Language::spoken() {
+            self.tell_anew();
+        }
         // One batch for the log, which would else sort its end for each party's.
         let (mut told, mut ends) = (Vec::new(), false);
         while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
@@ -303,6 +307,15 @@ impl Stage {
     pub fn set_rate(&mut self, index: usize) {
         self.time.set_rate(index);
         self.performer.set_rate(self.time.rate());
+    }
+
+    /// All that has happened, in the language that is spoken now.
+    fn tell_anew(&mut self) {
+        (self.known, self.past) = (Known::of(&self.log), Past::default());
+        if let Some(earlier) = &mut self.earlier {
+            *earlier = Moment::new(&self.log.header);
+        }
+        self.result = self.result.take().and_then(|_| RunResult::of(&self.log, &self.known.latest.state));
     }
 
     fn shown(&self) -> &Moment {

@@ -1,6 +1,7 @@
 //! The run's time in the user's hand.
 
 use super::{Phase, Session};
+use crate::language::{say, word};
 use crate::time::Time;
 use crate::view::Step;
 
@@ -50,7 +51,12 @@ impl Session {
             self.set_run_paused(true);
         }
         if !self.stage.step(by, forward) {
-            self.note(format!("There is no {} {}", if forward { "later" } else { "earlier" }, by.name()));
+            let name = by.name();
+            self.note(if forward {
+                say!("There is no later {name}", "Depois daqui: nenhum passo por {name}")
+            } else {
+                say!("There is no earlier {name}", "Antes daqui: nenhum passo por {name}")
+            });
         }
     }
 
@@ -58,7 +64,10 @@ impl Session {
     pub(super) fn return_to_present(&mut self) {
         if self.stage.phase == Phase::Running && !self.stage.is_live() {
             self.stage.follow();
-            self.note("Back in the present: what you change, you change in the run as it is now");
+            self.note(word!(
+                "Back in the present: what you change, you change in the run as it is now",
+                "De volta ao presente: o que se muda, muda na execução como está agora"
+            ));
         }
     }
 }

@@ -117,22 +117,32 @@ impl Inspected {
         let [x, y] = self.place;
         let colour = self.colour();
         let [red, green, blue] = shown(colour);
-        let mut text = format!(
-            "Pixel {x}, {y}: {:.4} {:.4} {:.4} in linear light, #{red:02x}{green:02x}{blue:02x} as shown\n",
-            colour.x, colour.y, colour.z
+        let linear = colour.to_array().map(|value| decimal(value, 4)).join(" ");
+        let mut text = say!(
+            "Pixel {x}, {y}: {linear} in linear light, #{red:02x}{green:02x}{blue:02x} as shown\n",
+            "Pixel {x}, {y}: {linear} em luz linear, #{red:02x}{green:02x}{blue:02x} como se mostra\n"
         );
         self.sentences().iter().for_each(|sentence| put(&mut text, 0, sentence));
-        text.push_str("\nThe tree of rays");
-        if self.samples.len() > 1 {
-            let _ = write!(text, " of sample {} of {}", self.chosen.sample + 1, self.samples.len());
+        text.push_str(word!("\nThe tree of rays", "\nA árvore de raios"));
+        let (sample, samples) = (self.chosen.sample + 1, self.samples.len());
+        if samples > 1 {
+            text.push_str(&say!(" of sample {sample} of {samples}", " da amostra {sample} de {samples}"));
         }
         text.push('\n');
         self.put_rays(&mut text);
-        let _ = writeln!(text, "\nRay {}", self.chosen.ray + 1);
+        let chosen = self.chosen.ray + 1;
+        put(&mut text, 0, &say!("\nRay {chosen}", "\nRaio {chosen}"));
         self.ray_sentences().iter().for_each(|sentence| put(&mut text, 0, sentence));
-        put(&mut text, 0, "\nIts colour: term, red, green, blue, part of the pixel");
+        put(
+            &mut text,
+            0,
+            word!(
+                "\nIts colour: term, red, green, blue, part of the pixel",
+                "\nSua cor: termo, vermelho, verde, azul, parte do pixel"
+            ),
+        );
         self.term_words().lines().for_each(|line| put(&mut text, 1, line));
-        put(&mut text, 0, "\nIts stays in what it passes");
+        put(&mut text, 0, word!("\nIts stays in what it passes", "\nSuas permanências no que atravessa"));
         self.span_words().lines().for_each(|line| put(&mut text, 1, line));
         text
     }
@@ -179,11 +189,17 @@ impl Inspected {
         while let Some(number) = waiting.pop() {
             let ray = &rays[number];
             let (kind, what, counts) = (kind_word(ray.path.kind), self.what(ray), share_words(ray.path.weight));
-            let shadows = match ray.lights.len() as u32 {
+            let rays = several_rays(ray.lights.len() as u64);
+            let shadows = match ray.lights.len() {
                 0 => String::new(),
-                many => format!(", {} to lights", counted(many, "ray")),
+                _ => say!(", {rays} to lights", ", {rays} às luzes"),
             };
-            put(text, ray.path.level as usize, &format!("{} {kind}: {what}, counts {counts}{shadows}", number + 1));
+            let (name, depth) = (number + 1, ray.path.level as usize);
+            let line = say!(
+                "{name} {kind}: {what}, counts {counts}{shadows}",
+                "{name} {kind}: {what}, conta {counts}{shadows}"
+            );
+            put(text, depth, &line);
             waiting.extend(followers[number].iter().rev());
         }
         put_more(text, rays.len());
