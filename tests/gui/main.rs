@@ -8,6 +8,7 @@ mod files;
 mod inspector;
 mod layout;
 mod nodes;
+mod portuguese;
 mod remembering;
 mod run;
 mod saving;

@@ -1,0 +1,288 @@
+//! The window in Portuguese: nothing English is left on any page, and nothing is cut off.
+
+use std::collections::BTreeSet;
+
+use anel::gui::{App, Launch, Opening, Phase};
+use anel::language::Language;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Rect};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+
+use super::driving::*;
+
+/// English words that are no Portuguese ones, and stand in no name of a scene, a material, a file or a key.
+const ENGLISH: [&str; 96] = [
+    "the",
+    "is",
+    "are",
+    "and",
+    "of",
+    "with",
+    "its",
+    "it",
+    "has",
+    "for",
+    "from",
+    "by",
+    "at",
+    "on",
+    "in",
+    "not",
+    "that",
+    "this",
+    "what",
+    "when",
+    "who",
+    "which",
+    "machine",
+    "machines",
+    "node",
+    "nodes",
+    "atom",
+    "atoms",
+    "parent",
+    "worker",
+    "band",
+    "bands",
+    "offer",
+    "offers",
+    "picture",
+    "pictures",
+    "speed",
+    "pause",
+    "paused",
+    "save",
+    "saved",
+    "open",
+    "close",
+    "find",
+    "step",
+    "help",
+    "undo",
+    "redo",
+    "restart",
+    "scenes",
+    "accuracy",
+    "compare",
+    "dark",
+    "slower",
+    "faster",
+    "timeline",
+    "done",
+    "left",
+    "idle",
+    "event",
+    "sample",
+    "samples",
+    "rate",
+    "run",
+    "runs",
+    "recorded",
+    "waiting",
+    "waits",
+    "computing",
+    "stopped",
+    "asking",
+    "traced",
+    "trace",
+    "traces",
+    "nothing",
+    "nobody",
+    "pixels of",
+    "size",
+    "strategy",
+    "quality",
+    "levels",
+    "rays",
+    "ray",
+    "seed",
+    "pace",
+    "slowly",
+    "beginning",
+    "select",
+    "selected",
+    "keys",
+    "efficiency",
+    "messages",
+    "error",
+    "worst",
+    "wrong",
+    "lights",
+];
+
+/// Whatever is written, or said to those who cannot see it.
+fn texts(window: &Window) -> BTreeSet<String> {
+    let words = |node: egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        [node.label(), node.value(), node.placeholder().map(str::to_owned)]
+    };
+    window.query_all_by(|_| true).flat_map(words).flatten().filter(|text| !text.is_empty()).collect()
+}
+
+fn assert_portuguese(window: &Window, page: &str) {
+    let mut wrong = BTreeSet::new();
+    for text in texts(window) {
+        let lower = text.to_lowercase();
+        let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
+        let letters: Vec<char> = text.chars().collect();
+        let has_point =
+            letters.windows(3).any(|three| three[0].is_ascii_digit() && three[1] == '.' && three[2].is_ascii_digit());
+        if has_point || words.iter().any(|word| ENGLISH.contains(word)) {
+            wrong.insert(text);
+        }
+    }
+    assert!(wrong.is_empty(), "{page}: {wrong:#?}");
+}
+
+/// Points at each button and slider, and looks at what is said of it.
+fn assert_hints(window: &mut Window, page: &str) {
+    let of = |role| {
+        let rects: Vec<Rect> = window.query_all_by_role(role).map(|node| node.rect()).collect();
+        rects
+    };
+    let places: Vec<Rect> =
+        [Role::Button, Role::Slider, Role::SpinButton, Role::CheckBox].into_iter().flat_map(of).collect();
+    let mut seen = 0;
+    for place in places {
+        let before = texts(window).len();
+        window.hover_at(place.center());
+        window.run_steps(4);
+        seen += usize::from(texts(window).len() > before);
+        assert_portuguese(window, page);
+    }
+    assert!(seen > 3, "{page}: {seen} hints");
+}
+
+fn open_portuguese(size: [f32; 2]) -> Window {
+    let opening = Some(Opening::read("ten-objects").expect("a built-in scene"));
+    let launch = Launch { opening, language: Language::Portuguese, ..Launch::default() };
+    let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
+    let mut window = Harness::builder().with_size(size).build_eframe(build);
+    until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
+    window
+}
+
+fn shift_l(window: &mut Window) {
+    window.key_press_modifiers(Modifiers::SHIFT, Key::L);
+    window.run_steps(3);
+}
+
+#[test]
+fn a_run_is_told_anew_when_the_language_changes() {
+    let mut window = open(SIZE);
+    until(&mut window, "many atoms", |window| done(window) > 600);
+    key(&mut window, Key::Num3);
+    shift_l(&mut window);
+    assert_portuguese(&window, "a run");
+    key(&mut window, Key::Num3);
+    press(&mut window, "Ajustar");
+    press(&mut window, "Total");
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    press(&mut window, "Ajustar");
+    assert_portuguese(&window, "the end");
+    window.get_by_label("Resultado");
+    shift_l(&mut window);
+    window.get_by_label("Result");
+    window.get_by_role_and_label(Role::Button, "Restart");
+    let events: Vec<_> = session(&window).stage().narrator().events().map(|(_, words)| words.to_owned()).collect();
+    assert!(events.iter().any(|event| event == "The picture is complete"), "{events:?}");
+    assert!(events.iter().all(|event| !event.contains("máquina")), "{events:?}");
+}
+
+#[test]
+fn every_page_is_portuguese() {
+    let mut window = open_portuguese(SIZE);
+    assert_hints(&mut window, "the run");
+    for (open, page) in [
+        (Key::E, "what is set"),
+        (Key::O, "the scenes"),
+        (Key::T, "the timeline"),
+        (Key::F, "find"),
+        (Key::F1, "the keys"),
+    ] {
+        key(&mut window, open);
+        window.run_steps(3);
+        assert_hints(&mut window, page);
+        key(&mut window, if open == Key::E || open == Key::T { open } else { Key::Escape });
+    }
+    key(&mut window, Key::K);
+    until(&mut window, "three runs", |window| window.state().compared().len() == 3);
+    window.run_steps(3);
+    assert_portuguese(&window, "compare");
+    key(&mut window, Key::Escape);
+}
+
+#[test]
+fn what_is_chosen_from_is_portuguese() {
+    let mut window = open_portuguese(SIZE);
+    key(&mut window, Key::E);
+    for list in ["Estratégia", "Tamanhos usuais"] {
+        window.get_by_role_and_label(Role::ComboBox, list).click();
+        window.run_steps(3);
+        assert_portuguese(&window, list);
+        key(&mut window, Key::Escape);
+    }
+    press(&mut window, "Qualidade…");
+    assert_portuguese(&window, "the quality");
+    key(&mut window, Key::Escape);
+    for preset in ["Iguais", "Uma lenta", "Ao acaso", "Laboratório antigo"] {
+        press(&mut window, preset);
+    }
+    type_number(&mut window, "Número de máquinas", "3");
+    until(&mut window, "three machines", |window| session(window).header().speeds.len() == 3);
+    assert_portuguese(&window, "a change");
+    ctrl(&mut window, Key::Z);
+    assert_portuguese(&window, "a change that was taken back");
+}
+
+#[test]
+fn a_pixel_and_what_qualities_cost_are_portuguese() {
+    let mut window = open_portuguese(SIZE);
+    let middle = window.get_by_label("Imagem").rect().center();
+    window.hover_at(middle);
+    window.run_steps(4);
+    assert_portuguese(&window, "what the pointer is on");
+    window.drag_at(middle);
+    window.step();
+    window.drop_at(middle);
+    until(&mut window, "the pixel", |window| !session(window).is_looking());
+    window.run_steps(2);
+    window.get_by_label("Árvore de raios");
+    assert_portuguese(&window, "a pixel");
+    key(&mut window, Key::Escape);
+    key(&mut window, Key::A);
+    assert_portuguese(&window, "accuracy at first");
+    until(&mut window, "a point", |window| window.state().points_measured() > 1);
+    let point = window.get_by_role_and_label(Role::Button, "Ponto 1").rect().center();
+    window.hover_at(point);
+    window.run_steps(4);
+    assert_portuguese(&window, "accuracy");
+}
+
+#[test]
+fn nothing_is_cut_off_in_windows_of_any_size() {
+    for size in [[1280.0, 800.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
+        let window = open_portuguese(size);
+        let rect = |name: &str| window.get_by_label(name).rect();
+        let whole = Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(1.0);
+        let buttons = ["Cenas", "Pausar", "Reiniciar", "Desfazer", "Ajustar", "Salvar…", "Escuro ou claro", "Ajuda"];
+        let time = [
+            "Passo atrás",
+            "O que é um passo",
+            "Passo adiante",
+            "Mais devagar",
+            "Mais depressa",
+            "O tempo da execução",
+            "Ao vivo",
+            "Achar",
+        ];
+        for pair in time.windows(2).chain(buttons.windows(2).skip(1)) {
+            assert!(rect(pair[0]).right() <= rect(pair[1]).left(), "{pair:?} at {size:?}");
+        }
+        assert!(rect("O tempo da execução").width() > 90.0, "{size:?}");
+        for name in buttons.into_iter().chain(time) {
+            assert!(whole.contains_rect(rect(name)) && rect(name).area() > 0.0, "{name} at {size:?}");
+        }
+    }
+}
