@@ -261,7 +261,7 @@ fn network(ui: &mut Ui, draft: &mut Settings, look: Look) {
 fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
     high_line(ui, word!("Size", "Tamanho"), look, |ui| {
         // From right to left.
-        let combo = ComboBox::from_id_salt("size").selected_text(word!("usual", "usual")).width(0.0);
+        let combo = ComboBox::from_id_salt("size").selected_text(word!("usual", "…")).width(0.0);
         let combo = combo.show_ui(ui, |ui| {
             for (width, height) in SIZES {
                 let size = Size::new(width, height).unwrap_or(draft.size);
@@ -285,7 +285,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
         let suffix = format!(" × {samples}");
         number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, name);
         let hint = word!("What else makes a picture good or fast", "O que mais torna uma imagem boa ou rápida");
-        let more = button(ui, None, word!("Quality…", "Qualidade…"), true, Weight::Quiet).on_hover_text(hint);
+        let more = button(ui, None, word!("Quality…", "Mais…"), true, Weight::Quiet).on_hover_text(hint);
         let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
         let popup = Popup::from_toggle_button_response(&more).frame(frame.inner_margin(1.5 * GRID));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {

