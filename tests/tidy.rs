@@ -97,6 +97,22 @@ fn walls_stand() {
 }
 
 #[test]
+fn what_the_window_says_is_said_in_both_languages() {
+    let is_word = |word: &str| word.len() > 2 && word.chars().all(|letter| letter.is_ascii_lowercase());
+    for path in sources("src/view").into_iter().chain(sources("src/gui")) {
+        let code = code(&path);
+        let code = code.split("mod tests {").next().unwrap_or_default();
+        for (at, macro_name) in code.match_indices("format!(") {
+            let literal = code[at + macro_name.len()..].trim_start().strip_prefix('"');
+            let literal = literal.and_then(|rest| rest.split('"').next()).unwrap_or_default();
+            let words: Vec<&str> = literal.split(' ').collect();
+            let is_sentence = words.windows(2).any(|two| two.iter().all(|word| is_word(word)));
+            assert!(!is_sentence, "{}: {literal:?} is to be told with `say!`", path.display());
+        }
+    }
+}
+
+#[test]
 fn no_file_is_longer_than_400_lines() {
     for path in sources("src").into_iter().chain(sources("tests")) {
         let lines = fs::read_to_string(&path).expect("a readable file").lines().count();

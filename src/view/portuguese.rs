@@ -120,7 +120,7 @@ fn compare(say: impl Fn() -> Said) {
         }
         let letters: Vec<char> = portuguese.chars().collect();
         if letters.windows(3).any(|three| three[0].is_ascii_digit() && three[1] == '.' && three[2].is_ascii_digit()) {
-            wrong.push(format!("a decimal point: {portuguese}"));
+            wrong.push(format!("point: {portuguese}"));
         }
     }
     wrong.sort();

@@ -34,7 +34,10 @@ impl Session {
             Path::new(argument).file_name().map_or_else(|| argument.into(), |name| name.to_string_lossy().into());
         if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, Path::new(argument))) {
             let log = log.display();
-            return self.trouble(format!("Not opened. The run's records will be written to {log} (--log)"));
+            return self.trouble(say!(
+                "Not opened. The run's records will be written to {log} (--log)",
+                "Não aberto. Os registros da execução serão escritos em {log} (--log)"
+            ));
         }
         self.moving = None;
         let argument = argument.to_owned();
@@ -56,14 +59,20 @@ impl Session {
         let header = &self.stage.log.header;
         let settings = Settings::of(header, self.settings.tempo);
         if let Err(why) = settings.check() {
-            return self.trouble(format!("This run cannot be made live here: {why}"));
+            return self.trouble(say!(
+                "This run cannot be made live here: {why}",
+                "Esta execução não pode tornar-se ao vivo aqui: {why}"
+            ));
         }
         match Opened::from_text(&header.scene, &header.scene_text) {
             Ok(opened) => {
                 self.settings = settings;
                 self.show(Opening::Scene(Arc::new(opened)));
             }
-            Err(error) => self.trouble(format!("The run's own scene cannot be read: {error}")),
+            Err(error) => self.trouble(say!(
+                "The run's own scene cannot be read: {error}",
+                "A cena da própria execução não pode ser lida: {error}"
+            )),
         }
     }
 
@@ -152,15 +161,22 @@ impl Session {
         if self.stage.phase == Phase::Preparing {
             self.open("ten-objects");
         }
-        self.trouble(format!("Not opened. {why}"));
+        self.trouble(say!("Not opened. {why}", "Não aberto. {why}"));
     }
 
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         self.notice = Some(match change {
-            FileChange::Written => Notice::changed(format!("{name} has changed on the disk"), self.clock),
+            FileChange::Written => {
+                let text = say!("{name} has changed on the disk", "{name} mudou no disco");
+                Notice::changed(text, self.clock)
+            }
             FileChange::Gone => {
-                Notice::trouble(format!("{name} is gone from the disk; what is open stays as it is"), self.clock)
+                let text = say!(
+                    "{name} is gone from the disk; what is open stays as it is",
+                    "{name} sumiu do disco; o que está aberto fica como está"
+                );
+                Notice::trouble(text, self.clock)
             }
         });
     }
