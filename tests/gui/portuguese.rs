@@ -199,6 +199,7 @@ fn every_page_is_portuguese() {
     for (open, page) in [
         (Key::E, "what is set"),
         (Key::O, "the scenes"),
+        (Key::S, "saving"),
         (Key::T, "the timeline"),
         (Key::F, "find"),
         (Key::F1, "the keys"),
