@@ -200,7 +200,11 @@ pub const TABLE: &[Line] = &[
         keys: &[(CTRL.plus(SHIFT), Key::S, Command::SaveRun)],
     },
     // Windows tell of these keys as of one.
-    Line { shown: "Ctrl C", what: "Copy the picture as it is shown", keys: &[] },
+    Line {
+        shown: same("Ctrl C"),
+        what: ("Copy the picture as it is shown", "Copiar a imagem como se mostra"),
+        keys: &[],
+    },
     Line {
         shown: same("O"),
         what: ("Scenes: open one, or a recorded run", "Cenas: abrir uma, ou uma execução gravada"),
