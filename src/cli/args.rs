@@ -65,7 +65,7 @@ pub(super) enum Command {
 
 /// What is written of what; several at once are possible.
 #[derive(Debug, clap::Args)]
-#[command(group = ArgGroup::new("files").required(true).multiple(true)
+#[command(allow_negative_numbers = true, group = ArgGroup::new("files").required(true).multiple(true)
     .args(["pov", "csv", "trace", "gif", "ring", "timeline", "png"]))]
 pub(super) struct ExportArgs {
     /// A recorded run; for --pov a scene file, or the name of a built-in scene

@@ -279,8 +279,9 @@ impl App {
 
     /// What floats over the panels.
     fn notices(&mut self, ctx: &Context) {
-        let making = self.session.making().filter(|(_, secs, _)| *secs > 0.4);
-        if let Some((name, _, part)) = making.filter(|_| self.session.notice().is_none()) {
+        let is_free = self.session.notice().is_none() && !self.save_bar.is_open();
+        let making = self.session.making().filter(|(_, secs, _)| is_free && *secs > 0.4);
+        if let Some((name, _, part)) = making {
             if notice::making(ctx, name, part) {
                 self.session.stop_making();
             }

@@ -102,6 +102,7 @@ pub fn making(ctx: &Context, name: &str, part: f64) -> bool {
         let text = say!("{name} is being made", "{name} está sendo feito");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
         let percent = fraction(part);
+        ui.visuals_mut().extreme_bg_color = look.hairline;
         let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
         ui.label(RichText::new(percent).font(theme::regular(theme::BODY)).color(look.quiet));

@@ -79,11 +79,17 @@ impl Paper {
                 ([(left + right) / 2.0, (top + bottom) / 2.0], [(right - left) / 2.0, (bottom - top) / 2.0]);
             Mark::Box { centre, half, round: 0.0, ink: quad.ink }
         }));
-        drawn.extend(made.lines.into_iter().map(|(from, to, ink)| Mark::Line {
-            points: vec![from, to],
-            width: 1.0,
-            ink,
-        }));
+        let within = |[x, y]: Point, [u, v]: Point| {
+            // What is still under way at the end leads out of the sheet's edge.
+            let part = if u > plan.width { (plan.width - x) / (u - x) } else { 1.0 };
+            [x + part * (u - x), y + part * (v - y)]
+        };
+        drawn.extend(
+            made.lines
+                .into_iter()
+                .map(|(from, to, ink)| (from, within(from, to), ink))
+                .map(|(from, to, ink)| Mark::Line { points: vec![from, to], width: 1.0, ink }),
+        );
         heads(log, &plan, &mut drawn);
         times(log, &window, &plan, &mut drawn);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([LEFT, top])));

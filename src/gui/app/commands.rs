@@ -50,8 +50,15 @@ impl App {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
                 session.note(word!("The picture is in the clipboard", "A imagem está na área de transferência"));
             }
-            Command::Save => self.save_bar.toggle(session),
-            Command::SaveRun => self.save_bar.open_for_run(session),
+            Command::Save | Command::SaveRun => {
+                // It would float over the bar.
+                session.close_notice();
+                if command == Command::Save {
+                    self.save_bar.toggle(session)
+                } else {
+                    self.save_bar.open_for_run(session)
+                }
+            }
             Command::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
