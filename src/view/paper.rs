@@ -84,12 +84,10 @@ impl Paper {
             let part = if u > plan.width { (plan.width - x) / (u - x) } else { 1.0 };
             [x + part * (u - x), y + part * (v - y)]
         };
-        drawn.extend(
-            made.lines
-                .into_iter()
-                .map(|(from, to, ink)| (from, within(from, to), ink))
-                .map(|(from, to, ink)| Mark::Line { points: vec![from, to], width: 1.0, ink }),
-        );
+        drawn.extend(made.lines.into_iter().map(|(from, to, ink)| {
+            let points = vec![from, within(from, to)];
+            Mark::Line { points, width: 1.0, ink }
+        }));
         heads(log, &plan, &mut drawn);
         times(log, &window, &plan, &mut drawn);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([LEFT, top])));
