@@ -109,7 +109,6 @@ impl SaveBar {
         let mut copies = false;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
-            ui.label(quiet(word!("Save", "Salvar")));
             for kind in Kind::ALL {
                 let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
                 if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
