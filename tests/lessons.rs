@@ -89,3 +89,13 @@ fn a_scene_may_stand_beside_the_lesson() {
     let missing = lesson.perform(Path::new("/nowhere"), &|_| {}, &|| false);
     assert!(missing.is_err_and(|why| why.starts_with("the run `one`: ")), "it names the run");
 }
+
+#[test]
+fn the_lesson_in_the_readme_is_one() {
+    let readme = fs::read_to_string("README.md").expect("README.md");
+    let text = readme.split("```ron\n").find(|block| block.starts_with("Lesson(")).expect("a lesson");
+    let text = text.split("```").next().expect("its end");
+    let lesson = Lesson::parse("readme", text).unwrap_or_else(|error| panic!("README's lesson: {error}"));
+    let told = lesson.check(&performed(&lesson, Path::new("")));
+    assert!(told.len() == 4 && told.iter().all(|(_, holds)| *holds), "{told:#?}");
+}

@@ -7,6 +7,7 @@ mod driving;
 mod files;
 mod inspector;
 mod layout;
+mod learn;
 mod nodes;
 mod portuguese;
 mod remembering;

@@ -1,0 +1,91 @@
+//! Lessons: chosen, taken step by step, with questions to be answered before one sees.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+fn step(window: &Window) -> Option<(String, usize)> {
+    window.state().lesson().map(|(name, step)| (name.to_owned(), step))
+}
+
+/// The second lesson, at its first step.
+fn bands() -> Window {
+    let mut window = open(SIZE);
+    key(&mut window, Key::N);
+    press(&mut window, "Why not bands?");
+    until(&mut window, "the lesson", |window| step(window).is_some());
+    window.run_steps(3);
+    window
+}
+
+fn finished(window: &Window) -> bool {
+    session(window).stage().state().finished().is_some()
+}
+
+#[test]
+fn a_lesson_is_taken_step_by_step_and_answers_come_before_what_is_seen() {
+    let mut window = bands();
+    assert_eq!(step(&window), Some(("bands".into(), 0)));
+    until(&mut window, "the first moment", |window| done(window) >= 6144 * 2 / 5);
+    assert!(!finished(&window), "time stands still there");
+    key(&mut window, Key::PageDown);
+    assert_eq!(step(&window), Some(("bands".into(), 1)));
+    // Nothing goes on before the question is answered, and there is no way round it.
+    let before = done(&window);
+    window.run_steps(20);
+    key(&mut window, Key::PageDown);
+    assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));
+    press(&mut window, "Yes");
+    window.get_by_label_contains("more than a quarter of the machines' time is lost");
+    // Whoever is in a hurry comes to the end of the step first.
+    key(&mut window, Key::PageDown);
+    assert!(finished(&window) && step(&window) == Some(("bands".into(), 1)));
+    key(&mut window, Key::PageDown);
+    assert_eq!(step(&window), Some(("bands".into(), 2)));
+    assert_eq!(session(&window).header().speeds[7], 0.1, "another run");
+    assert!(done(&window) == 0 && window.state().selected() == Some(7));
+    key(&mut window, Key::PageUp);
+    assert_eq!((step(&window), done(&window)), (Some(("bands".into(), 1)), before));
+    press(&mut window, "Leave the lesson");
+    assert_eq!(step(&window), None);
+}
+
+#[test]
+fn a_lesson_of_ones_own_is_opened_and_a_mistake_in_it_is_told() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("mine.ron");
+    let lesson = |until: &str| {
+        format!(
+            "Lesson(title: \"Mine\", about: \"A\", runs: {{\"one\": (size: (40, 30))}}, steps: [(say: \"D\", until: {until})])"
+        )
+    };
+    std::fs::write(&path, lesson("Noon")).expect("a file");
+    let mut window = open(SIZE);
+    key(&mut window, Key::N);
+    window.get_by_role_and_label(Role::TextInput, "Path of a lesson").click();
+    window.run_steps(2);
+    type_path(&mut window, "Path of a lesson", &path);
+    press(&mut window, "Open the lesson");
+    window.get_by_label_contains("mine.ron: line 1, column ");
+    std::fs::write(&path, lesson("End")).expect("a file");
+    press(&mut window, "Open the lesson");
+    until(&mut window, "the lesson", |window| step(window).is_some());
+    until(&mut window, "its end", finished);
+}
+
+#[test]
+fn for_a_projector_it_is_large_and_plain() {
+    let mut window = open(SIZE);
+    let zoom = window.ctx.zoom_factor();
+    key(&mut window, Key::F11);
+    assert_eq!(window.ctx.zoom_factor(), 1.5 * zoom);
+    assert!(window.query_by_role_and_label(Role::Button, "Restart").is_none());
+    // A clicker's keys.
+    key(&mut window, Key::PageDown);
+    assert!(session(&window).stage().paused);
+    key(&mut window, Key::Escape);
+    assert_eq!(window.ctx.zoom_factor(), zoom);
+    window.get_by_role_and_label(Role::Button, "Restart");
+}
