@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Label, RichText, Ui};
+use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
 use super::icons::Icon;
 use super::keys::Command;
@@ -107,15 +107,11 @@ impl SaveBar {
         let look = Look::of(ui.ctx());
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
         let mut copies = false;
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
-            for kind in Kind::ALL {
-                let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
-                if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
-                    self.choose(kind);
-                }
-            }
-        });
+        // In a low window a row more would leave nothing of the picture.
+        let is_low = ui.ctx().content_rect().height() < 600.0;
+        if !is_low {
+            self.kinds(ui);
+        }
         match self.kind {
             Kind::Large => self.choose_size(ui, session, look),
             Kind::Run => self.describe(ui),
@@ -123,6 +119,9 @@ impl SaveBar {
         }
         self.suggest(session);
         ui.horizontal(|ui| {
+            if is_low {
+                self.list_of_kinds(ui);
+            }
             ui.label(quiet(word!("as", "como")));
             let width = (ui.available_width() - 43.0 * GRID).max(20.0 * GRID);
             let name = word!("Where to save", "Onde salvar");
@@ -152,6 +151,35 @@ impl SaveBar {
             ui.add(Label::new(text).truncate());
         }
         copies.then_some(Command::Copy)
+    }
+
+    /// All kinds, to be pressed at once.
+    fn kinds(&mut self, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
+            for kind in Kind::ALL {
+                let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
+                if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
+                    self.choose(kind);
+                }
+            }
+        });
+    }
+
+    /// The same where there is no room for them.
+    fn list_of_kinds(&mut self, ui: &mut Ui) {
+        let mut chosen = self.kind;
+        let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name()).width(13.0 * GRID);
+        let combo = combo.show_ui(ui, |ui| {
+            for kind in Kind::ALL {
+                ui.selectable_value(&mut chosen, kind, kind.name()).on_hover_text(kind.hint());
+            }
+        });
+        let name = word!("What to save", "O que salvar");
+        combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
+        if chosen != self.kind {
+            self.choose(chosen);
+        }
     }
 
     /// Another kind: a name that was typed keeps all but its ending.
