@@ -14,7 +14,7 @@ use super::compare::Compare;
 use super::focus::Focus;
 use super::gallery::Gallery;
 use super::keys;
-use super::learn::{self, Learn};
+use super::learn::Learn;
 use super::picture_panel::PicturePanel;
 use super::save_bar::SaveBar;
 use super::session::{Done, Purpose, Session};
@@ -194,11 +194,11 @@ impl App {
         if self.shows_timeline || !self.projector {
             self.machines(ui);
         }
-        let on = self.learn.is_on();
-        let height = if on { learn::height(ui) } else { words_panel::height(ui) };
+        let lesson = self.learn.height(ui);
+        let height = lesson.unwrap_or_else(|| words_panel::height(ui));
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
         words.show(ui, |ui| {
-            if on {
+            if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
             } else {
                 words_panel::show(ui, &self.session, self.selected.as_ref());

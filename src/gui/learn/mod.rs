@@ -18,7 +18,6 @@ use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
 use crate::view::About;
 use course::Course;
-pub use panel::height;
 
 /// The page of lessons, and the lesson that is being taken.
 #[derive(Default)]
@@ -49,6 +48,11 @@ impl Learn {
     /// Whether a lesson is being taken.
     pub fn is_on(&self) -> bool {
         self.course.is_some()
+    }
+
+    /// How high the step of the lesson is, if one is being taken.
+    pub fn height(&self, ui: &Ui) -> Option<f32> {
+        self.course.as_ref().map(|course| panel::height(ui, course))
     }
 
     /// Whether the step of the lesson wants the timeline.

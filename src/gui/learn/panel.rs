@@ -20,9 +20,14 @@ pub enum Asked {
     Leave,
 }
 
-/// How high the panel is.
-pub fn height(ui: &Ui) -> f32 {
-    if ui.ctx().content_rect().height() < 700.0 { 15.0 * GRID } else { 20.0 * GRID }
+/// How high the panel is: a question needs more room.
+pub fn height(ui: &Ui, course: &Course) -> f32 {
+    let is_low = ui.ctx().content_rect().height() < 700.0;
+    match (course.question().is_some(), is_low) {
+        (true, true) => 17.0 * GRID,
+        (true, false) => 19.0 * GRID,
+        (false, _) => 11.0 * GRID,
+    }
 }
 
 /// Shows the step.
@@ -85,8 +90,8 @@ fn answers(ui: &mut Ui, course: &Course) -> Option<Asked> {
         for (place, words) in question.answers.iter().enumerate() {
             let words = words.spoken();
             let (shown, weight) = match answer {
-                Some(_) if place == question.right => (format!("✔ {words}"), Weight::On),
-                Some(given) if place == given => (format!("✘ {words}"), Weight::Quiet),
+                Some(_) if place == question.right => (say!("Right: {words}", "Certo: {words}"), Weight::On),
+                Some(given) if place == given => (say!("Not so: {words}", "Não: {words}"), Weight::Quiet),
                 _ => (words.to_owned(), Weight::Quiet),
             };
             ui.add_enabled_ui(answer.is_none() || place == question.right, |ui| {

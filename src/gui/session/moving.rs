@@ -71,6 +71,9 @@ impl Session {
 
     /// Whether the scene is seen by another camera than its own.
     pub fn is_camera_away(&self) -> bool {
+        if self.is_recorded() {
+            return false;
+        }
         let now = self.moving.as_ref().map(|moving| moving.camera);
         let now = now.or_else(|| self.prepared.as_ref().map(|prepared| prepared.opened.scene.camera));
         self.home.zip(now).is_some_and(|(home, now)| home.eye != now.eye || home.look_at != now.look_at)

@@ -44,7 +44,8 @@ impl Session {
     /// Shows a run of a lesson from its beginning.
     pub fn show_run_of(&mut self, taught: &Taught, name: &str) {
         if let Some((_, recorded)) = taught.runs.iter().find(|(other, _)| other == name) {
-            self.loading = None;
+            // Whatever else was on its way to the stage comes too late.
+            (self.loading, self.moving) = (None, None);
             self.play(recorded.clone());
         }
     }
