@@ -33,7 +33,8 @@ pub struct Open {
 pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
     let width = ui.available_width();
-    let wide = width > 1040.0;
+    // All buttons have room for their words.
+    let wide = width > word!(1230.0, 1270.0);
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
@@ -108,7 +109,7 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     let hint = word!("What other qualities cost (A)", "O que custam outras qualidades (A)");
     press(Icon::Chart, word!("Accuracy", "Precisão"), words, shown(open.accuracy), Command::Accuracy, hint);
     let hint = word!("Lessons with questions (N)", "Lições com perguntas (N)");
-    press(Icon::Learn, word!("Learn", "Aprender"), words, shown(open.learn), Command::Learn, hint);
+    press(Icon::Learn, word!("Learn", "Lições"), words, shown(open.learn), Command::Learn, hint);
     let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
     press(Icon::Compare, word!("Compare", "Comparar"), words, shown(open.compare), Command::Compare, hint);
     let hint = word!("Machines, picture, strategy (E)", "Máquinas, imagem, estratégia (E)");

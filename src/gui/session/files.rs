@@ -181,6 +181,16 @@ impl Session {
         });
     }
 
+    /// The files that were opened last.
+    pub fn recent(&self) -> &[String] {
+        &self.recent
+    }
+
+    /// The files that were opened in an earlier window.
+    pub fn set_recent(&mut self, recent: Vec<String>) {
+        self.recent = recent;
+    }
+
     /// The file was opened last.
     fn remember(&mut self, file: String) {
         const MOST: usize = 8;

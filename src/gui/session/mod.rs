@@ -329,16 +329,6 @@ impl Session {
         self.notice = Some(Notice::trouble(text, self.clock));
     }
 
-    /// The files that were opened last.
-    pub fn recent(&self) -> &[String] {
-        &self.recent
-    }
-
-    /// The files that were opened in an earlier window.
-    pub fn set_recent(&mut self, recent: Vec<String>) {
-        self.recent = recent;
-    }
-
     /// How many runs have begun, for tests.
     pub fn runs_begun(&self) -> usize {
         self.begun

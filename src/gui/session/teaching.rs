@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::Session;
 use super::jobs::{Done, Jobs, Recorded, guess};
+use crate::language::{Language, say};
 use crate::lesson::Lesson;
 use crate::view::Known;
 
@@ -53,8 +54,9 @@ impl Session {
 
 impl Jobs {
     fn prepare_lesson(&mut self, lesson: Lesson, directory: PathBuf, traced: Arc<AtomicU32>) -> u64 {
-        let number = self.number();
+        let (number, language) = (self.number(), Language::spoken());
         self.start("lesson", move || {
+            language.speak();
             let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
             // A lesson's pictures are small, and soon traced.
             let performed = lesson.perform(&directory, &done, &|| false);
@@ -66,7 +68,8 @@ impl Jobs {
                 });
                 Taught { runs: recorded.collect(), lesson: Arc::new(lesson) }
             });
-            Done::Lesson(number, taught.map_err(|why| format!("The lesson cannot be shown: {why}")))
+            let unshown = |why| say!("The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
+            Done::Lesson(number, taught.map_err(unshown))
         });
         number
     }
