@@ -47,7 +47,8 @@ fn a_lesson_is_taken_step_by_step_and_answers_come_before_what_is_seen() {
     assert_eq!(session(&window).header().speeds[7], 0.1, "another run");
     assert!(done(&window) == 0 && window.state().selected() == Some(7));
     key(&mut window, Key::PageUp);
-    assert_eq!((step(&window), done(&window)), (Some(("bands".into(), 1)), before));
+    // What was answered is answered, and time goes on from there.
+    assert!(step(&window) == Some(("bands".into(), 1)) && done(&window) >= before && !finished(&window));
     press(&mut window, "Leave the lesson");
     assert_eq!(step(&window), None);
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crossbeam_channel::{TryRecvError, bounded};
 
+use super::Session;
 use super::jobs::{Done, Jobs, Prepared};
 use crate::picture::{Frame, Quality, Size};
 use crate::scene::Scene;
@@ -22,6 +23,19 @@ pub enum Finding {
     Point(usize, Point, Option<Frame>),
     /// Nothing more comes; a sentence says why, if that is too soon.
     Over(Result<(), String>),
+}
+
+impl Session {
+    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        self.measurements += 1;
+        self.jobs.measure(prepared, qualities)
+    }
+
+    /// Gives up what is being measured, if something is.
+    pub fn stop_measuring(&mut self) {
+        self.jobs.stop_measuring();
+    }
 }
 
 impl Jobs {

@@ -25,7 +25,6 @@ use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::language::say;
 use crate::palette::Rgb;
-use crate::picture::Quality;
 use crate::runlog::Header;
 use crate::scene::{Camera, Opened};
 use crate::time::Time;
@@ -291,17 +290,6 @@ impl Session {
     /// Jobs, for dialogs and small pictures.
     pub fn jobs(&self) -> &Jobs {
         &self.jobs
-    }
-
-    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
-    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
-        self.measurements += 1;
-        self.jobs.measure(prepared, qualities)
-    }
-
-    /// Gives up what is being measured, if something is.
-    pub fn stop_measuring(&mut self) {
-        self.jobs.stop_measuring();
     }
 
     /// What is being read and compiled, and for how many seconds.
