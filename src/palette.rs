@@ -56,6 +56,11 @@ pub fn node_colour(node: usize, nodes: usize) -> Rgb {
     COLOURS[place / HUES % COLOURS.len()][place % HUES]
 }
 
+/// The colours of all nodes of a ring of so many.
+pub fn node_colours(nodes: usize) -> Vec<Rgb> {
+    (0..nodes).map(|node| node_colour(node, nodes)).collect()
+}
+
 /// Black or white, whichever can be read better on `ground`.
 pub fn text_on(ground: Rgb) -> Rgb {
     const BLACK: Rgb = [0x10, 0x12, 0x16];
@@ -196,7 +201,7 @@ mod tests {
     #[test]
     fn so_many_nodes_have_colours_of_their_own() {
         for nodes in 1..=DISTINCT {
-            let mut colours: Vec<_> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
+            let mut colours = node_colours(nodes);
             colours.sort_unstable();
             colours.dedup();
             assert_eq!(colours.len(), nodes);

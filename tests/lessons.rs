@@ -1,12 +1,11 @@
 //! Every lesson's claims are true of the runs that it shows; and a lesson's file with a mistake says where.
 
 use std::fs;
-use std::path::Path;
 
 use anel::lesson::{BUILT_IN, Lesson, Performed};
 
-fn performed(lesson: &Lesson, directory: &Path) -> Vec<(String, Performed)> {
-    let performed = lesson.perform(directory, &|_| {}, &|| false);
+fn performed(lesson: &Lesson) -> Vec<(String, Performed)> {
+    let performed = lesson.perform(&|_| {}, &|| false);
     performed.expect("its scenes can be read").expect("nobody gives it up")
 }
 
@@ -14,7 +13,7 @@ fn performed(lesson: &Lesson, directory: &Path) -> Vec<(String, Performed)> {
 fn what_every_lesson_claims_is_true() {
     for (name, _) in BUILT_IN {
         let lesson = Lesson::open(name).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let told = lesson.check(&performed(&lesson, Path::new("")));
+        let told = lesson.check(&performed(&lesson));
         let wrong: Vec<_> = told.iter().filter(|(_, holds)| !holds).map(|(claim, _)| claim).collect();
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");
         // A lesson that claims nothing could say anything.
@@ -26,7 +25,7 @@ fn what_every_lesson_claims_is_true() {
 #[test]
 fn the_same_lesson_shows_the_same_runs() {
     let lesson = Lesson::open("sizes").expect("a built-in lesson");
-    let [one, other] = [(); 2].map(|()| performed(&lesson, Path::new("")));
+    let [one, other] = [(); 2].map(|()| performed(&lesson));
     for ((name, one), (_, other)) in one.iter().zip(&other) {
         assert!(one.log == other.log, "the run {name}");
     }
@@ -44,11 +43,11 @@ fn written(run: &str, step: &str) -> String {
 fn a_false_claim_is_found() {
     let lesson =
         Lesson::parse("mine", &written("", "until: End, holds: [(figure: Atoms, at_least: 25)]")).expect("a lesson");
-    let told = lesson.check(&performed(&lesson, Path::new("")));
+    let told = lesson.check(&performed(&lesson));
     assert_eq!(told.len(), 1);
     assert!(!told[0].1 && told[0].0.contains("Atoms of `one` is 24"), "{told:?}");
     let lesson = Lesson::parse("mine", &written("strategy: \"static\"", "until: FirstTransfer")).expect("a lesson");
-    let told = lesson.check(&performed(&lesson, Path::new("")));
+    let told = lesson.check(&performed(&lesson));
     assert_eq!(told, [("step 1: the run `one` has no FirstTransfer".to_owned(), false)]);
 }
 
@@ -84,9 +83,11 @@ fn a_scene_may_stand_beside_the_lesson() {
     let scene = "Scene(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), lights: [], objects: [Sphere(radius: 1)])";
     fs::write(directory.path().join("ball.ron"), scene).expect("a file");
     let lesson = Lesson::parse("mine", &written("scene: \"ball.ron\"", "until: End")).expect("a lesson");
-    let performed = performed(&lesson, directory.path());
+    let lesson = Lesson { directory: directory.path().to_owned(), ..lesson };
+    let performed = performed(&lesson);
     assert_eq!(performed[0].1.opened.name, "ball");
-    let missing = lesson.perform(Path::new("/nowhere"), &|_| {}, &|| false);
+    let lesson = Lesson { directory: "/nowhere".into(), ..lesson };
+    let missing = lesson.perform(&|_| {}, &|| false);
     assert!(missing.is_err_and(|why| why.starts_with("the run `one`: ")), "it names the run");
 }
 
@@ -96,6 +97,6 @@ fn the_lesson_in_the_readme_is_one() {
     let text = readme.split("```ron\n").find(|block| block.starts_with("Lesson(")).expect("a lesson");
     let text = text.split("```").next().expect("its end");
     let lesson = Lesson::parse("readme", text).unwrap_or_else(|error| panic!("README's lesson: {error}"));
-    let told = lesson.check(&performed(&lesson, Path::new("")));
+    let told = lesson.check(&performed(&lesson));
     assert!(told.len() == 2 && told.iter().all(|(_, holds)| *holds), "{told:#?}");
 }

@@ -1,6 +1,7 @@
 //! What parties say to each other, what happens to them, and what they ask of their driver.
 
 use std::ops::Range;
+use std::slice;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -45,6 +46,15 @@ pub enum Message {
 }
 
 impl Message {
+    /// The atoms that it is about: to be traced, or traced.
+    pub fn ranges(&self) -> &[Range<Atom>] {
+        match self {
+            Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
+            Self::Transfer(ranges) | Self::Results(ranges) => ranges,
+            Self::Offer { .. } | Self::Request | Self::Shutdown => &[],
+        }
+    }
+
     /// What the message would weigh on a wire, in bytes: 16 for the envelope, 8 a range of atoms, 12 a traced
     /// pixel (three 32-bit floats), and the scene's text with a band.
     pub fn bytes(&self, division: Division, scene_bytes: u64) -> u64 {

@@ -5,10 +5,10 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, open};
+use super::{Failure, check_outputs, open, progress};
 use crate::driver::{Whole, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
@@ -102,7 +102,7 @@ fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
 /// The scene's picture at any size.
 fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
     let tracer = Arc::new(Tracer::new(scene, size, quality));
-    let bar = progress("tracing");
+    let bar = parts("tracing");
     let rgb = trace_strips(&tracer, &|part| show(&bar, part), &|| false).map_err(Failure::Failed)?;
     bar.finish_and_clear();
     // Nobody has ended it.
@@ -112,15 +112,14 @@ fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(
 fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Failure> {
     let header = &log.header;
     let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
-    let bar = progress("tracing");
+    let bar = parts("tracing");
     let whole = Whole::of(&tracer, header.division, &|atoms| {
         bar.set_length(header.division.atoms().into());
         bar.inc(atoms.into());
     });
     bar.finish_and_clear();
-    let mut frame = Frame::new(header.size);
-    frame.place(0..header.size.pixels(), &whole.map_err(Failure::Failed)?.pixels);
-    let bar = progress("drawing");
+    let frame = Frame::of(header.size, &whole.map_err(Failure::Failed)?.pixels);
+    let bar = parts("drawing");
     let written = write(path, |file| {
         film.write(file, log, &frame, &mut |part| {
             show(&bar, part);
@@ -136,11 +135,8 @@ fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result
 }
 
 /// Thousandths of what is done.
-fn progress(what: &'static str) -> ProgressBar {
-    let bar = ProgressBar::new(1000).with_message(what);
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} ({eta} left)");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar
+fn parts(what: &'static str) -> ProgressBar {
+    progress(1000, "{percent:>3} %  {msg}  {elapsed} ({eta} left)").with_message(what)
 }
 
 fn show(bar: &ProgressBar, part: f64) {

@@ -1,11 +1,6 @@
 //! `anel lesson`: what a lesson says, and whether what it claims is true of its runs.
 
-use std::path::Path;
-use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressStyle};
-
-use super::{Failure, print};
+use super::{Failure, print, progress};
 use crate::lesson::{BUILT_IN, Lesson};
 
 /// Plays a lesson's runs in virtual time and prints its steps and claims; without one, lists the built-in lessons.
@@ -18,10 +13,8 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
         return Ok(());
     };
     let lesson = Lesson::open(argument).map_err(|error| Failure::Refused(error.to_string()))?;
-    let bar = ProgressBar::new(lesson.pixels().into()).with_style(style());
-    bar.enable_steady_tick(Duration::from_millis(200));
-    let directory = Path::new(argument).parent().unwrap_or(Path::new(""));
-    let performed = lesson.perform(directory, &|more| bar.inc(more.into()), &|| false);
+    let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
+    let performed = lesson.perform(&|more| bar.inc(more.into()), &|| false);
     bar.finish_and_clear();
     let performed = performed.map_err(Failure::Refused)?.unwrap_or_default();
     for (number, step) in (1..).zip(&lesson.steps) {
@@ -39,8 +32,4 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
         0 => Ok(()),
         false_ones => Err(Failure::Failed(format!("{false_ones} of {} claims are not true", told.len()))),
     }
-}
-
-fn style() -> ProgressStyle {
-    ProgressStyle::with_template("tracing {wide_bar} {percent} %").unwrap_or_else(|_| ProgressStyle::default_bar())
 }

@@ -17,6 +17,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::driver::{auto_pace, cores};
 use crate::gui::{self, Opening, Settings};
@@ -70,6 +71,12 @@ fn print(result: &str) -> Result<(), Failure> {
         Err(error) => Err(Failure::Failed(format!("standard output cannot be written: {error}"))),
         Ok(()) => Ok(()),
     }
+}
+
+/// A bar of so many steps; `words` stand beside it, as indicatif's templates have them.
+fn progress(steps: u64, words: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(&format!("{{bar:32}} {words}"));
+    ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// Refuses files that cannot be written, and such as would replace the scene or each other.

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::args::RenderArgs;
 use super::report::Report;
 use super::sharing;
-use super::{Failure, check_outputs, open, print};
+use super::{Failure, check_outputs, open, print, progress};
 use crate::driver::{Run, Update, Whole, probe};
 use crate::picture::{Frame, write_png};
 use crate::runlog::{Driver, Header, RunLog, Tally};
@@ -71,7 +71,7 @@ pub(super) fn run_and_save(
 fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
     let begun = Instant::now();
     let run = Run::start(Arc::clone(tracer), header);
-    let bar = progress(header);
+    let bar = atoms_bar(header);
     let mut frame = Frame::new(header.size);
     // One batch for the log, which would else sort its end for each party's.
     let mut told = Vec::new();
@@ -107,11 +107,10 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
 #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
 fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<Outcome, Failure> {
     let begun = Instant::now();
-    let bar = progress(header);
+    let bar = atoms_bar(header);
     let whole = Whole::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
     bar.finish_and_clear();
-    let mut frame = Frame::new(header.size);
-    frame.place(0..header.size.pixels(), &whole.pixels);
+    let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {
         let costs = whole.costs();
         Sim::new(header, &[], move |atom| costs[atom as usize])
@@ -131,11 +130,8 @@ fn measured(path: &Path, header: &Header) -> Result<Sim, Failure> {
 }
 
 /// A bar that counts atoms.
-fn progress(header: &Header) -> ProgressBar {
-    let bar = ProgressBar::new(u64::from(header.division.atoms()));
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar
+fn atoms_bar(header: &Header) -> ProgressBar {
+    progress(header.division.atoms().into(), "{percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)")
 }
 
 /// How much dearer atoms were in the run than one after another on one thread, from a sample of them: contention for

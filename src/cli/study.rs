@@ -3,11 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 
 use super::args::StudyKind;
-use super::{Failure, open, print, tell};
+use super::{Failure, open, print, progress, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
@@ -30,9 +29,7 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
     std::fs::create_dir_all(out)
         .map_err(|error| Failure::Refused(format!("the directory {} cannot be made: {error}", out.display())))?;
     check_writable(&out.join("study.md")).map_err(|error| Failure::Refused(error.to_string()))?;
-    let bar = ProgressBar::new(1);
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {elapsed} ({eta} left)  {msg}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = progress(1, "{percent:>3} %  {elapsed} ({eta} left)  {msg}");
     let mut told = |done: usize, of: usize, what: &str| {
         bar.set_length(of as u64);
         bar.set_position(done as u64);

@@ -67,9 +67,7 @@ mod tests {
         let told = Mutex::new(Vec::new());
         let strips = trace_strips(&tracer, &|part| told.lock().unwrap().push(part), &|| false).unwrap().unwrap();
         let whole = Whole::of(&tracer, Division::new(size.pixels(), 50), &|_| {}).unwrap();
-        let mut frame = Frame::new(size);
-        frame.place(0..size.pixels(), &whole.pixels);
-        assert!(strips == frame.to_srgb8());
+        assert!(strips == Frame::of(size, &whole.pixels).to_srgb8());
         let told = told.into_inner().unwrap();
         assert!(told.iter().all(|part| (0.0..=1.0).contains(part)) && told.contains(&1.0), "{told:?}");
     }

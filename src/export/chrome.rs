@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use crate::balance::{Message, NodeId, Party};
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::record::What;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -31,8 +31,7 @@ const STRETCHES: u64 = 400;
 /// # Errors
 /// What `to` says.
 pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
-    let mut lanes = Lanes::new(&log.header);
-    log.records().iter().for_each(|record| lanes.apply(record));
+    let lanes = Lanes::of(log);
     let header = &log.header;
     let about = json!({
         "scene": header.scene,
@@ -182,7 +181,7 @@ fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travell
         tracks[track] = *arrives;
         let place = Place { process, track: track + 1, at: record.at };
         let name = format!("{what} {} → {}", party(*from), party(*to));
-        let args = json!({ "message": id, "atoms": atoms(message), "bytes": bytes });
+        let args = json!({ "message": id, "atoms": atoms_in(message.ranges()), "bytes": bytes });
         events.put(&slice(&name, what, place, *arrives, args))?;
         travelled.insert(*id, place);
     }
@@ -234,11 +233,9 @@ fn parcels(
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
     for record in log.records() {
         let What::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.what else { continue };
-        let ranges = match message {
-            Message::Band(range) | Message::Part(range) => std::slice::from_ref(range),
-            Message::Transfer(ranges) => &ranges[..],
-            _ => continue,
-        };
+        if !matches!(message, Message::Band(_) | Message::Part(_) | Message::Transfer(_)) {
+            continue;
+        }
         let mut through = Vec::new();
         if let Party::Node(giver) = from
             && let Some(bars) = by_node.get(giver)
@@ -248,7 +245,7 @@ fn parcels(
             through.push(Place { process: MACHINES, track: track_of(*giver), at: record.at });
         }
         through.extend(travelled.get(id));
-        let here = ranges.iter().cloned().flatten().filter_map(|atom| traced.get(&atom));
+        let here = message.ranges().iter().cloned().flatten().filter_map(|atom| traced.get(&atom));
         let first = here.filter(|(node, bar)| node == to && bar.from >= *arrives).min_by_key(|(_, bar)| bar.from);
         through.extend(first.map(|(_, bar)| Place { process: MACHINES, track: track_of(*to), at: bar.from }));
         events.arrow((2 * id + 1, "atoms"), &through)?;
@@ -325,13 +322,5 @@ fn party(party: Party) -> String {
     match party {
         Party::Parent => "parent".into(),
         Party::Node(node) => node_name(node).to_string(),
-    }
-}
-
-fn atoms(message: &Message) -> u64 {
-    match message {
-        Message::Band(range) | Message::Part(range) => range.len() as u64,
-        Message::Transfer(ranges) | Message::Results(ranges) => ranges.iter().map(|range| range.len() as u64).sum(),
-        Message::Request | Message::Offer { .. } | Message::Shutdown => 0,
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::balance::{Message, NodeId, Party};
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -116,15 +116,13 @@ fn row(record: &Record) -> Row {
 
 /// What a message says.
 fn sent(from: Party, message: &Message) -> Row {
-    let carried = |what, ranges: &[Range<Atom>]| {
-        let count = ranges.iter().map(|range| range.len() as u32).sum();
-        Row { what, atoms: Some(atoms(ranges)), count: Some(count), ..Row::default() }
-    };
+    let ranges = message.ranges();
+    let carried = |what| Row { what, atoms: Some(atoms(ranges)), count: Some(atoms_in(ranges)), ..Row::default() };
     match message {
-        Message::Band(band) => carried("band", std::slice::from_ref(band)),
-        Message::Part(part) => carried("part", std::slice::from_ref(part)),
-        Message::Transfer(ranges) => carried("transfer", ranges),
-        Message::Results(ranges) => carried("results", ranges),
+        Message::Band(_) => carried("band"),
+        Message::Part(_) => carried("part"),
+        Message::Transfer(_) => carried("transfer"),
+        Message::Results(_) => carried("results"),
         Message::Request => Row { what: "request", ..Row::default() },
         Message::Shutdown => Row { what: "shutdown", ..Row::default() },
         Message::Offer { who, done } => {

@@ -8,7 +8,7 @@ use image::imageops::{FilterType, overlay, resize};
 
 use super::animation::Animation;
 use super::{Raster, to_svg};
-use crate::palette::{PRINT, node_colour};
+use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -123,13 +123,11 @@ struct Projector<'a> {
 impl<'a> Projector<'a> {
     fn new(log: &'a RunLog, frame: &Frame, film: Film, layout: Layout) -> Self {
         let header = &log.header;
-        let nodes = header.speeds.len();
-        let colours = (0..nodes).map(|node| node_colour(node, nodes)).collect();
+        let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours, PRINT.ground);
         canvas.take(0..header.division.atoms(), frame.pixels());
-        let last = log.records().last().map_or(Time::ZERO, |last| last.at);
         let finished = log.records().iter().rfind(|record| record.what == crate::record::What::Finished);
-        let end = finished.map_or(last, |finished| finished.at);
+        let end = finished.map_or_else(|| log.end(), |finished| finished.at);
         Self {
             look: film.look,
             moment: Moment::new(header),

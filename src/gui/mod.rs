@@ -21,6 +21,7 @@ mod picture_panel;
 mod picture_view;
 mod places;
 mod preset;
+mod rates;
 mod ring_panel;
 mod row_places;
 mod save_bar;

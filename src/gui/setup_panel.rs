@@ -2,8 +2,8 @@
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Button, ComboBox, Frame, Label, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, Stroke, TextWrapMode,
-    Ui, WidgetInfo, vec2,
+    Button, ComboBox, Label, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextWrapMode, Ui, WidgetInfo,
+    vec2,
 };
 
 use super::history::Gesture;
@@ -12,7 +12,7 @@ use super::session::Session;
 use super::settings::Settings;
 use super::tempo::Tempo;
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, choice, number, slider};
+use super::widgets::{Weight, button, choice, number, popup_frame, slider};
 use crate::balance::Strategy;
 use crate::language::{comma, decimal, say, word};
 use crate::picture::{Quality, Size};
@@ -286,8 +286,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
         number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, name);
         let hint = word!("What else makes a picture good or fast", "O que mais torna uma imagem boa ou rápida");
         let more = button(ui, None, word!("Quality…", "Mais…"), true, Weight::Quiet).on_hover_text(hint);
-        let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
-        let popup = Popup::from_toggle_button_response(&more).frame(frame.inner_margin(1.5 * GRID));
+        let popup = Popup::from_toggle_button_response(&more).frame(popup_frame(ui.ctx()).inner_margin(1.5 * GRID));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
             ui.set_width(44.0 * GRID);
             quality(ui, &mut draft.quality, look);

@@ -3,18 +3,19 @@
 use std::time::Duration;
 
 use egui::{
-    Align, EventFilter, Frame, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, Response, RichText, Role,
-    Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align, EventFilter, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, Response, RichText, Role, Sense,
+    Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::icons::Icon;
 use super::keys::Command;
+use super::rates;
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, named_button, next_of};
+use super::widgets::{Weight, button, named_button, next_of, popup_frame};
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{Landmark, RATES, Sign, SignKind, Step, landmarks, rate_of_time_words, short_rate_words, time_words};
+use crate::view::{Landmark, Sign, SignKind, Step, landmarks, time_words};
 
 /// How high the panel is.
 pub const HEIGHT: f32 = 4.0 * GRID;
@@ -60,7 +61,7 @@ impl TimePanel {
             ui.add_enabled_ui(can, |ui| {
                 pressed = self.steps(ui);
                 ui.add_space(GRID);
-                pressed = pressed.or(rate(ui, session.stage(), look));
+                pressed = pressed.or(rates::show(ui, session.stage().time.rate()));
             });
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
@@ -125,8 +126,7 @@ impl TimePanel {
             Popup::toggle_id(ui.ctx(), id);
         }
         let was_open = self.is_finding;
-        let frame = Frame::popup(ui.style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
-        let popup = Popup::from_toggle_button_response(&find).frame(frame.inner_margin(GRID));
+        let popup = Popup::from_toggle_button_response(&find).frame(popup_frame(ui.ctx()));
         let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
             let known = (session.stage().lanes().version(), Language::spoken());
             if !was_open || self.found_in != known {
@@ -173,57 +173,6 @@ fn entry(ui: &mut Ui, mark: &Landmark, rate: f64, look: Look) -> Response {
     let time = ui.painter().layout_no_wrap(time_words(mark.at, rate), theme::regular(theme::SMALL), look.quiet);
     ui.painter().galley(pos2(rect.right() - GRID - time.size().x, y - time.size().y / 2.0), time, look.quiet);
     response
-}
-
-/// How fast time goes.
-fn rate(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
-    let (mut pressed, rate) = (None, stage.time.rate());
-    let slower = button(ui, Some(Icon::Slower), word!("Slower", "Mais devagar"), false, Weight::Quiet);
-    if slower.on_hover_text(word!("Time goes slower (,)", "O tempo passa mais devagar (,)")).clicked() {
-        pressed = Some(Command::Rate(false));
-    }
-    let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, HEIGHT), Sense::click());
-    let how = rate_of_time_words(rate);
-    let goes = say!("Time goes {how}", "O tempo passa {how}");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &goes));
-    let colour = look.text;
-    if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect, 6.0, look.raised);
-    }
-    let words = ui.painter().layout_no_wrap(short_rate_words(rate), theme::regular(theme::SMALL), colour);
-    ui.painter().galley(rect.center() - words.size() / 2.0, words, colour);
-    pressed = pressed.or(rates(&response, rate, look));
-    response.on_hover_text(say!("{goes}; press for others", "{goes}; pressionar para outros ritmos"));
-    let faster = button(ui, Some(Icon::Faster), word!("Faster", "Mais depressa"), false, Weight::Quiet);
-    if faster.on_hover_text(word!("Time goes faster (.)", "O tempo passa mais depressa (.)")).clicked() {
-        pressed = Some(Command::Rate(true));
-    }
-    pressed
-}
-
-/// All rates, from the slowest to the fastest.
-fn rates(opener: &Response, now: f64, look: Look) -> Option<Command> {
-    let frame = Frame::popup(&opener.ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
-    let popup = Popup::from_toggle_button_response(opener).frame(frame.inner_margin(GRID));
-    let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-        ui.set_width(20.0 * GRID);
-        ui.spacing_mut().item_spacing.y = GRID / 4.0;
-        let mut chosen = None;
-        for (index, rate) in RATES.into_iter().enumerate() {
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 2.75 * GRID), Sense::click());
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, rate == now, rate_of_time_words(rate)));
-            if response.hovered() || response.has_focus() || rate == now {
-                ui.painter().rect_filled(rect, 6.0, look.raised);
-            }
-            let words = ui.painter().layout_no_wrap(rate_of_time_words(rate), theme::regular(theme::SMALL), look.text);
-            ui.painter().galley(pos2(rect.left() + GRID, rect.center().y - words.size().y / 2.0), words, look.text);
-            if response.clicked() {
-                chosen = Some(Command::SetRate(index));
-            }
-        }
-        chosen
-    });
-    shown.and_then(|shown| shown.inner)
 }
 
 /// Back to what happens now, or to the end.

@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use egui::{
-    Color32, DragValue, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Color32, Context, DragValue, Frame, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextEdit,
+    TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::icons::{self, Icon};
@@ -123,6 +123,12 @@ pub fn path_field(
         field.request_focus();
     }
     Typed { changed: field.changed(), entered }
+}
+
+/// What lies round the content of a popup.
+pub fn popup_frame(ctx: &Context) -> Frame {
+    let look = Look::of(ctx);
+    Frame::popup(&ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline)).inner_margin(GRID)
 }
 
 /// A slim slider, in steps of 1 if `whole`, its filled part in `colour`. `name` is its accessible name.

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::perform::Performed;
 use super::{Lesson, Moment};
-use crate::balance::Message;
+use crate::picture::atoms_in;
 use crate::record::What;
 use crate::runlog::RunLog;
 use crate::view::Account;
@@ -67,9 +67,8 @@ pub enum Figure {
 }
 
 impl Figure {
-    /// Its value; `None` where the run has none, since its picture is never completed.
-    pub fn of(self, log: &RunLog) -> Option<f64> {
-        let account = Account::of(log);
+    /// Its value in a run of which this is the account; `None` where there is none, since its picture is never completed.
+    fn of(self, log: &RunLog, account: Option<&Account>) -> Option<f64> {
         match self {
             Self::Ends => return Some(if account.is_some() { 1.0 } else { 0.0 }),
             Self::Atoms => return Some(log.header.division.atoms().into()),
@@ -100,9 +99,7 @@ impl Figure {
 fn largest(log: &RunLog) -> f64 {
     let Some((records, _)) = Moment::BiggestTransfer.of(log) else { return 0.0 };
     match &log.records()[records - 1].what {
-        What::Sent { message: Message::Transfer(ranges), .. } => {
-            ranges.iter().map(|range| f64::from(range.end - range.start)).sum()
-        }
+        What::Sent { message, .. } => atoms_in(message.ranges()).into(),
         _ => 0.0,
     }
 }
@@ -113,12 +110,19 @@ fn dearest(log: &RunLog) -> f64 {
     costs.iter().copied().fold(0.0, f64::max) / mean.max(f64::MIN_POSITIVE)
 }
 
+/// A run of which something is claimed.
+struct Run<'a> {
+    name: &'a str,
+    log: &'a RunLog,
+    account: Option<Account>,
+}
+
 impl Claim {
     /// The claim's value, and whether it holds; `run` is what the step shows.
-    fn holds(&self, run: &str, performed: &[(String, Performed)]) -> (Option<f64>, bool) {
+    fn holds(&self, run: &str, runs: &[Run<'_>]) -> (Option<f64>, bool) {
         let value = |name: &str| {
-            let (_, known) = performed.iter().find(|(other, _)| other == name)?;
-            self.figure.of(&known.log)
+            let run = runs.iter().find(|run| run.name == name)?;
+            self.figure.of(run.log, run.account.as_ref())
         };
         let of = value(self.of.as_deref().unwrap_or(run));
         let value = match &self.over {
@@ -135,15 +139,17 @@ impl Claim {
 impl Lesson {
     /// Every claim with its value, and whether it holds; and every moment that a run does not have.
     pub fn check(&self, performed: &[(String, Performed)]) -> Vec<(String, bool)> {
+        let known = performed.iter().map(|(name, run)| Run { name, log: &run.log, account: Account::of(&run.log) });
+        let runs: Vec<Run<'_>> = known.collect();
         let mut told = Vec::new();
         for (number, step) in (1..).zip(&self.steps) {
-            if let (Some(until), Some((_, run))) = (step.until, performed.iter().find(|(name, _)| *name == step.run))
-                && until.of(&run.log).is_none()
+            if let (Some(until), Some(run)) = (step.until, runs.iter().find(|run| run.name == step.run))
+                && until.of(run.log).is_none()
             {
                 told.push((format!("step {number}: the run `{}` has no {until:?}", step.run), false));
             }
             for claim in &step.holds {
-                let (value, holds) = claim.holds(&step.run, performed);
+                let (value, holds) = claim.holds(&step.run, &runs);
                 let of = claim.of.as_deref().unwrap_or(&step.run);
                 let over = claim.over.as_ref().map_or_else(String::new, |over| format!(" over `{over}`"));
                 let value = value.map_or("nothing: a run never ends".to_owned(), |value| format!("{value:.4}"));

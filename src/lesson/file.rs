@@ -1,7 +1,7 @@
 //! A lesson's file: RON, and errors that say where.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::de::Error;
@@ -36,7 +36,10 @@ impl Lesson {
         };
         let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
         let text = ron_file::read(path, "lesson", none).map_err(|message| FileError::new(None, &message));
-        text.and_then(|text| Self::parse(&name, &text)).map_err(|error| error.of(argument))
+        let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        text.and_then(|text| Self::parse(&name, &text))
+            .map(|lesson| Self { directory, ..lesson })
+            .map_err(|error| error.of(argument))
     }
 
     /// Reads the text of a lesson's file.
@@ -157,7 +160,7 @@ impl LessonFile {
         if steps.is_empty() {
             return Err((None, "a lesson needs at least one step".into()));
         }
-        Ok(Lesson { name: name.into(), title: self.title, about: self.about, runs, steps })
+        Ok(Lesson { name: name.into(), directory: PathBuf::new(), title: self.title, about: self.about, runs, steps })
     }
 }
 

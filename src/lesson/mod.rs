@@ -13,6 +13,7 @@ pub use perform::Performed;
 pub use words::Words;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::Deserialize;
@@ -26,6 +27,8 @@ use crate::scenario::Script;
 pub struct Lesson {
     /// Its file's name without its ending.
     pub name: String,
+    /// Where its file lies, and scenes that are files beside it; the working directory, if it is no file.
+    pub directory: PathBuf,
     /// What it is called.
     pub title: Words,
     /// What it is about, in a line.

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::balance::{Message, Party};
+use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -74,9 +75,7 @@ fn is_own_offer(what: &What) -> bool {
 /// How many atoms go from one machine to another.
 fn moved(what: &What) -> u32 {
     match what {
-        What::Sent { from: Party::Node(_), to: Party::Node(_), message: Message::Transfer(ranges), .. } => {
-            ranges.iter().map(|range| range.end - range.start).sum()
-        }
+        What::Sent { message: Message::Transfer(ranges), .. } => atoms_in(ranges),
         _ => 0,
     }
 }

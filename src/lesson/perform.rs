@@ -1,12 +1,14 @@
 //! Runs a lesson's runs.
 
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
 use super::{Lesson, Plan};
 use crate::balance::Rules;
 use crate::driver::Whole;
-use crate::picture::{Quality, Size};
+use crate::picture::Quality;
 use crate::runlog::{Header, Link, RunLog};
 use crate::scene::{Opened, built_in};
 use crate::sim::{PixelCosts, Trial};
@@ -31,27 +33,29 @@ struct Traced {
 }
 
 impl Lesson {
-    /// Runs all runs in virtual time. Scenes that are files stand in `directory`; `done` is told how many more pixels are
-    /// traced. `None` if it `is_over` before.
+    /// Runs all runs in virtual time, and tells `done` how many more pixels are traced. `None` if it `is_over` before.
     ///
     /// # Errors
     /// A sentence that names the run.
     pub fn perform(
         &self,
-        directory: &Path,
         done: &(dyn Fn(u32) + Sync),
         is_over: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<(String, Performed)>>, String> {
-        let mut known: Vec<(String, Size, Traced)> = Vec::new();
+        // Each scene is traced once at each size.
+        let mut known: BTreeMap<(&str, u32, u32), Traced> = BTreeMap::new();
         let mut performed = Vec::new();
         for (name, plan) in &self.runs {
-            let is_it = |(scene, size, _): &&(String, Size, Traced)| (scene, size) == (&plan.scene, &plan.size);
-            if known.iter().find(is_it).is_none() {
-                let traced = trace(plan, directory, done, is_over).map_err(|why| format!("the run `{name}`: {why}"))?;
-                let Some(traced) = traced else { return Ok(None) };
-                known.push((plan.scene.clone(), plan.size, traced));
-            }
-            let Some((.., traced)) = known.iter().find(is_it) else { continue };
+            let traced = match known.entry(plan.picture()) {
+                Entry::Occupied(traced) => traced.into_mut(),
+                Entry::Vacant(place) => {
+                    let traced = trace(plan, &self.directory, done, is_over);
+                    let Some(traced) = traced.map_err(|why| format!("the run `{name}`: {why}"))? else {
+                        return Ok(None);
+                    };
+                    place.insert(traced)
+                }
+            };
             let log = Arc::new(plan.trial(&traced.opened, &traced.costs).run(&traced.costs));
             let (opened, tracer) = (Arc::clone(&traced.opened), Arc::clone(&traced.tracer));
             performed.push((name.clone(), Performed { opened, tracer, log }));
@@ -61,14 +65,17 @@ impl Lesson {
 
     /// How many pixels are traced to run all runs.
     pub fn pixels(&self) -> u32 {
-        let mut known: Vec<(&str, Size)> = self.runs.values().map(|plan| (&*plan.scene, plan.size)).collect();
-        known.sort_by_key(|(scene, size)| (*scene, size.width(), size.height()));
-        known.dedup();
-        known.iter().map(|(_, size)| size.pixels()).sum()
+        let pictures: BTreeSet<_> = self.runs.values().map(Plan::picture).collect();
+        pictures.iter().map(|(_, width, height)| width * height).sum()
     }
 }
 
 impl Plan {
+    /// The picture that is to be traced: its scene, width and height.
+    fn picture(&self) -> (&str, u32, u32) {
+        (&self.scene, self.size.width(), self.size.height())
+    }
+
     /// The run, on machines so fast that it would last as long as planned.
     fn trial(&self, opened: &Opened, costs: &PixelCosts) -> Trial {
         let plain = Header::plain(self.size, self.atom, self.strategy, self.speeds.clone());

@@ -101,10 +101,7 @@ mod tests {
     use super::*;
 
     fn frame(width: u32, height: u32, pixels: &[Colour]) -> Frame {
-        let size = Size::new(width, height).unwrap();
-        let mut frame = Frame::new(size);
-        frame.place(0..size.pixels(), pixels);
-        frame
+        Frame::of(Size::new(width, height).unwrap(), pixels)
     }
 
     fn pictures() -> impl Strategy<Value = (Frame, Frame)> {

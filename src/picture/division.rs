@@ -17,6 +17,11 @@ pub fn push_atom(ranges: &mut Vec<Range<Atom>>, atom: Atom) {
     }
 }
 
+/// How many atoms these ranges have together.
+pub fn atoms_in(ranges: &[Range<Atom>]) -> u32 {
+    ranges.iter().map(|range| range.len() as u32).sum()
+}
+
 /// How a picture is cut into atoms: runs of `atom_pixels` pixels in scan order, of which only the last
 /// may be shorter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -20,6 +20,16 @@ impl Frame {
         Self { size, pixels: vec![[0.0; 3]; size.pixels() as usize] }
     }
 
+    /// A frame whose pixels are all there.
+    ///
+    /// # Panics
+    /// If the pixels are not as many as the picture has.
+    pub fn of(size: Size, pixels: &[Colour]) -> Self {
+        let mut frame = Self::new(size);
+        frame.place(0..size.pixels(), pixels);
+        frame
+    }
+
     /// Width and height.
     pub fn size(&self) -> Size {
         self.size

@@ -8,7 +8,7 @@ mod png;
 mod quality;
 
 pub use compare::{Difference, apart};
-pub use division::{Atom, Division, push_atom};
+pub use division::{Atom, Division, atoms_in, push_atom};
 pub use frame::{Colour, Frame, srgb8};
 pub use png::{encode_png, write_png};
 pub use quality::Quality;

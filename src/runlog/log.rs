@@ -26,6 +26,11 @@ impl RunLog {
         &self.records
     }
 
+    /// When the last record was made; 0 while nothing has happened.
+    pub fn end(&self) -> Time {
+        self.records.last().map_or(Time::ZERO, |last| last.at)
+    }
+
     /// How many records are not later than `time`.
     pub fn until(&self, time: Time) -> usize {
         self.records.partition_point(|record| record.at <= time)

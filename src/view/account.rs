@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use super::flight::atoms_in;
 use super::lanes::{Lane, Lanes, Stay};
 use super::sharing::Sharing;
 use crate::balance::{Message, NodeId, Party};
+use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::runlog::{Messages, RunLog, Tally};
 use crate::time::Time;
@@ -104,11 +104,14 @@ impl Spent {
 impl Account {
     /// The account of a run; `None` unless its picture was completed.
     pub fn of(log: &RunLog) -> Option<Self> {
+        Self::new(log, &Lanes::of(log))
+    }
+
+    /// The same, where what each machine did is known already.
+    pub(super) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
         let tally = Tally::of(log);
         let (makespan, ideal) = (tally.makespan()?, tally.ideal()?);
         let end = log.records().iter().rfind(|record| record.what == What::Finished)?.at;
-        let mut lanes = Lanes::new(&log.header);
-        log.records().iter().for_each(|record| lanes.apply(record));
         let mut spent = Spent::default();
         for lane in lanes.lanes().iter().map(|lane| Spent::of(lane, end)) {
             spent.tracing += lane.tracing;
@@ -124,7 +127,7 @@ impl Account {
             power: log.header.speeds.iter().sum(),
             spent,
             messages: tally.messages(),
-            last: last(log, &lanes)?,
+            last: last(log, lanes)?,
             waited_at_parent: waited_at_parent(log),
             estimating: estimating(log.records()),
         })

@@ -7,7 +7,7 @@ use super::canvas::Canvas;
 use super::lanes::Lanes;
 use super::moment::{Moment, Past};
 use super::tones::Layer;
-use crate::palette::{Rgb, node_colour};
+use crate::palette::{Rgb, node_colours};
 use crate::picture::Colour;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -34,19 +34,17 @@ impl Contender {
     /// A run and its picture's pixels in scan order, before anything has happened.
     pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
         let header = &log.header;
-        let nodes = header.speeds.len();
-        let colours: Vec<Rgb> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
+        let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
         canvas.take(0..header.division.atoms(), pixels);
-        let (moment, mut lanes) = (Moment::new(header), Lanes::new(header));
+        let (moment, lanes) = (Moment::new(header), Lanes::of(&log));
         canvas.show_all(&moment.state);
-        log.records().iter().for_each(|record| lanes.apply(record));
-        Self { name, account: Account::of(&log), log, lanes, colours, past: Past::default(), moment, canvas }
+        Self { name, account: Account::new(&log, &lanes), log, lanes, colours, past: Past::default(), moment, canvas }
     }
 
     /// How long its records go on.
     pub fn length(&self) -> Time {
-        self.log.records().last().map_or(Time::ZERO, |record| record.at)
+        self.log.end()
     }
 
     /// When its picture was complete; never, perhaps.

@@ -3,13 +3,13 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::flight::atoms_in;
 use super::sentences;
 use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{atoms_words, counted, fraction, names, node_name};
 use crate::balance::{Message, NodeId, Party};
 use crate::language::{say, word};
+use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::time::Time;
 

@@ -54,9 +54,7 @@ mod tests {
     use crate::picture::{Difference, Size};
 
     fn frame(pixels: &[Colour]) -> Frame {
-        let mut frame = Frame::new(Size::new(pixels.len() as u32, 1).unwrap());
-        frame.place(0..pixels.len() as u32, pixels);
-        frame
+        Frame::of(Size::new(pixels.len() as u32, 1).unwrap(), pixels)
     }
 
     proptest! {

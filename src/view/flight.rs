@@ -10,7 +10,7 @@ use std::slice;
 use std::time::Duration;
 
 use crate::balance::{Message, NodeId, Party};
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
 /// A message that has left.
@@ -146,11 +146,6 @@ impl Cargo {
             Self::Results(_) | Self::Request | Self::Shutdown => Duration::ZERO,
         }
     }
-}
-
-/// How many atoms `ranges` hold together.
-pub(super) fn atoms_in(ranges: &[Range<Atom>]) -> u32 {
-    ranges.iter().map(|range| range.len() as u32).sum()
 }
 
 #[cfg(test)]

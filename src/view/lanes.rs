@@ -6,7 +6,7 @@ use super::flight::{Cargo, Flight};
 use crate::balance::{Message, NodeId, Party};
 use crate::picture::Atom;
 use crate::record::{Record, What};
-use crate::runlog::Header;
+use crate::runlog::{Header, RunLog};
 use crate::time::Time;
 
 /// What all machines did and when. Records of different parties may come interleaved, those of one in order.
@@ -97,6 +97,13 @@ impl Lanes {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
         Self { lanes: vec![Lane::default(); header.speeds.len()], trips: Vec::new(), bytes: Vec::new(), version: 0 }
+    }
+
+    /// Of all of a run.
+    pub fn of(log: &RunLog) -> Self {
+        let mut lanes = Self::new(&log.header);
+        log.records().iter().for_each(|record| lanes.apply(record));
+        lanes
     }
 
     /// Takes in what happened next.

@@ -4,13 +4,13 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use super::events::{Events, is_done, jam};
-use super::flight::atoms_in;
 use super::sentences;
 use super::standing::standing;
 use super::state::RunState;
 use super::words::node_name;
 use crate::balance::{Message, Party};
 use crate::language::say;
+use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::time::Time;
 

@@ -38,12 +38,12 @@ impl Paper {
     pub fn ring(log: &RunLog, at: Time) -> Self {
         /// Longer than the last message is drawn: at the end all is at rest.
         const LINGER: Duration = Duration::from_secs(5);
-        let at = at.min(end(log));
+        let at = at.min(log.end());
         let mut moment = Moment::new(&log.header);
         log.records()[..log.until(at)].iter().for_each(|record| moment.apply(record));
         let state = &moment.state;
         let outcome = Outcome::of(log).filter(|_| state.finished().is_some());
-        let is_over = outcome.is_some() && at == end(log);
+        let is_over = outcome.is_some() && at == log.end();
         let drawn_at = if is_over { at + LINGER } else { at };
         let [width, height] = RING;
         let mut marks = Vec::new();
@@ -59,8 +59,7 @@ impl Paper {
 
     /// The timeline of all of a run: a lane a machine, with its number and its speed at the beginning.
     pub fn timeline(log: &RunLog) -> Self {
-        let mut lanes = Lanes::new(&log.header);
-        log.records().iter().for_each(|record| lanes.apply(record));
+        let lanes = Lanes::of(log);
         let nodes = log.header.speeds.len();
         let mut marks = Vec::new();
         let top = heading(log, Outcome::of(log).as_ref(), WIDTH, &mut marks);
@@ -68,7 +67,7 @@ impl Paper {
         // Enough for the strip above the lanes and the axis below.
         let room = (58.0 + lane * nodes as f32).max(121.0);
         let plan = LanePlan { lane, ..LanePlan::new(nodes, WIDTH - LEFT - MARGIN, room) };
-        let end = end(log);
+        let end = log.end();
         let mut window = TimeWindow::default();
         window.fit(end);
         let mut drawn = Vec::new();
@@ -160,14 +159,9 @@ fn heading(log: &RunLog, outcome: Option<&Outcome>, width: f32, marks: &mut Vec<
     y + 20.0
 }
 
-/// When the picture was complete, or else the last record.
-fn end(log: &RunLog) -> Time {
-    log.records().last().map_or(Time::ZERO, |last| last.at)
-}
-
 /// How exactly times are told: the shorter the run, the more.
 fn grain(log: &RunLog) -> f64 {
-    (end(log).secs() / 2.0).clamp(1e-9, 1.0)
+    (log.end().secs() / 2.0).clamp(1e-9, 1.0)
 }
 
 /// The size of a text that is to be no broader than this.

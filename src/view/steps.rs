@@ -1,10 +1,9 @@
 //! Steps through a run's records, and what is worth jumping to.
 
-use super::flight::atoms_in;
 use super::words::{atoms_words, count, duration, node_name};
 use crate::balance::{Message, NodeId, Party};
 use crate::language::{say, word};
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
 use crate::time::Time;

@@ -1,6 +1,6 @@
 //! Saving pictures and runs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anel::runlog::RunLog;
 use egui::Key;
@@ -19,7 +19,7 @@ fn typed(window: &Window) -> PathBuf {
     window.get_by_label(FIELD).value().unwrap_or_default().into()
 }
 
-fn file_name(path: &std::path::Path) -> String {
+fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
@@ -32,9 +32,7 @@ fn save_writes_the_render_and_says_where() {
     press(&mut window, "Save…");
     assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-unfinished.png");
     // Letters that are keys elsewhere are letters here.
-    type_path(&mut window, FIELD, &path);
-    press(&mut window, "Save");
-    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    save_to(&mut window, &path);
     let picture = image::open(&path).expect("a PNG").to_rgb8();
     assert_eq!(picture.dimensions(), (640, 480));
     let black = picture.pixels().filter(|pixel| pixel.0 == [0; 3]).count();
@@ -98,18 +96,29 @@ fn picture_middle() -> usize {
     640 * 480 * 3 / 2 - 60_000
 }
 
-#[test]
-fn a_run_file_is_saved_and_can_be_loaded() {
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let path = directory.path().join("run.anel");
+/// A window in which atoms are traced, and the run is chosen to be saved.
+fn about_to_save_a_run() -> Window {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 100);
     key(&mut window, Key::S);
     choose(&mut window, "run");
+    window
+}
+
+/// Saves what is chosen under this name, and waits until it is said to be there.
+fn save_to(window: &mut Window, path: &Path) {
+    type_path(window, FIELD, path);
+    press(window, "Save");
+    until(window, "a sentence", |window| notice(window).starts_with("Saved to"));
+}
+
+#[test]
+fn a_run_file_is_saved_and_can_be_loaded() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = about_to_save_a_run();
     assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-ring-8-unfinished.anel");
-    type_path(&mut window, FIELD, &path);
-    press(&mut window, "Save");
-    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    save_to(&mut window, &path);
     let log = RunLog::load(&path).expect("a run file");
     assert_eq!(log.header, *session(&window).header());
     assert!(log.records().len() > 100);
@@ -119,19 +128,14 @@ fn a_run_file_is_saved_and_can_be_loaded() {
 fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
-    let mut window = open(SIZE);
-    until(&mut window, "traced atoms", |window| done(window) > 100);
-    key(&mut window, Key::S);
-    choose(&mut window, "run");
+    let mut window = about_to_save_a_run();
     window.get_by_label("Title of the run").click();
     window.run_steps(2);
     window.get_by_label("Title of the run").type_text("Eight of them");
     window.run_steps(2);
     window.get_by_label(FIELD).click();
     window.run_steps(2);
-    type_path(&mut window, FIELD, &path);
-    press(&mut window, "Save");
-    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    save_to(&mut window, &path);
     let log = RunLog::load(&path).expect("a run file");
     assert_eq!(log.header.caption.title, "Eight of them");
     assert!(log.header.caption.machine.contains("core"), "{:?}", log.header.caption);

@@ -2,13 +2,12 @@
 
 use std::time::Duration;
 
-use egui::{Frame, Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::super::icons::Icon;
 use super::super::settings::Settings;
 use super::super::theme::{self, GRID, Look};
-use super::super::widgets::{Weight, button};
-use super::columns::menu_button;
+use super::super::widgets::{Weight, button, named_button, popup_frame};
 use crate::balance::{NodeId, Strategy};
 use crate::language::{say, word};
 use crate::sim::{Change, Trial};
@@ -20,18 +19,24 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
     if strategies.is_empty() {
         return None;
     }
-    let opener = menu_button(ui, word!("Add a run", "Acrescentar uma execução"), word!("Add …", "Acrescentar …"));
+    let opener = named_button(
+        ui,
+        None,
+        word!("Add a run", "Acrescentar uma execução"),
+        Some(word!("Add …", "Acrescentar …")),
+        Weight::Quiet,
+    );
     let changes = strategies.iter().map(|&strategy| Change::Strategy(strategy)).collect();
-    menu(&opener, look, |ui| row(ui, "", changes, look))
+    menu(&opener, |ui| row(ui, "", changes, look))
 }
 
 /// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
 /// changed from the shown time on, too: until then both runs are the same.
 pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, look: Look) -> Option<Change> {
     let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
-    let opener = menu_button(ui, &name, word!("Change …", "Mudar …")).on_hover_text(&name);
+    let opener = named_button(ui, None, &name, Some(word!("Change …", "Mudar …")), Weight::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
-    menu(&opener, look, |ui| {
+    menu(&opener, |ui| {
         // Which machine: the last, unless somebody has gone on to another.
         let id = opener.id.with("machine");
         let last = nodes.saturating_sub(1);
@@ -100,9 +105,8 @@ fn possible(trial: &Trial) -> Vec<(String, Vec<Change>)> {
 }
 
 /// A menu that closes when something is chosen.
-fn menu(opener: &Response, look: Look, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
-    let frame = Frame::popup(&opener.ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline));
-    let popup = Popup::from_toggle_button_response(opener).frame(frame.inner_margin(GRID));
+fn menu(opener: &Response, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
+    let popup = Popup::from_toggle_button_response(opener).frame(popup_frame(&opener.ctx));
     let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         ui.set_width(72.0 * GRID);
         ui.spacing_mut().item_spacing = vec2(GRID / 2.0, 0.0);

@@ -7,14 +7,12 @@ use egui::{
 
 use super::super::icons::Icon;
 use super::super::theme::{self, GRID, Look};
-use super::super::widgets::{Weight, button, named_button};
+use super::super::widgets::{Weight, button};
 use super::{Entry, MOST, adding};
 use crate::language::{say, word};
 use crate::sim::Change;
 use crate::time::Time;
-use crate::view::{
-    Contender, Layer, Playback, duration, fraction, percent, rate_of_time_words, short_rate_words, time_words,
-};
+use crate::view::{Contender, Layer, duration, fraction, percent};
 
 /// What is to be done with a run.
 pub enum Asked {
@@ -72,27 +70,6 @@ pub fn show(
     }
     ui.allocate_rect(Rect::from_min_size(area.min, vec2(area.width(), ABOVE + high + BELOW)), Sense::hover());
     asked
-}
-
-/// How fast time goes.
-pub fn rate(ui: &mut Ui, time: &mut Playback) {
-    let look = Look::of(ui.ctx());
-    ui.spacing_mut().item_spacing.x = GRID / 2.0;
-    let slower = button(ui, Some(Icon::Slower), word!("Slower", "Mais devagar"), false, Weight::Quiet);
-    if slower.on_hover_text(word!("Time goes slower (,)", "O tempo passa mais devagar (,)")).clicked() {
-        time.change_rate(-1);
-    }
-    let (rect, response) = ui.allocate_exact_size(vec2(9.0 * GRID, 4.0 * GRID), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, rate_of_time_words(time.rate())));
-    let words = ui.painter().layout_no_wrap(short_rate_words(time.rate()), theme::regular(theme::SMALL), look.text);
-    ui.painter().galley(rect.center() - words.size() / 2.0, words, look.text);
-    let faster = button(ui, Some(Icon::Faster), word!("Faster", "Mais depressa"), false, Weight::Quiet);
-    if faster.on_hover_text(word!("Time goes faster (.)", "O tempo passa mais depressa (.)")).clicked() {
-        time.change_rate(1);
-    }
-    ui.add_space(GRID);
-    let shown = time_words(time.now(), 1.0);
-    ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
 }
 
 /// What it is called, and what can be done with it.
@@ -192,9 +169,4 @@ fn bar(ui: &Ui, rect: Rect, contender: Option<&Contender>, now: Time, length: Ti
         let words = say!("efficiency {efficiency}", "eficiência {efficiency}");
         painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, words, small, look.quiet);
     }
-}
-
-/// A button for a menu.
-pub fn menu_button(ui: &mut Ui, name: &str, words: &str) -> Response {
-    named_button(ui, None, name, Some(words), Weight::Quiet)
 }

@@ -9,6 +9,7 @@ use super::super::widgets;
 use super::Entry;
 use super::columns::letter;
 use crate::language::{decimal, say, word};
+use crate::palette::{DISTINCT, node_colours};
 use crate::study::article_over_ideal;
 use crate::time::Time;
 use crate::view::{
@@ -213,10 +214,9 @@ fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look
 fn where_time_went(ui: &mut Ui, entries: &[Entry], look: Look) {
     let names: Vec<String> =
         (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name())).collect();
-    let account = |entry: &'_ Entry| entry.contender.as_ref().and_then(|contender| contender.account.clone());
-    let accounts: Vec<Option<Account>> = entries.iter().map(account).collect();
+    let accounts = entries.iter().map(|entry| entry.contender.as_ref()?.account.as_ref());
     let runs: Vec<(&str, &Account)> =
-        names.iter().zip(&accounts).filter_map(|(name, account)| Some((name.as_str(), account.as_ref()?))).collect();
+        names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
         let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -243,8 +243,7 @@ fn grown(ui: &mut Ui, growth: Option<&Growth>, is_speedup: bool, look: Look) {
         let lines: Vec<_> = chart.series.iter().map(line).collect();
         WidgetInfo::labeled(egui::Role::Image, true, format!("{}\n{}", chart.y.label, lines.join("\n")))
     });
-    let colours: Vec<_> =
-        (0..crate::palette::DISTINCT).map(|node| crate::palette::node_colour(node, crate::palette::DISTINCT)).collect();
+    let colours = node_colours(DISTINCT);
     paint(ui.painter(), rect.min, &chart.marks(rect.size().into()), &Inks { look, nodes: &colours });
 }
 

@@ -12,6 +12,7 @@ use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Ui, UiBuilder, Wid
 use super::canvas_texture::CanvasTexture;
 use super::icons::Icon;
 use super::keys::Command;
+use super::rates;
 use super::session::{Compared, Growth, Known, Phase, Pictured, Session, Subject, Tracing};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button};
@@ -19,7 +20,7 @@ use crate::balance::Strategy;
 use crate::language::word;
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{Contender, Playback, RATES, Timeline, fraction, trial_name};
+use crate::view::{Contender, Playback, RATES, Timeline, fraction, time_words, trial_name};
 use findings::Findings;
 
 /// More runs than these nobody can follow, and fewer are no comparison.
@@ -146,6 +147,7 @@ impl Compare {
             Command::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
             Command::Pause => self.time.set_stands(!self.time.stands()),
             Command::Rate(faster) => self.time.change_rate(if faster { 1 } else { -1 }),
+            Command::SetRate(index) => self.time.set_rate(index),
             Command::Beginning => self.time.seek(Time::ZERO, true),
             Command::Live => self.time.seek(self.length(), true),
             _ => return false,
@@ -285,7 +287,7 @@ impl Compare {
             ui.set_height(4.0 * GRID);
             ui.label(RichText::new(word!("Compare", "Comparar")).font(theme::strong(theme::LARGE)).color(look.text));
             ui.add_space(GRID);
-            self.play(ui);
+            self.play(ui, look);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!("Close the comparison", "Fechar a comparação");
                 if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
@@ -337,7 +339,7 @@ impl Compare {
     }
 
     /// Whether time goes on, and how fast.
-    fn play(&mut self, ui: &mut Ui) {
+    fn play(&mut self, ui: &mut Ui, look: Look) {
         let over = self.time.now() >= self.length();
         let (icon, name) = match self.time.stands() {
             _ if over => (Icon::Restart, word!("Play again", "Repetir")),
@@ -347,7 +349,13 @@ impl Compare {
         if button(ui, Some(icon), name, true, Weight::Primary).clicked() {
             self.obey(Command::Pause);
         }
-        columns::rate(ui, &mut self.time);
+        ui.spacing_mut().item_spacing.x = GRID / 2.0;
+        if let Some(command) = rates::show(ui, self.time.rate()) {
+            self.obey(command);
+        }
+        ui.add_space(GRID);
+        let shown = time_words(self.time.now(), 1.0);
+        ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
     }
 
     /// The strategies that no run has without other changes.

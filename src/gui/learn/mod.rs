@@ -3,8 +3,6 @@
 mod course;
 mod panel;
 
-use std::path::Path;
-
 use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
@@ -23,6 +21,8 @@ use course::Course;
 #[derive(Default)]
 pub struct Learn {
     open: bool,
+    /// The lessons that come with the program, once the list was opened.
+    lessons: Vec<Lesson>,
     path: String,
     trouble: Option<String>,
     preparing: Option<Preparing>,
@@ -33,6 +33,10 @@ impl Learn {
     /// Opens the list, or closes it.
     pub fn toggle(&mut self) {
         (self.open, self.trouble) = (!self.open, None);
+        if self.lessons.is_empty() {
+            // Built-in lessons can be read, which a test holds.
+            self.lessons = BUILT_IN.iter().filter_map(|(name, text)| Lesson::parse(name, text).ok()).collect();
+        }
     }
 
     /// Whether the list is to be shown.
@@ -70,19 +74,19 @@ impl Learn {
         self.course = None;
     }
 
-    /// Reads a lesson's file, or a built-in lesson, and prepares it.
-    pub fn start(&mut self, argument: &str, session: &mut Session) {
+    /// Reads a lesson's file and prepares it.
+    fn start(&mut self, argument: &str, session: &mut Session) {
         match Lesson::open(argument) {
-            Ok(lesson) => {
-                let directory = Path::new(argument).parent().unwrap_or(Path::new("")).to_path_buf();
-                self.preparing = Some(session.prepare_lesson(lesson, directory));
-                self.trouble = None;
-            }
+            Ok(lesson) => self.prepare(lesson, session),
             Err(error) => self.trouble = Some(error.to_string()),
         }
     }
 
-    /// Takes in a lesson that was prepared. Returns what its first step points at.
+    fn prepare(&mut self, lesson: Lesson, session: &mut Session) {
+        (self.preparing, self.trouble) = (Some(session.prepare_lesson(lesson)), None);
+    }
+
+    /// Takes in a lesson that was prepared.
     pub fn take(&mut self, job: u64, taught: Result<Taught, String>, session: &mut Session) {
         if self.preparing.as_ref().is_none_or(|preparing| preparing.job != job) {
             return;
@@ -150,12 +154,14 @@ impl Learn {
         });
         ui.add_space(GRID);
         ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
-            for (number, (name, _)) in (1..).zip(BUILT_IN) {
-                // Built-in lessons can be read, which a test holds.
-                let Ok(lesson) = Lesson::open(name) else { continue };
-                if line(ui, number, &lesson, look) {
-                    self.start(name, session);
+            let mut chosen = None;
+            for (number, lesson) in (1..).zip(&self.lessons) {
+                if line(ui, number, lesson, look) {
+                    chosen = Some(lesson.clone());
                 }
+            }
+            if let Some(lesson) = chosen {
+                self.prepare(lesson, session);
             }
             ui.add_space(2.0 * GRID);
             self.other(ui, session, look);

@@ -154,8 +154,6 @@ impl Source {
         let header = &self.log.header;
         let tracer = self.tracer(header.size, header.quality)?;
         let whole = Whole::unless(&tracer, header.division, &|_| {}, &|| !tell(0.0))?.ok_or("it was stopped")?;
-        let mut frame = Frame::new(header.size);
-        frame.place(0..header.size.pixels(), &whole.pixels);
-        Ok(frame)
+        Ok(Frame::of(header.size, &whole.pixels))
     }
 }

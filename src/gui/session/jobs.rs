@@ -364,8 +364,7 @@ fn thumbnail(scene: &Scene) -> Thumbnail {
     // Neither side is 0, and there are few pixels.
     let size = Size::new(400, 300).expect("a possible size");
     let tracer = Tracer::new(scene, size, Quality { samples: 2, ..Quality::default() });
-    let (mut pixels, mut frame) = (Vec::new(), Frame::new(size));
+    let mut pixels = Vec::new();
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
-    frame.place(0..size.pixels(), &pixels);
-    Thumbnail { size, rgb: frame.to_srgb8() }
+    Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::performer::Performer;
 use crate::driver::Update;
 use crate::language::Language;
-use crate::palette::{Rgb, node_colour};
+use crate::palette::{Rgb, node_colours};
 use crate::picture::Frame;
 use crate::record::Record;
 use crate::runlog::{Driver, Header, RunLog};
@@ -78,13 +78,12 @@ const LONGEST_FRAME: Duration = Duration::from_millis(100);
 impl Stage {
     /// The beginning of a run that goes on.
     pub fn new(performer: Performer, header: Header, ground: Rgb) -> Self {
-        let nodes = header.speeds.len();
-        let colours: Vec<_> = (0..nodes).map(|node| node_colour(node, nodes)).collect();
+        let colours = node_colours(header.speeds.len());
         Self {
             phase: if matches!(performer, Performer::Nobody) { Phase::Preparing } else { Phase::Running },
             performer,
             paused: false,
-            paused_nodes: vec![false; nodes],
+            paused_nodes: vec![false; colours.len()],
             time: Playback::live(),
             known: Known::new(&header),
             earlier: None,

@@ -1,6 +1,5 @@
 //! The job that runs a lesson's runs, and what shows them.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -35,10 +34,10 @@ impl Preparing {
 }
 
 impl Session {
-    /// Runs a lesson's runs in the background; scenes that are files stand in `directory`.
-    pub fn prepare_lesson(&mut self, lesson: Lesson, directory: PathBuf) -> Preparing {
+    /// Runs a lesson's runs in the background.
+    pub fn prepare_lesson(&mut self, lesson: Lesson) -> Preparing {
         let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
-        let job = self.jobs.prepare_lesson(lesson, directory, Arc::clone(&traced));
+        let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced));
         Preparing { job, traced, pixels }
     }
 
@@ -53,13 +52,13 @@ impl Session {
 }
 
 impl Jobs {
-    fn prepare_lesson(&mut self, lesson: Lesson, directory: PathBuf, traced: Arc<AtomicU32>) -> u64 {
+    fn prepare_lesson(&mut self, lesson: Lesson, traced: Arc<AtomicU32>) -> u64 {
         let (number, language) = (self.number(), Language::spoken());
         self.start("lesson", move || {
             language.speak();
             let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
             // A lesson's pictures are small, and soon traced.
-            let performed = lesson.perform(&directory, &done, &|| false);
+            let performed = lesson.perform(&done, &|| false);
             let taught = performed.map(|performed| {
                 let recorded = performed.unwrap_or_default().into_iter().map(|(name, run)| {
                     let known = Arc::new(Known::of(&run.log));

@@ -82,9 +82,7 @@ fn combined(size: Size, parts: &[(f64, &[Colour])]) -> Frame {
         parts.iter().map(|(factor, pixels)| factor * f64::from(pixels[pixel][channel])).sum::<f64>() as f32
     };
     let pixels: Vec<Colour> = (0..size.pixels() as usize).map(|pixel| [0, 1, 2].map(|of| channel(pixel, of))).collect();
-    let mut frame = Frame::new(size);
-    frame.place(0..size.pixels(), &pixels);
-    frame
+    Frame::of(size, &pixels)
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use super::super::flight::{Cargo, Flight, atoms_in};
+use super::super::flight::{Cargo, Flight};
 use super::RunState;
 use crate::balance::Party;
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
 impl RunState {
