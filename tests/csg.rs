@@ -146,7 +146,8 @@ proptest! {
     ) {
         let balls: Vec<_> = places.iter().zip(0..).map(|(&at, tag)| ball(DVec3::from(at), tag)).collect();
         let direction = (DVec3::from(towards) - DVec3::from(origin)).normalize();
-        let ray = Ray::new(DVec3::from(origin) - direction * 20.0, direction);
+        // From outside of the hall below, also where the ray goes through its corner.
+        let ray = Ray::new(DVec3::from(origin) - direction * 40.0, direction);
         // Of each alone: entered, left.
         let mut changes: Vec<_> = balls.iter().flat_map(|one| crossings(one, &ray)).zip([1, -1].into_iter().cycle()).collect();
         changes.sort_by(|((a, _), _), ((b, _), _)| a.total_cmp(b));

@@ -167,9 +167,7 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut Ui) {
-        if !self.projector {
-            self.bars(ui);
-        }
+        self.bars(ui);
         if self.shows_page() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
             ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
@@ -185,7 +183,7 @@ impl App {
             });
             return;
         }
-        if self.setup.open && !self.projector {
+        if self.setup.open {
             let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup_panel::WIDTH).resizable(false);
             panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
         }
@@ -194,7 +192,7 @@ impl App {
         if self.shows_timeline || !self.projector {
             self.machines(ui);
         }
-        let lesson = self.learn.height(ui);
+        let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID);
         let height = lesson.unwrap_or_else(|| words_panel::height(ui));
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
         words.show(ui, |ui| {
@@ -204,7 +202,7 @@ impl App {
                 words_panel::show(ui, &self.session, self.selected.as_ref());
             }
         });
-        if !self.projector {
+        if !self.projector || self.time.is_finding() {
             let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
             let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
             if let Some(command) = time.show(ui, row).inner {
@@ -216,17 +214,19 @@ impl App {
 
     /// The bar at the top, and what is opened from there.
     fn bars(&mut self, ui: &mut Ui) {
-        let open = top_bar::Open {
-            scenes: self.gallery.is_open(),
-            accuracy: self.accuracy.is_open(),
-            compare: self.compare.is_open(),
-            learn: self.learn.is_open() || self.learn.is_on(),
-            setup: self.setup.open,
-            save: self.save_bar.is_open(),
-        };
-        let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
-        if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
-            self.obey(command, ui.ctx());
+        if !self.projector {
+            let open = top_bar::Open {
+                scenes: self.gallery.is_open(),
+                accuracy: self.accuracy.is_open(),
+                compare: self.compare.is_open(),
+                learn: self.learn.is_open() || self.learn.is_on(),
+                setup: self.setup.open,
+                save: self.save_bar.is_open(),
+            };
+            let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
+            if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
+                self.obey(command, ui.ctx());
+            }
         }
         if self.save_bar.is_open() {
             let shown = self.picture.shown();

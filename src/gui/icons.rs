@@ -45,6 +45,8 @@ pub enum Icon {
     Lanes,
     /// The camera.
     Camera,
+    /// Into the clipboard.
+    Copy,
     /// Questions.
     Help,
     /// Away with it.
@@ -166,6 +168,11 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             painter.rect_stroke(body, 2.0, Stroke::new(1.5, colour), egui::StrokeKind::Middle);
             painter.circle_stroke(at(0.5, 0.55), rect.width() * 0.16, Stroke::new(1.5, colour));
             line(&[(0.34, 0.24), (0.4, 0.12), (0.6, 0.12), (0.66, 0.24)]);
+        }
+        Icon::Copy => {
+            let sheet = Rect::from_min_max(at(0.34, 0.3), at(0.88, 0.94));
+            painter.rect_stroke(sheet, 2.0, Stroke::new(1.5, colour), egui::StrokeKind::Middle);
+            line(&[(0.2, 0.7), (0.12, 0.7), (0.12, 0.06), (0.66, 0.06), (0.66, 0.14)]);
         }
         Icon::Help => {
             painter.line(arc((0.5, 0.3), 0.2, -PI, 0.5 * PI), stroke);

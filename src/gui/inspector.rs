@@ -71,7 +71,10 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
                 asked = Some(Asked::Close);
             }
             ui.add_enabled_ui(inspected.is_some(), |ui| {
-                if button(ui, None, word!("Copy as text", "Copiar como texto"), true, Weight::Quiet).clicked() {
+                let name = word!("Copy as text", "Copiar como texto");
+                let has_room = ui.available_width() > 20.0 * GRID;
+                let icon = (!has_room).then_some(Icon::Copy);
+                if button(ui, icon, name, has_room, Weight::Quiet).on_hover_text(name).clicked() {
                     asked = Some(Asked::Copy);
                 }
             });

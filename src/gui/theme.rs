@@ -87,7 +87,12 @@ fn strong_id() -> egui::Id {
 impl Look {
     /// The colours of the theme in use.
     pub fn of(ctx: &egui::Context) -> Self {
-        Self::with(ctx.theme(), ctx.data(|data| data.get_temp(strong_id()).unwrap_or(false)))
+        Self::with(ctx.theme(), Self::is_strong(ctx))
+    }
+
+    /// Whether colours are strong, for a room.
+    pub fn is_strong(ctx: &egui::Context) -> bool {
+        ctx.data(|data| data.get_temp(strong_id()).unwrap_or(false))
     }
 
     fn with(theme: Theme, strong: bool) -> Self {

@@ -45,9 +45,9 @@ impl TimePanel {
         self.toggles = true;
     }
 
-    /// Whether that list is open.
+    /// Whether that list is open, or about to be.
     pub fn is_finding(&self) -> bool {
-        self.is_finding
+        self.is_finding || self.toggles
     }
 
     /// Shows the panel and returns what was pressed.

@@ -39,7 +39,8 @@ pub fn show(ui: &mut Ui, session: &Session, about: Option<&Dossier>) {
 
 fn events_shown(ui: &Ui) -> usize {
     match ui.ctx().content_rect().height() {
-        height if height < 560.0 => 0,
+        // In a room nothing else tells of what is selected.
+        height if height < 560.0 => usize::from(Look::is_strong(ui.ctx())),
         height if height < 700.0 => 1,
         height if height < 950.0 => 2,
         _ => 4,
@@ -57,8 +58,13 @@ fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
         ui.set_min_height(SENTENCE);
         ui.add(Label::new(RichText::new(&title).font(theme::strong(18.0)).color(look.text)).truncate());
     });
-    let more = Label::new(RichText::new(&more).font(theme::regular(theme::SMALL)).color(look.quiet));
-    ui.add(if events_shown(ui) < 2 { more.truncate() } else { more.wrap() });
+    // As much as there is room for.
+    let (width, room) = (ui.available_width(), ui.available_height());
+    let layout = |text: &str| ui.painter().layout(text.to_owned(), theme::regular(theme::SMALL), look.quiet, width);
+    let ends = more.match_indices(" · ").map(|(end, _)| end).chain([more.len()]);
+    if let Some(end) = ends.filter(|&end| layout(&more[..end]).size().y <= room).last() {
+        ui.label(RichText::new(&more[..end]).font(theme::regular(theme::SMALL)).color(look.quiet));
+    }
 }
 
 /// The sentence of the moment, and the last events before it.

@@ -8,6 +8,7 @@ mod files;
 mod inspector;
 mod layout;
 mod learn;
+mod legible;
 mod nodes;
 mod portuguese;
 mod remembering;

@@ -136,6 +136,11 @@ impl App {
         /// How much larger everything is for a room.
         const LARGER: f32 = 1.5;
         self.projector = projector;
+        if projector {
+            // What is asked for from now on is shown nevertheless.
+            self.setup.open = false;
+            self.save_bar.close();
+        }
         Look::set_strong(ctx, projector);
         let zoom = ctx.zoom_factor();
         ctx.set_zoom_factor(if projector { zoom * LARGER } else { zoom / LARGER });

@@ -32,9 +32,11 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
 
 /// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
 /// changed from the shown time on, too: until then both runs are the same.
-pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, look: Look) -> Option<Change> {
+pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, has_room: bool, look: Look) -> Option<Change> {
     let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
-    let opener = named_button(ui, None, &name, Some(word!("Change …", "Mudar …")), Weight::Quiet).on_hover_text(&name);
+    let (icon, words) =
+        if has_room { (None, Some(word!("Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
+    let opener = named_button(ui, icon, &name, words, Weight::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
     menu(&opener, |ui| {
         // Which machine: the last, unless somebody has gone on to another.

@@ -23,8 +23,10 @@ pub enum Asked {
 }
 
 /// What stands above and below a picture.
-const ABOVE: f32 = 4.5 * GRID;
+const ABOVE: f32 = 5.0 * GRID;
 const BELOW: f32 = 5.0 * GRID;
+/// In a narrower column there is no room for words on a button.
+const WIDE: f32 = 36.0 * GRID;
 
 /// The letter of a run.
 pub fn letter(place: usize) -> char {
@@ -50,16 +52,16 @@ pub fn show(
     });
     // What explains them needs its room below.
     let high = (wide * aspect).min(area.height() - ABOVE - BELOW - below).max(8.0 * GRID);
-    let wide = wide.min((high / aspect).max(24.0 * GRID));
+    let wide = wide.min((high / aspect).max(30.0 * GRID));
     let (mut asked, many) = (None, entries.len() > 2);
     let is_full = entries.len() >= MOST;
     for (place, entry) in entries.iter_mut().enumerate() {
         let left = area.left() + place as f32 * (wide + gap);
         let column = Rect::from_min_size(pos2(left, area.top()), vec2(wide, ABOVE + high + BELOW));
         let chosen = pair.iter().position(|&one| one == place);
-        let row = column.with_max_y(column.top() + ABOVE);
+        let row = column.with_max_y(column.top() + ABOVE - 0.5 * GRID);
         asked = asked.or(heading(ui, row, (place, entry), (many, is_full, now), chosen.is_some(), look));
-        let frame = Rect::from_min_size(pos2(left, row.bottom()), vec2(wide, high));
+        let frame = Rect::from_min_size(pos2(left, column.top() + ABOVE), vec2(wide, high));
         let response = picture(ui, frame, (place, entry), chosen.is_some(), look);
         if response.clicked() && chosen.is_none() {
             // The one that was chosen last stays.
@@ -90,7 +92,7 @@ fn heading(
         if can_go && button(ui, Some(Icon::Close), &remove, false, Weight::Quiet).clicked() {
             asked = Some(Asked::Remove(place));
         }
-        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, now, look) {
+        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, now, row.width() > WIDE, look) {
             asked = Some(Asked::Fork(place, change));
         }
         let left = Layout::left_to_right(Align::Center);

@@ -314,9 +314,11 @@ impl Compare {
                 }
                 let said = RichText::new(said).font(theme::regular(theme::SMALL)).color(colour);
                 let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), egui::Sense::hover());
-                ui.scope_builder(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)), |ui| {
-                    ui.add(Label::new(said).truncate());
-                });
+                // What went wrong is told in any case.
+                if self.trouble.is_some() || rect.width() > 48.0 * GRID {
+                    let right = UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center));
+                    ui.scope_builder(right, |ui| ui.add(Label::new(said).truncate()));
+                }
             });
         });
     }

@@ -54,9 +54,9 @@ impl Learn {
         self.course.is_some()
     }
 
-    /// How high the step of the lesson is, if one is being taken.
-    pub fn height(&self, ui: &Ui) -> Option<f32> {
-        self.course.as_ref().map(|course| panel::height(ui, course))
+    /// How high the step of the lesson is in this width, if one is being taken.
+    pub fn height(&self, ui: &Ui, width: f32) -> Option<f32> {
+        self.course.as_ref().map(|course| panel::height(ui, width, course))
     }
 
     /// Whether the step of the lesson wants the timeline.
