@@ -14,7 +14,7 @@ use crate::time::Time;
 #[derive(Debug, Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
 pub(super) struct Args {
-    /// A scene file, the name of a built-in scene, or a run file [default: what was open last]
+    /// A scene file, the name of a built-in scene, a run file, or a lesson's file [default: what was open last]
     pub scene: Option<String>,
     /// Write the run's records here when it ends
     #[arg(long, value_name = "FILE")]

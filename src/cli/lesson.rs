@@ -12,7 +12,11 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
         }
         return Ok(());
     };
-    let lesson = Lesson::open(argument).map_err(|error| Failure::Refused(error.to_string()))?;
+    play(&Lesson::open(argument).map_err(|error| Failure::Refused(error.to_string()))?)
+}
+
+/// Plays a lesson's runs in virtual time and prints its steps and claims.
+pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
     let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
     let performed = lesson.perform(&|more| bar.inc(more.into()), &|| false);
     bar.finish_and_clear();

@@ -141,6 +141,7 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
             let scene = Scene::parse(&run.header.scene_text).map_err(|error| Failure::Refused(error.to_string()))?;
             (scene, Header { speeds: vec![1.0; run.header.speeds.len()], ..run.header.clone() })
         }
+        Opening::Lesson(taught) => return lesson::play(&taught),
     };
     // Nobody watches: no need to go slowly.
     header.pace = auto_pace(&header.speeds, header.cores);

@@ -246,6 +246,7 @@ impl App {
         below.show(ui, |ui| {
             if self.shows_timeline {
                 let hovered = self.hovered.as_ref();
+                self.timeline.hides_later = self.learn.is_on();
                 self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit, hovered);
             } else {
                 nodes_panel::show(ui, &mut self.session, &mut self.focus, &self.lit);
@@ -317,6 +318,7 @@ impl eframe::App for App {
                 Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
                 Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
+                Done::ToTeach(lesson) => self.learn.open(lesson, &mut self.session),
                 Done::Lesson(job, taught) => self.learn.take(job, taught, &mut self.session),
                 Done::Compared(job, compared) => self.compare.take(job, compared),
                 Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use super::{BUILT_IN, Claim, Lesson, Look, Moment, Plan, Question, Step, Words};
 use crate::balance::{NodeId, Strategy};
 use crate::picture::Size;
-use crate::ron_file::{self, FileError, find_name};
+use crate::ron_file::{self, FileError, find_name, skipped};
 use crate::scenario::Command;
 use crate::time::Time;
 
@@ -52,6 +52,16 @@ impl Lesson {
         file.resolve(name)
             .map_err(|(what, message)| FileError::new(what.and_then(|what| find_name(text, &what)), &message))
     }
+}
+
+/// Whether this is a file that begins like a lesson, after comments: then its mistakes are a lesson's.
+pub fn is_lesson_file(path: &Path) -> bool {
+    let text = ron_file::read(path, "lesson", String::new).unwrap_or_default();
+    let mut rest = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
+    while let Some(comment) = skipped(rest).filter(|_| rest.starts_with('/')) {
+        rest = rest[comment..].trim_start();
+    }
+    rest.starts_with("Lesson")
 }
 
 /// The file as it is written.

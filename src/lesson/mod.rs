@@ -8,6 +8,7 @@ mod perform;
 mod words;
 
 pub use claim::{Claim, Figure};
+pub use file::is_lesson_file;
 pub use moment::Moment;
 pub use perform::Performed;
 pub use words::Words;

@@ -77,6 +77,22 @@ fn a_lesson_of_ones_own_is_opened_and_a_mistake_in_it_is_told() {
 }
 
 #[test]
+fn a_lesson_is_opened_like_a_scene() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("mine.ron");
+    let lesson = "// Mine.\n/* All of it. */\nLesson(title: \"Mine\", about: \"A\", \
+                  runs: {\"one\": (size: (40, 30))}, steps: [(say: \"D\", until: End)])";
+    std::fs::write(&path, lesson).expect("a file");
+    let argument = path.to_str().expect("a plain path");
+    let mut window = open_with(SIZE, argument);
+    assert_eq!(step(&window), Some(("mine".into(), 0)));
+    until(&mut window, "its end", finished);
+    std::fs::write(&path, lesson.replace("End", "Noon")).expect("a file");
+    let told = anel::gui::Opening::read(argument).expect_err("a mistake");
+    assert!(told.contains("mine.ron: line 3, column ") && told.contains("Noon"), "{told}");
+}
+
+#[test]
 fn for_a_projector_it_is_large_and_plain() {
     let mut window = open(SIZE);
     let zoom = window.ctx.zoom_factor();

@@ -3,6 +3,8 @@
 mod course;
 mod panel;
 
+use std::sync::Arc;
+
 use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
@@ -22,7 +24,7 @@ use course::Course;
 pub struct Learn {
     open: bool,
     /// The lessons that come with the program, once the list was opened.
-    lessons: Vec<Lesson>,
+    lessons: Vec<Arc<Lesson>>,
     path: String,
     trouble: Option<String>,
     preparing: Option<Preparing>,
@@ -35,8 +37,17 @@ impl Learn {
         (self.open, self.trouble) = (!self.open, None);
         if self.lessons.is_empty() {
             // Built-in lessons can be read, which a test holds.
-            self.lessons = BUILT_IN.iter().filter_map(|(name, text)| Lesson::parse(name, text).ok()).collect();
+            self.lessons =
+                BUILT_IN.iter().filter_map(|(name, text)| Lesson::parse(name, text).ok().map(Arc::new)).collect();
         }
+    }
+
+    /// Takes a lesson that was opened, as soon as it is prepared.
+    pub fn open(&mut self, lesson: Arc<Lesson>, session: &mut Session) {
+        if !self.open {
+            self.toggle();
+        }
+        self.prepare(lesson, session);
     }
 
     /// Whether the list is to be shown.
@@ -77,12 +88,12 @@ impl Learn {
     /// Reads a lesson's file and prepares it.
     fn start(&mut self, argument: &str, session: &mut Session) {
         match Lesson::open(argument) {
-            Ok(lesson) => self.prepare(lesson, session),
+            Ok(lesson) => self.prepare(Arc::new(lesson), session),
             Err(error) => self.trouble = Some(error.to_string()),
         }
     }
 
-    fn prepare(&mut self, lesson: Lesson, session: &mut Session) {
+    fn prepare(&mut self, lesson: Arc<Lesson>, session: &mut Session) {
         (self.preparing, self.trouble) = (Some(session.prepare_lesson(lesson)), None);
     }
 
@@ -137,7 +148,7 @@ impl Learn {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
         let look = Look::of(ui.ctx());
         ui.horizontal(|ui| {
-            ui.label(RichText::new(word!("Learn", "Aprender")).font(theme::strong(theme::LARGE)).color(look.text));
+            ui.label(RichText::new(word!("Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!("Close the lessons", "Fechar as lições");
                 if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
@@ -157,7 +168,7 @@ impl Learn {
             let mut chosen = None;
             for (number, lesson) in (1..).zip(&self.lessons) {
                 if line(ui, number, lesson, look) {
-                    chosen = Some(lesson.clone());
+                    chosen = Some(Arc::clone(lesson));
                 }
             }
             if let Some(lesson) = chosen {

@@ -24,6 +24,7 @@ impl Session {
         let name = match &opening {
             Opening::Scene(opened) => opened.name.clone(),
             Opening::Run(log) => log.header.scene.clone(),
+            Opening::Lesson(lesson) => lesson.name.clone(),
         };
         self.load(name, move || Ok(opening));
     }

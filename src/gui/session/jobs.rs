@@ -17,6 +17,7 @@ use super::moving::Moved;
 use super::teaching::Taught;
 use crate::driver::{RAY, probe};
 use crate::language::{Language, say, word};
+use crate::lesson::Lesson;
 use crate::output::OutputError;
 use crate::palette::Rgb;
 use crate::picture::{Frame, Quality, Size, srgb8, write_png};
@@ -43,6 +44,8 @@ pub enum Done {
     Found(u64, Finding),
     /// What has come of a comparison, and the number of its job.
     Compared(u64, Compared),
+    /// A lesson that was opened, to be prepared.
+    ToTeach(Arc<Lesson>),
     /// A lesson, or a sentence that says why it cannot be shown, and the number of its job.
     Lesson(u64, Result<Taught, String>),
     /// A pixel, with all that is known of it; nothing if there is no such pixel.
@@ -77,6 +80,8 @@ pub enum Ready {
     Scene(Prepared),
     /// A recorded run, and what traces its picture again.
     Run(Recorded),
+    /// A lesson, to be prepared.
+    Lesson(Arc<Lesson>),
 }
 
 /// A scene, compiled for a picture.
@@ -193,6 +198,7 @@ impl Jobs {
                     let preview = guess(&tracer);
                     Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
                 }
+                Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
             });
             Done::Ready(number, ready)
         });

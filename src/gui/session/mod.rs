@@ -145,6 +145,7 @@ impl Session {
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
                         Ok(Ready::Run(recorded)) => self.play(recorded),
+                        Ok(Ready::Lesson(lesson)) => others.push(Done::ToTeach(lesson)),
                         Err(why) => self.could_not_open(why),
                     }
                 }
@@ -161,9 +162,11 @@ impl Session {
                 }
                 Done::Inspected(inspected) => self.take_inspected(inspected),
                 Done::Moved(moved) => self.take_moved(moved),
-                done @ (Done::Chosen(..) | Done::Thumbnail(..) | Done::Compared(..) | Done::Lesson(..)) => {
-                    others.push(done)
-                }
+                done @ (Done::Chosen(..)
+                | Done::Thumbnail(..)
+                | Done::Compared(..)
+                | Done::ToTeach(..)
+                | Done::Lesson(..)) => others.push(done),
             }
         }
         others

@@ -35,7 +35,7 @@ impl Preparing {
 
 impl Session {
     /// Runs a lesson's runs in the background.
-    pub fn prepare_lesson(&mut self, lesson: Lesson) -> Preparing {
+    pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> Preparing {
         let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
         let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced));
         Preparing { job, traced, pixels }
@@ -52,7 +52,7 @@ impl Session {
 }
 
 impl Jobs {
-    fn prepare_lesson(&mut self, lesson: Lesson, traced: Arc<AtomicU32>) -> u64 {
+    fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>) -> u64 {
         let (number, language) = (self.number(), Language::spoken());
         self.start("lesson", move || {
             language.speak();
@@ -65,7 +65,7 @@ impl Jobs {
                     let preview = guess(&run.tracer);
                     (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
                 });
-                Taught { runs: recorded.collect(), lesson: Arc::new(lesson) }
+                Taught { runs: recorded.collect(), lesson }
             });
             let unshown = |why| say!("The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
             Done::Lesson(number, taught.map_err(unshown))
