@@ -28,8 +28,8 @@ const LEAST: f32 = 11.0 * GRID;
 /// Between two answers, and between two rows of them.
 const GAP: Vec2 = vec2(GRID, GRID / 2.0);
 
-/// How high the panel is, of this width: it has room for what is said once a question is answered, so that nothing moves
-/// then.
+/// How high the panel is, of this width. Where there is room enough, it has room for what is said once a question is
+/// answered, so that nothing moves then.
 pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
     let (width, gap) = (width - buttons(ui, course), ui.spacing().item_spacing.y);
     let high = |text: &str, font: FontId| {
@@ -38,9 +38,12 @@ pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
     let said = course.say();
     let mut all =
         high(&heading(course), theme::regular(theme::SMALL)) + high(said, theme::strong(size(said, width, ui)));
-    if let Some((question, _)) = course.question() {
+    if let Some((question, answer)) = course.question() {
+        let is_high = ui.ctx().content_rect().height() > 700.0;
         all += GRID / 2.0 + high(question.question.spoken(), theme::strong(theme::BODY));
-        all += high(question.because.spoken(), theme::regular(theme::BODY));
+        if is_high || answer.is_some() {
+            all += high(question.because.spoken(), theme::regular(theme::BODY));
+        }
         all += rows(ui, width, question).len() as f32 * (4.0 * GRID + GAP.y) + gap;
     }
     all.max(LEAST)
