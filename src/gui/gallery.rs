@@ -120,8 +120,8 @@ impl Gallery {
             ui.add_space(GRID);
             let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
             let hint = word!(
-                "path of a scene or a lesson (.ron), or of a recorded run (.anel)",
-                "caminho de uma cena ou lição (.ron), ou de uma execução gravada (.anel)"
+                "path of a scene, a lesson (.ron) or a run (.anel)",
+                "caminho de uma cena, lição (.ron) ou execução (.anel)"
             );
             let name = word!("What to open", "O que abrir");
             let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);

@@ -300,6 +300,21 @@ mod tests {
     }
 
     #[test]
+    fn a_run_without_a_caption_is_one_of_which_nothing_is_said() {
+        let file = NamedTempFile::new().unwrap();
+        let mut log = RunLog::new(header(&[1.0]));
+        log.header.caption.title = "Lost".into();
+        log.save(file.path()).unwrap();
+        let text = fs::read_to_string(file.path()).unwrap();
+        let (before, after) = text.split_once(",\"caption\":{").unwrap();
+        let (_, after) = after.split_once('}').unwrap();
+        fs::write(file.path(), format!("{before}{after}")).unwrap();
+        let loaded = RunLog::load(file.path()).unwrap();
+        assert!(loaded.header.caption.is_empty());
+        assert_eq!(loaded, RunLog::new(header(&[1.0])));
+    }
+
+    #[test]
     fn only_what_begins_as_a_run_file_is_one() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("run.jsonl");

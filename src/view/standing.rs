@@ -60,7 +60,7 @@ pub(super) fn only((node, last): Machine<'_>) -> String {
 pub(super) fn computing(some: usize, all: usize, what: &str) -> String {
     match some {
         _ if some == all => say!("All {all} {what} compute", "Todas as {all} {what} calculam"),
-        1 => say!("1 of {all} {what} compute", "1 de {all} {what} calcula"),
+        1 => say!("1 of {all} {what} computes", "1 de {all} {what} calcula"),
         _ => say!("{some} of {all} {what} compute", "{some} de {all} {what} calculam"),
     }
 }

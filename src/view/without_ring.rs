@@ -91,7 +91,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking
                 say!("{compute}; whoever is done asks the parent for more", "{compute}; quem termina pede mais ao pai")
             }
             [] => say!(
-                "{compute} their last atoms; the parent has no more",
+                "{compute} the last atoms; the parent has no more",
                 "{compute} seus últimos átomos; o pai não tem mais"
             ),
             some => format!("{compute}; {}", some_wait(some)),
@@ -205,7 +205,7 @@ mod tests {
         );
         assert_eq!(
             stands(&[(9, 1.0), (64, 0.0)]),
-            "1 of 2 machines compute; 2 stands still at 0 %, and nobody takes over its 64 atoms"
+            "1 of 2 machines computes; 2 stands still at 0 %, and nobody takes over its 64 atoms"
         );
         assert!(stands(&[(9, 0.0), (9, 0.0)]).starts_with("All machines stand still at 0 %"));
     }
@@ -216,7 +216,7 @@ mod tests {
         assert_eq!(stands(FARM, &busy, &[], &[]), "All 3 machines compute; whoever is done asks the parent for more");
         let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
         assert_eq!(stands(FARM, &one, &[2], &[]), "2 of 3 machines compute; 3 waits for the parent");
-        assert_eq!(stands(FARM, &one, &[], &[2]), "2 of 3 machines compute their last atoms; the parent has no more");
+        assert_eq!(stands(FARM, &one, &[], &[2]), "2 of 3 machines compute the last atoms; the parent has no more");
         let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
         assert_eq!(stands(FARM, &none, &[0, 1, 2], &[]), "All 3 machines wait for the parent");
         assert_eq!(
@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(stands(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
         assert_eq!(
             stands(&[(5, 1.0), (5, 0.0)]),
-            "1 of 2 threads compute; 2 stands still at 0 %: its 5 atoms can be stolen"
+            "1 of 2 threads computes; 2 stands still at 0 %: its 5 atoms can be stolen"
         );
     }
 }

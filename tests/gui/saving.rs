@@ -141,6 +141,18 @@ fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
     assert!(log.header.caption.machine.contains("core"), "{:?}", log.header.caption);
     let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
     until(&mut window, "the title", |window| notice(window).contains("Eight of them"));
+    // Another title stays when the run begins again.
+    key(&mut window, Key::S);
+    press(&mut window, "run");
+    window.get_by_label("Title of the run").click();
+    window.run_steps(2);
+    window.get_by_label("Title of the run").type_text(", again");
+    window.run_steps(2);
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+    save_to(&mut window, &directory.path().join("again.anel"));
+    press(&mut window, "Restart");
+    assert_eq!(session(&window).header().caption.title, "Eight of them, again");
 }
 
 #[test]

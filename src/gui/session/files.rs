@@ -97,6 +97,10 @@ impl Session {
         self.note_saving(&path);
         let caption = &mut self.stage.log.header.caption;
         (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
+        // A recorded run that begins again is called so, too.
+        if let Some(recorded) = &mut self.recorded {
+            Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
+        }
         self.remember(path.to_string_lossy().into_owned());
         self.jobs.save_run(path, self.stage.log.clone());
     }
