@@ -167,6 +167,7 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut Ui) {
+        self.session.stage_mut().hides_later = self.learn.is_on();
         self.bars(ui);
         if self.shows_page() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
@@ -246,7 +247,6 @@ impl App {
         below.show(ui, |ui| {
             if self.shows_timeline {
                 let hovered = self.hovered.as_ref();
-                self.timeline.hides_later = self.learn.is_on();
                 self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit, hovered);
             } else {
                 nodes_panel::show(ui, &mut self.session, &mut self.focus, &self.lit);
@@ -338,7 +338,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.language.speak();
         zoom::keys(ui.ctx());
-        let types = ui.ctx().egui_wants_keyboard_input();
+        let types = ui.ctx().text_edit_focused();
         // Whoever is about to type a path means letters, wherever the focus is just then.
         let types = types || self.save_bar.is_open() || self.gallery.is_open();
         for command in keys::pressed(ui.ctx(), types) {

@@ -55,9 +55,9 @@ pub enum Command {
     Redo,
     /// A machine, to be changed with keys.
     Select(NodeId),
-    /// The selected machine, a tenth faster.
+    /// The selected machine, to the next higher speed.
     Faster,
-    /// The selected machine, a tenth slower.
+    /// The selected machine, to the next lower speed.
     Slower,
     /// The selected machine stands still, or goes on.
     PauseNode,
@@ -237,7 +237,7 @@ pub const TABLE: &[Line] = &[
     },
     Line {
         shown: same("1 … 9"),
-        what: ("Select a machine (a click on it, too)", "Selecionar uma máquina (um clique também)"),
+        what: ("Select a machine; answer; choose of a list", "Selecionar máquina; responder; escolher da lista"),
         keys: &[
             (NONE, Key::Num1, Command::Select(0)),
             (NONE, Key::Num2, Command::Select(1)),

@@ -1,6 +1,6 @@
 //! The ring.
 
-use egui::{Painter, Rect, Sense, Ui};
+use egui::{Align2, Painter, Rect, Sense, Ui};
 
 use super::focus::Focus;
 use super::paint::{Inks, paint};
@@ -10,7 +10,7 @@ use super::widgets;
 use crate::language::{say, word};
 use crate::view::{
     About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
-    ring, ring_at, small_print,
+    ring, ring_at, small_print, time_words,
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
@@ -67,6 +67,12 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
     }
     if state.finished().is_none() {
         corner(&painter, rect, small_print(state), look);
+    }
+    // For a room there is no bar at the top that tells it.
+    if Look::is_strong(painter.ctx()) {
+        let time = time_words(now, session.stage().grain());
+        let font = theme::strong(theme::LARGE);
+        painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
 }
 

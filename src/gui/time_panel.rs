@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use egui::{
-    Align, EventFilter, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, Response, RichText, Role, Sense,
-    Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, EventFilter, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, Response, RichText, Role,
+    Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::icons::Icon;
@@ -43,6 +43,12 @@ impl TimePanel {
     /// Opens or closes the list of what is worth jumping to.
     pub fn toggle_find(&mut self) {
         self.toggles = true;
+    }
+
+    /// Closes that list; returns what leads to what stands at this place of it.
+    pub fn choose(&mut self, place: usize) -> Option<Command> {
+        self.toggle_find();
+        self.found.get(place).map(|mark| Command::Jump(mark.records, mark.about))
     }
 
     /// Whether that list is open, or about to be.
@@ -132,11 +138,11 @@ impl TimePanel {
             if !was_open || self.found_in != known {
                 (self.found, self.found_in) = (landmarks(&session.stage().log), known);
             }
-            ui.set_width(52.0 * GRID);
+            ui.set_width(54.0 * GRID);
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
             let mut chosen = None;
-            for mark in &self.found {
-                if entry(ui, mark, session.stage().grain(), look).clicked() {
+            for (place, mark) in self.found.iter().enumerate() {
+                if entry(ui, (place + 1, mark), session.stage().grain(), look).clicked() {
                     chosen = Some(Command::Jump(mark.records, mark.about));
                 }
             }
@@ -161,7 +167,7 @@ fn keys(step: Step, arrow: char) -> String {
 }
 
 /// A line of the list: what it is, and when.
-fn entry(ui: &mut Ui, mark: &Landmark, rate: f64, look: Look) -> Response {
+fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.5 * GRID), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &mark.words));
     if response.hovered() || response.has_focus() {
@@ -169,7 +175,9 @@ fn entry(ui: &mut Ui, mark: &Landmark, rate: f64, look: Look) -> Response {
     }
     let y = rect.center().y;
     let words = ui.painter().layout_no_wrap(mark.words.clone(), theme::regular(theme::BODY), look.text);
-    ui.painter().galley(pos2(rect.left() + GRID, y - words.size().y / 2.0), words, look.text);
+    let font = theme::regular(theme::SMALL);
+    ui.painter().text(pos2(rect.left() + GRID, y), Align2::LEFT_CENTER, number, font, look.quiet);
+    ui.painter().galley(pos2(rect.left() + 3.0 * GRID, y - words.size().y / 2.0), words, look.text);
     let time = ui.painter().layout_no_wrap(time_words(mark.at, rate), theme::regular(theme::SMALL), look.quiet);
     ui.painter().galley(pos2(rect.right() - GRID - time.size().x, y - time.size().y / 2.0), time, look.quiet);
     response
@@ -241,7 +249,8 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     painter.rect_filled(rail, 2.0, look.hairline);
     painter.rect_filled(rail.with_max_x(x(now)), 2.0, look.accent.gamma_multiply(0.8));
     let mut last_retired = f32::NEG_INFINITY;
-    for sign in stage.signs().all() {
+    let shown = |sign: &&Sign| !stage.hides_later || sign.at <= now;
+    for sign in stage.signs().all().iter().filter(shown) {
         // Many retire at about one time.
         if matches!(sign.kind, SignKind::Retired(_)) {
             if x(sign.at) < last_retired + 7.0 {
@@ -261,7 +270,9 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
         let pointed = time_at(at);
         let reach = Duration::from_secs_f64(length.secs() * f64::from(6.0 / rail.width().max(1.0)));
         let mut words = vec![time_words(pointed, grain * 0.1)];
-        words.extend(stage.signs().near(pointed, reach).into_iter().take(3).map(|sign| sign.words.clone()));
+        words.extend(
+            stage.signs().near(pointed, reach).into_iter().filter(shown).take(3).map(|sign| sign.words.clone()),
+        );
         response.on_hover_text_at_pointer(words.join("\n"));
     }
 }

@@ -26,8 +26,6 @@ const SLIDER: f32 = 16.0;
 /// What is seen of the run's time, and what was drawn of it.
 #[derive(Default)]
 pub struct TimelinePanel {
-    /// Whether what comes after the shown time is hidden: who is asked what will happen is not told before.
-    pub hides_later: bool,
     window: TimeWindow,
     drawn: Option<(Key, Timeline)>,
     /// The time that was shown in the frame before.
@@ -45,14 +43,16 @@ struct Key {
 
 /// How high the panel of so many lanes is to be.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
-    let most = 0.36 * ui.ctx().content_rect().height();
+    let whole = ui.ctx().content_rect().height();
+    // In a low window picture and ring still need their room.
+    let most = if whole < 600.0 { 0.27 } else { 0.36 } * whole;
     (54.0 + nodes as f32 * 22.0).clamp(12.0 * GRID, most.max(12.0 * GRID))
 }
 
 impl TimelinePanel {
     /// A run begins: all of it is seen.
     pub fn begin(&mut self) {
-        *self = Self { hides_later: self.hides_later, ..Self::default() };
+        *self = Self::default();
     }
 
     /// Shows all lanes.
@@ -149,7 +149,7 @@ impl TimelinePanel {
     fn point(&self, response: &Response, place: Rect, plan: &LanePlan, session: &mut Session, focus: &mut Focus) {
         let Some(at) = response.hover_pos().or_else(|| response.interact_pointer_pos()) else { return };
         let time = self.window.at(f64::from((at.x - place.left()) / place.width()));
-        let is_hidden = self.hides_later && time > session.stage().lasted();
+        let is_hidden = session.stage().hides_later && time > session.stage().lasted();
         let about = timeline_at(session.stage().lanes(), &self.window, plan, (at - place.min).into());
         let about = about.filter(|_| !is_hidden);
         if let Some(about) = about {
@@ -210,7 +210,7 @@ impl TimelinePanel {
         let now = x(stage.lasted());
         if !stage.is_live() && !stage.shows_end() {
             let later = Rect::from_min_max(pos2(now.max(place.left()), place.top()), place.max);
-            let strength = if self.hides_later { 1.0 } else { 0.55 };
+            let strength = if stage.hides_later { 1.0 } else { 0.55 };
             painter.rect_filled(later, 0.0, look.ground.gamma_multiply(strength));
         }
         painter.line_segment(

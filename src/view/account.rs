@@ -19,8 +19,8 @@ pub struct Account {
     pub makespan: Duration,
     /// How long it would have taken, had the work been shared perfectly.
     pub ideal: Duration,
-    /// The machines' speeds together when the run began: how many reference machines they are worth.
-    pub power: f64,
+    /// From when on the machines' speeds together are how much: how many reference machines they are worth.
+    pub powers: Vec<(Duration, f64)>,
     /// Where the time of all machines went.
     pub spent: Spent,
     /// What was said.
@@ -124,7 +124,7 @@ impl Account {
             sharing: Sharing::of(&log.header),
             makespan,
             ideal,
-            power: log.header.speeds.iter().sum(),
+            powers: powers(log),
             spent,
             messages: tally.messages(),
             last: last(log, lanes)?,
@@ -133,10 +133,33 @@ impl Account {
         })
     }
 
+    /// The machines' speeds together, on the average of this time from the beginning.
+    pub fn power(&self, until: Duration) -> f64 {
+        let ends = self.powers.iter().skip(1).map(|(at, _)| *at).chain([until]);
+        let spans = self.powers.iter().zip(ends).map(|((from, power), end)| {
+            let span = end.min(until).saturating_sub(*from);
+            power * span.as_secs_f64()
+        });
+        spans.sum::<f64>() / until.as_secs_f64().max(f64::MIN_POSITIVE)
+    }
+
     /// Ideal over makespan, at most about 1.
     pub fn efficiency(&self) -> f64 {
         self.ideal.as_secs_f64() / self.makespan.as_secs_f64().max(f64::MIN_POSITIVE)
     }
+}
+
+/// From when on the machines' speeds together are how much.
+fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
+    let mut speeds = log.header.speeds.clone();
+    let mut powers = vec![(Duration::ZERO, speeds.iter().sum())];
+    for record in log.records() {
+        if let What::SpeedSet { node, speed } = record.what {
+            speeds[usize::from(node)] = speed;
+            powers.push((record.at.since(Time::ZERO), speeds.iter().sum()));
+        }
+    }
+    powers
 }
 
 fn last(log: &RunLog, lanes: &Lanes) -> Option<Last> {
@@ -191,9 +214,11 @@ fn estimating(records: &[Record]) -> Duration {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::contrast::{Named, contrast};
     use super::super::sample;
     use super::*;
     use crate::balance::{Rules, Strategy};
+    use crate::record::Record;
     use crate::runlog::Header;
 
     fn log(strategy: Strategy, speeds: &[f64], handling: u64) -> RunLog {
@@ -237,5 +262,24 @@ mod tests {
             |handling| Account::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
         assert_eq!(waited(0), Duration::ZERO);
         assert!(waited(30) > 3 * waited(5), "{:?} {:?}", waited(30), waited(5));
+    }
+
+    #[test]
+    fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
+        let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
+        let quick = Account::of(&plain).expect("it came to its end");
+        let mut records = plain.records().to_vec();
+        let half = Time(records[records.len() - 1].at.0 / 2);
+        let place = records.partition_point(|record| record.at <= half);
+        records.insert(place, Record { at: half, what: What::SpeedSet { node: 1, speed: 0.5 } });
+        let mut slowed = RunLog::new(plain.header.clone());
+        slowed.add(records);
+        let slow = Account::of(&slowed).expect("it came to its end");
+        let half = Duration::from_nanos(half.0);
+        assert_eq!(slow.power(half), 2.0);
+        assert!((slow.power(2 * half) - 1.75).abs() < 1e-9, "{}", slow.power(2 * half));
+        let slow = Account { makespan: quick.makespan.mul_f64(1.2), ..slow };
+        let told = contrast(Named { name: "One", account: &quick }, Named { name: "The other", account: &slow });
+        assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
     }
 }

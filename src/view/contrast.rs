@@ -59,7 +59,9 @@ fn same(one: Named<'_>, other: Named<'_>) -> String {
 
 /// The machines themselves are not the same.
 fn power(quick: &Account, slow: &Account) -> Option<String> {
-    let times = quick.power / slow.power.max(f64::MIN_POSITIVE);
+    // As long as both go on: what is set later in one of them explains nothing.
+    let [of_quick, of_slow] = [quick, slow].map(|run| run.power(quick.makespan));
+    let times = of_quick / of_slow.max(f64::MIN_POSITIVE);
     let ratio = decimal(times, 2);
     (times > SAME).then(|| {
         say!(

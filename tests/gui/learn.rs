@@ -77,6 +77,33 @@ fn a_lesson_of_ones_own_is_opened_and_a_mistake_in_it_is_told() {
 }
 
 #[test]
+fn keys_alone_lead_through_a_lesson_and_back_to_ones_own_run() {
+    let mut window = open(SIZE);
+    let own = session(&window).header().clone();
+    key(&mut window, Key::N);
+    key(&mut window, Key::Num2);
+    until(&mut window, "the lesson", |window| step(window) == Some(("bands".into(), 0)));
+    assert_ne!(session(&window).header().speeds, own.speeds);
+    key(&mut window, Key::PageDown);
+    key(&mut window, Key::PageDown);
+    // Who looks for a button with Tab still goes on with Page Down; and nobody sees before he has answered.
+    let before = now(&window);
+    key(&mut window, Key::Space);
+    key(&mut window, Key::End);
+    key(&mut window, Key::Tab);
+    key(&mut window, Key::PageDown);
+    assert!(notice(&window).starts_with("First answer the question"), "{}", notice(&window));
+    assert_eq!((step(&window), now(&window)), (Some(("bands".into(), 1)), before));
+    key(&mut window, Key::Num9);
+    assert!(window.query_by_label_contains("more than a quarter").is_none(), "there is no such answer");
+    key(&mut window, Key::Num2);
+    window.get_by_label_contains("more than a quarter of the machines' time is lost");
+    press(&mut window, "Leave the lesson");
+    until(&mut window, "one's own run", |window| session(window).header().speeds == own.speeds);
+    assert!(!session(&window).is_recorded());
+}
+
+#[test]
 fn a_lesson_is_opened_like_a_scene() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");

@@ -74,11 +74,11 @@ fn a_machine_is_selected_and_changed_with_keys() {
     assert_eq!(window.state().selected(), Some(7));
     key(&mut window, Key::Plus);
     assert_eq!(session(&window).speed(7), 0.2);
-    for _ in 0..3 {
+    for speed in [0.1, 0.05, 0.01, 0.0, 0.0] {
         key(&mut window, Key::Minus);
+        assert_eq!(session(&window).speed(7), speed);
     }
-    assert_eq!(session(&window).speed(7), 0.0);
-    until(&mut window, "records", |window| speeds_set(window).len() == 3);
+    until(&mut window, "records", |window| speeds_set(window).len() == 5);
     key(&mut window, Key::P);
     assert!(session(&window).is_node_paused(7));
     key(&mut window, Key::Num9);

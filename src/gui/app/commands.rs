@@ -20,8 +20,13 @@ impl App {
         if self.compare.is_open() && !self.gallery.is_open() && self.compare.obey(command) {
             return;
         }
-        if !self.shows_page() && self.learn.obey(command, &mut self.session) {
+        let covers_lessons = self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open();
+        if !covers_lessons && self.learn.obey(command, &mut self.session) {
             return;
+        }
+        if let (true, Command::Select(number)) = (self.time.is_finding(), command) {
+            let jump = self.time.choose(number.into());
+            return jump.into_iter().for_each(|jump| self.obey(jump, ctx));
         }
         let session = &mut self.session;
         match command {
@@ -157,10 +162,13 @@ impl App {
         if command == Command::PauseNode {
             return self.session.toggle_node_pause(node);
         }
-        // To the next tenth.
-        let tenths = self.session.speed(node) * 10.0;
-        let next = if command == Command::Faster { (tenths + 1.01).floor() } else { (tenths - 1.01).ceil() };
-        let speed = (next / 10.0).clamp(0.0, 1.0);
+        let now = self.session.speed(node);
+        // To the next tenth, or to one of the low speeds at which a machine is felt.
+        let mut steps = [0.0, 0.01, 0.05].into_iter().chain((1..=10).map(|tenth| f64::from(tenth) / 10.0));
+        let speed = match command {
+            Command::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
+            _ => steps.take_while(|&step| step < now - 0.001).last().unwrap_or(0.0),
+        };
         self.session.change(Gesture::Once, |settings| settings.speeds[usize::from(node)] = speed);
     }
 
@@ -193,7 +201,7 @@ impl App {
         } else if self.focus.selected.is_some() {
             self.focus.selected = None;
         } else {
-            self.learn.leave();
+            self.learn.leave(&mut self.session);
         }
     }
 }

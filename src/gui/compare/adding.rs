@@ -31,8 +31,15 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
 }
 
 /// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
-/// changed from the shown time on, too: until then both runs are the same.
-pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, has_room: bool, look: Look) -> Option<Change> {
+/// changed from the shown time on, too, if the run goes on then: until then both runs are the same.
+pub fn changes(
+    ui: &mut Ui,
+    letter: char,
+    trial: &Trial,
+    now: Option<Time>,
+    has_room: bool,
+    look: Look,
+) -> Option<Change> {
     let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
     let (icon, words) =
         if has_room { (None, Some(word!("Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
@@ -73,7 +80,7 @@ pub fn changes(ui: &mut Ui, letter: char, trial: &Trial, now: Time, has_room: bo
         let unlike = speeds.clone().filter(|speed| trial.header.speeds[usize::from(node)] != *speed);
         let always = unlike.map(|speed| Change::Speed(node, speed)).collect();
         chosen = chosen.or(row(ui, word!("all along", "o tempo todo"), always, look));
-        if now > Time::ZERO {
+        if let Some(now) = now {
             let at = time_words(now, 1.0);
             let later = speeds.map(|speed| Change::SpeedAt(now, node, speed)).collect();
             chosen = chosen.or(row(ui, &say!("from {at} on", "a partir de {at}"), later, look));

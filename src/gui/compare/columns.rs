@@ -84,6 +84,8 @@ fn heading(
     look: Look,
 ) -> Option<Asked> {
     let mut asked = None;
+    let end = entry.contender.as_ref().and_then(|run| run.end());
+    let fork_at = (now > Time::ZERO && end.is_none_or(|end| now < end)).then_some(now);
     let layout = Layout::right_to_left(Align::Center);
     ui.scope_builder(UiBuilder::new().max_rect(row).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
@@ -92,7 +94,7 @@ fn heading(
         if can_go && button(ui, Some(Icon::Close), &remove, false, Weight::Quiet).clicked() {
             asked = Some(Asked::Remove(place));
         }
-        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, now, row.width() > WIDE, look) {
+        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, fork_at, row.width() > WIDE, look) {
             asked = Some(Asked::Fork(place, change));
         }
         let left = Layout::left_to_right(Align::Center);

@@ -54,6 +54,11 @@ impl Course {
         self.step + 1 >= self.steps()
     }
 
+    /// Whether all is seen.
+    pub fn is_over(&self) -> bool {
+        self.is_last() && self.until.is_none() && !self.waits()
+    }
+
     /// What is said.
     pub fn say(&self) -> &str {
         self.now().say.spoken()
@@ -76,7 +81,7 @@ impl Course {
 
     /// Answers the question; then one sees.
     pub fn answer(&mut self, place: usize, session: &mut Session) {
-        if self.waits() {
+        if self.question().is_some_and(|(question, answer)| answer.is_none() && place < question.answers.len()) {
             self.answers[self.step] = Some(place);
             self.go(session);
         }

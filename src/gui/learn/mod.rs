@@ -10,7 +10,7 @@ use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, Wi
 use super::icons::Icon;
 use super::keys::Command;
 use super::save_bar::resolve;
-use super::session::{Preparing, Session, Taught};
+use super::session::{Preparing, Recorded, Session, Taught};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
 use crate::language::word;
@@ -29,6 +29,8 @@ pub struct Learn {
     trouble: Option<String>,
     preparing: Option<Preparing>,
     course: Option<Course>,
+    /// The recorded run that was on the stage before the lesson, if it was one.
+    before: Option<Recorded>,
 }
 
 impl Learn {
@@ -80,9 +82,11 @@ impl Learn {
         self.course.as_ref().map(|course| (course.name(), course.step()))
     }
 
-    /// Leaves the lesson; its run stays.
-    pub fn leave(&mut self) {
-        self.course = None;
+    /// Leaves the lesson, if one is being taken: what was on the stage before begins again.
+    pub fn leave(&mut self, session: &mut Session) {
+        if self.course.take().is_some() {
+            session.end_lesson(self.before.take());
+        }
     }
 
     /// Reads a lesson's file and prepares it.
@@ -105,6 +109,9 @@ impl Learn {
         self.preparing = None;
         match taught {
             Ok(taught) => {
+                if self.course.is_none() {
+                    self.before = session.recorded();
+                }
                 self.course = Some(Course::begin(taught, session));
                 self.open = false;
             }
@@ -119,13 +126,35 @@ impl Learn {
 
     /// Does what a key asks for, if it is meant for the lesson.
     pub fn obey(&mut self, command: Command, session: &mut Session) -> bool {
+        if self.open {
+            let Command::Select(number) = command else { return false };
+            if let Some(lesson) = self.lessons.get(usize::from(number)) {
+                self.prepare(Arc::clone(lesson), session);
+            }
+            return true;
+        }
         let Some(course) = &mut self.course else { return false };
         match command {
             Command::Dolly(true) => course.back(session),
+            Command::Dolly(false) if course.is_over() => self.other_lessons(session),
+            Command::Select(number) if course.waits() => course.answer(number.into(), session),
+            // One is asked before one sees.
+            Command::Dolly(false) | Command::Pause | Command::Live | Command::Step(_, true) if course.waits() => {
+                session.note(word!(
+                    "First answer the question: press the number of an answer, or click it",
+                    "Responder antes à pergunta: pressionar o número de uma resposta, ou clicar nela"
+                ));
+            }
             Command::Dolly(false) => course.next(session),
             _ => return false,
         }
         true
+    }
+
+    /// The lesson is over: the list, and one's own run.
+    fn other_lessons(&mut self, session: &mut Session) {
+        self.leave(session);
+        self.open = true;
     }
 
     /// Shows the step of the lesson that is being taken.
@@ -133,13 +162,10 @@ impl Learn {
         let Some(course) = &mut self.course else { return };
         match panel::show(ui, course) {
             Some(panel::Asked::Back) => course.back(session),
-            Some(panel::Asked::Next) if course.is_last() => {
-                self.course = None;
-                self.open = true;
-            }
+            Some(panel::Asked::Next) if course.is_over() => self.other_lessons(session),
             Some(panel::Asked::Next) => course.next(session),
             Some(panel::Asked::Answer(place)) => course.answer(place, session),
-            Some(panel::Asked::Leave) => self.course = None,
+            Some(panel::Asked::Leave) => self.leave(session),
             None => {}
         }
     }

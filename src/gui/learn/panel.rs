@@ -66,8 +66,9 @@ fn rows(ui: &Ui, width: f32, question: &Question) -> Vec<Range<usize>> {
     let mut rows: Vec<Range<usize>> = Vec::new();
     let mut x = 0.0;
     for (place, answer) in question.answers.iter().enumerate() {
-        let marked = [true, false].map(|is_right| wide(ui, &marked(answer.spoken(), is_right)));
-        let wide = marked[0].max(marked[1]) + 3.0 * GRID;
+        let words = answer.spoken();
+        let forms = [format!("{} {words}", place + 1), marked(words, true), marked(words, false)];
+        let wide = forms.iter().map(|form| wide(ui, form)).fold(0.0, f32::max) + 3.0 * GRID;
         match rows.last_mut() {
             Some(row) if x + wide <= width => row.end = place + 1,
             _ => {
@@ -87,7 +88,7 @@ fn marked(answer: &str, is_right: bool) -> String {
 
 /// What leads on.
 fn next(course: &Course) -> &'static str {
-    if course.is_last() { word!("Other lessons", "Outras lições") } else { word!("Next", "Avançar") }
+    if course.is_over() { word!("Other lessons", "Outras lições") } else { word!("Next", "Avançar") }
 }
 
 fn heading(course: &Course) -> String {
@@ -149,7 +150,7 @@ fn answers(ui: &mut Ui, course: &Course) -> Option<Asked> {
         let (shown, weight) = match answer {
             Some(_) if place == question.right => (marked(words, true), Weight::On),
             Some(given) if place == given => (marked(words, false), Weight::Quiet),
-            _ => (words.to_owned(), Weight::Quiet),
+            _ => (format!("{} {words}", place + 1), Weight::Quiet),
         };
         ui.add_enabled_ui(answer.is_none() || place == question.right, |ui| {
             if named_button(ui, None, words, Some(&shown), weight).clicked() {

@@ -30,6 +30,8 @@ pub struct Stage {
     pub log: RunLog,
     /// Which moment of it is shown.
     pub time: Playback,
+    /// Whether what comes after that moment is hidden: who is asked what will happen is not told before.
+    pub hides_later: bool,
     /// The picture in linear light.
     pub frame: Frame,
     /// The nodes' colours.
@@ -85,6 +87,7 @@ impl Stage {
             paused: false,
             paused_nodes: vec![false; colours.len()],
             time: Playback::live(),
+            hides_later: false,
             known: Known::new(&header),
             earlier: None,
             stepped_to: None,

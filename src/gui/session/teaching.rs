@@ -51,6 +51,25 @@ impl Session {
     }
 }
 
+impl Session {
+    /// The recorded run on the stage, if it is one.
+    pub fn recorded(&self) -> Option<Recorded> {
+        self.recorded.clone()
+    }
+
+    /// After a lesson: this recorded run, or what is set, from the beginning.
+    pub fn end_lesson(&mut self, before: Option<Recorded>) {
+        match before {
+            Some(recorded) => self.play(recorded),
+            None if self.prepared.is_some() => {
+                self.recorded = None;
+                self.restart();
+            }
+            None => self.open("ten-objects"),
+        }
+    }
+}
+
 impl Jobs {
     fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>) -> u64 {
         let (number, language) = (self.number(), Language::spoken());
