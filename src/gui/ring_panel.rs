@@ -70,7 +70,7 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
     }
     // For a room there is no bar at the top that tells it.
     if Look::is_strong(painter.ctx()) {
-        let time = time_words(now, session.stage().grain());
+        let time = time_words(stage.lasted(), stage.grain());
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
@@ -82,8 +82,12 @@ fn corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
     let galleys: Vec<_> = lines.into_iter().map(galley).collect();
     // Where the corner is narrow the second line would run into the lowest node's label.
     let room = rect.width() / 2.0 - 64.0;
-    // And where it is low, a third line into the label above that.
-    let most = if rect.height() < 360.0 { 2 } else { usize::MAX };
+    // And where it is low, a third line into the label above that; where it is very low, any line.
+    let most = match rect.height() {
+        height if height < 200.0 => 0,
+        height if height < 360.0 => 2,
+        _ => usize::MAX,
+    };
     let mut corner = rect.right_bottom();
     for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(most) {
         corner.y -= galley.size().y;
