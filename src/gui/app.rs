@@ -203,7 +203,9 @@ impl App {
                 words_panel::show(ui, &self.session, self.selected.as_ref());
             }
         });
-        if !self.projector || self.time.is_finding() {
+        // Beside a lesson a low window has no room for it, and the lesson's own buttons lead on.
+        let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
+        if !(self.projector || is_tight) || self.time.is_finding() {
             let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time_panel::HEIGHT + 8.0);
             let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
             if let Some(command) = time.show(ui, row).inner {
@@ -241,8 +243,11 @@ impl App {
     /// Machines, or their timeline.
     fn machines(&mut self, ui: &mut Ui) {
         let nodes = self.session.header().speeds.len();
-        let height =
-            if self.shows_timeline { timeline_panel::height(ui, nodes) } else { nodes_panel::height(ui, nodes) };
+        let height = if self.shows_timeline {
+            timeline_panel::height(ui, nodes, self.learn.is_on())
+        } else {
+            nodes_panel::height(ui, nodes)
+        };
         let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
         below.show(ui, |ui| {
             if self.shows_timeline {
@@ -299,6 +304,10 @@ impl App {
 
     fn heroes(&mut self, ui: &mut Ui) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
+        // Rather not at all than cut.
+        if area.height() < 7.0 * GRID {
+            return;
+        }
         let size = self.session.header().size;
         let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));

@@ -41,11 +41,12 @@ struct Key {
     head: Time,
 }
 
-/// How high the panel of so many lanes is to be.
-pub fn height(ui: &Ui, nodes: usize) -> f32 {
+/// How high the panel of so many lanes is to be, perhaps below a lesson.
+pub fn height(ui: &Ui, nodes: usize, has_lesson: bool) -> f32 {
     let whole = ui.ctx().content_rect().height();
     // In a low window picture and ring still need their room.
-    let most = if whole < 600.0 { 0.27 } else { 0.36 } * whole;
+    let is_low = whole < if has_lesson { 700.0 } else { 600.0 };
+    let most = if is_low { 0.27 } else { 0.36 } * whole;
     (54.0 + nodes as f32 * 22.0).clamp(12.0 * GRID, most.max(12.0 * GRID))
 }
 

@@ -104,6 +104,18 @@ fn keys_alone_lead_through_a_lesson_and_back_to_ones_own_run() {
 }
 
 #[test]
+fn what_is_opened_during_a_lesson_stays_when_one_leaves_it() {
+    let mut window = bands();
+    key(&mut window, Key::O);
+    press(&mut window, "Open csg-primer");
+    until(&mut window, "the other scene", |window| session(window).header().scene == "csg-primer" && now(window) > 0);
+    let begun = session(&window).runs_begun();
+    press(&mut window, "Leave the lesson");
+    assert_eq!((step(&window), session(&window).runs_begun()), (None, begun));
+    assert_eq!(session(&window).header().scene, "csg-primer");
+}
+
+#[test]
 fn a_lesson_is_opened_like_a_scene() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");

@@ -105,6 +105,16 @@ fn about_to_save_a_run() -> Window {
     window
 }
 
+/// Types more of the run's title, and goes on to the path.
+fn add_to_title(window: &mut Window, text: &str) {
+    window.get_by_label("Title of the run").click();
+    window.run_steps(2);
+    window.get_by_label("Title of the run").type_text(text);
+    window.run_steps(2);
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+}
+
 /// Saves what is chosen under this name, and waits until it is said to be there.
 fn save_to(window: &mut Window, path: &Path) {
     type_path(window, FIELD, path);
@@ -129,12 +139,7 @@ fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let mut window = about_to_save_a_run();
-    window.get_by_label("Title of the run").click();
-    window.run_steps(2);
-    window.get_by_label("Title of the run").type_text("Eight of them");
-    window.run_steps(2);
-    window.get_by_label(FIELD).click();
-    window.run_steps(2);
+    add_to_title(&mut window, "Eight of them");
     save_to(&mut window, &path);
     let log = RunLog::load(&path).expect("a run file");
     assert_eq!(log.header.caption.title, "Eight of them");
@@ -144,12 +149,7 @@ fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
     // Another title stays when the run begins again.
     key(&mut window, Key::S);
     press(&mut window, "run");
-    window.get_by_label("Title of the run").click();
-    window.run_steps(2);
-    window.get_by_label("Title of the run").type_text(", again");
-    window.run_steps(2);
-    window.get_by_label(FIELD).click();
-    window.run_steps(2);
+    add_to_title(&mut window, ", again");
     save_to(&mut window, &directory.path().join("again.anel"));
     press(&mut window, "Restart");
     assert_eq!(session(&window).header().caption.title, "Eight of them, again");

@@ -25,8 +25,10 @@ impl App {
             return;
         }
         if let (true, Command::Select(number)) = (self.time.is_finding(), command) {
-            let jump = self.time.choose(number.into());
-            return jump.into_iter().for_each(|jump| self.obey(jump, ctx));
+            if let Some(jump) = self.time.choose(number.into()) {
+                self.obey(jump, ctx);
+            }
+            return;
         }
         let session = &mut self.session;
         match command {

@@ -29,6 +29,11 @@ impl Course {
         course
     }
 
+    /// The lesson, with its runs.
+    pub fn taught(&self) -> &Taught {
+        &self.taught
+    }
+
     /// The lesson's name.
     pub fn name(&self) -> &str {
         &self.taught.lesson.name

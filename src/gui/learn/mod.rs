@@ -84,8 +84,8 @@ impl Learn {
 
     /// Leaves the lesson, if one is being taken: what was on the stage before begins again.
     pub fn leave(&mut self, session: &mut Session) {
-        if self.course.take().is_some() {
-            session.end_lesson(self.before.take());
+        if let Some(course) = self.course.take() {
+            session.end_lesson(course.taught(), self.before.take());
         }
     }
 

@@ -49,16 +49,18 @@ impl Session {
             self.play(recorded.clone());
         }
     }
-}
 
-impl Session {
     /// The recorded run on the stage, if it is one.
     pub fn recorded(&self) -> Option<Recorded> {
         self.recorded.clone()
     }
 
-    /// After a lesson: this recorded run, or what is set, from the beginning.
-    pub fn end_lesson(&mut self, before: Option<Recorded>) {
+    /// After a lesson: this recorded run, or what is set, from the beginning. What was opened meanwhile stays.
+    pub fn end_lesson(&mut self, taught: &Taught, before: Option<Recorded>) {
+        let is_taught = |shown: &Recorded| taught.runs.iter().any(|(_, run)| Arc::ptr_eq(&run.tracer, &shown.tracer));
+        if !self.recorded.as_ref().is_some_and(is_taught) {
+            return;
+        }
         match before {
             Some(recorded) => self.play(recorded),
             None if self.prepared.is_some() => {
