@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -85,16 +85,49 @@ pub enum What {
         /// Which node.
         node: NodeId,
     },
+    /// Something has become of a node's machine.
+    Condition {
+        /// Whose.
+        node: NodeId,
+        /// How it is from now on.
+        condition: Condition,
+    },
+    /// The link between two parties was cut, in both directions, or mended.
+    Link {
+        /// One of the two.
+        one: Party,
+        /// The other.
+        other: Party,
+        /// Whether it is cut now.
+        cut: bool,
+    },
+    /// A message would have arrived now, and is lost: its link is cut, or its receiver is off.
+    Lost {
+        /// Which one.
+        id: u64,
+    },
+    /// A worker has failed to trace an atom.
+    AtomFailed {
+        /// Whose worker.
+        node: NodeId,
+        /// Which atom.
+        atom: Atom,
+    },
     /// The latency of all links was changed, for the messages that leave from now on.
     LatencySet {
         /// How long a message travels.
         latency: Duration,
     },
-    /// A node's own offer came back: it makes no more.
+    /// A node's own offer came back: it makes no more, or sleeps until it is woken, in the ring that adapts.
     Retired {
         /// Which node.
         node: NodeId,
     },
     /// The parent has placed the last atom: the picture is complete.
     Finished,
+    /// The run has failed: this atom cannot be traced.
+    GivenUp {
+        /// Which atom.
+        atom: Atom,
+    },
 }

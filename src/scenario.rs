@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId, Party};
 use crate::time::Time;
 
 /// One thing that is done to a run.
@@ -21,6 +21,22 @@ pub enum Command {
         node: NodeId,
         /// Whether it is to stand still.
         paused: bool,
+    },
+    /// Something becomes of a node's machine.
+    Condition {
+        /// Whose.
+        node: NodeId,
+        /// How it is from now on.
+        condition: Condition,
+    },
+    /// Cuts the link between two parties, in both directions, or mends it: what is sent while it is cut is lost.
+    Link {
+        /// One of the two.
+        one: Party,
+        /// The other.
+        other: Party,
+        /// Whether it is cut.
+        cut: bool,
     },
     /// Gives all links another latency, for the messages that leave from now on.
     Latency(Duration),

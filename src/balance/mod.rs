@@ -3,16 +3,22 @@
 //! A party is handed an [`Event`] and the time, and answers with [`Action`]s; a driver carries them out. The
 //! parties are one [`Parent`] and its nodes; what a node does is its [`Strategy`].
 
+pub mod adaptive;
+mod condition;
 pub mod estimate;
 mod farm;
+mod ledger;
 mod message;
 mod parent;
 mod queue;
+mod remedy;
 pub mod ring;
 mod solo;
 mod strategy;
 mod work;
 
-pub use message::{Action, Event, Message, NodeId, Party};
+pub use condition::Condition;
+pub use message::{Action, Event, Help, Message, NodeId, Party};
 pub use parent::Parent;
+pub use remedy::{Remedies, Remedy};
 pub use strategy::{Node, Rules, Strategy};

@@ -1,10 +1,13 @@
-//! The parent (§8): hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm.
+//! The parent (§8): hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm,
+//! and in the ring that adapts of what is lost.
 
 use std::ops::Range;
 
 use super::estimate;
 use super::farm::Parts;
+use super::ledger::Ledger;
 use super::message::{Action, Event, Message, NodeId, Party};
+use super::remedy::Remedy;
 use super::strategy::{Rules, Strategy};
 use crate::picture::{Atom, Division};
 use crate::time::Time;
@@ -31,6 +34,8 @@ enum Sharing {
     Estimate,
     /// A part for whoever asks.
     Farm(Parts),
+    /// Equal bands, and a ledger, if machines may be lost.
+    Adaptive(Option<Ledger>),
 }
 
 impl Parent {
@@ -45,15 +50,24 @@ impl Parent {
             Strategy::StaticEstimate => Sharing::Estimate,
             Strategy::Farm => farm(false),
             Strategy::FarmBySpeed => farm(true),
+            Strategy::Adaptive => {
+                let ledger = || Ledger::new(rules.beat, nodes, missing);
+                Sharing::Adaptive(rules.remedies.has(Remedy::Leases).then(ledger))
+            }
         };
         Self { sharing, division, nodes, placed: vec![false; missing as usize], missing }
     }
 
-    /// Answers `event` by appending to `actions`; the time does not matter to a parent.
+    /// Answers `event`, which happens at `now`, by appending to `actions`; the time matters only in the ring that adapts.
     ///
     /// # Panics
-    /// If the event is impossible: an atom that has been placed before, or a message that no node sends here.
-    pub fn handle(&mut self, _now: Time, event: Event, actions: &mut Vec<Action>) {
+    /// If the event is impossible: an atom that has been placed before (but in the ring that adapts), or a message that no
+    /// node sends here.
+    pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
+        if let (Sharing::Adaptive(Some(ledger)), Event::Message { from: Party::Node(node), .. }) = (&mut self.sharing, &event)
+        {
+            ledger.hear(now, *node, actions);
+        }
         match event {
             Event::Started => {
                 let nodes = usize::from(self.nodes);
@@ -65,6 +79,13 @@ impl Parent {
                     Sharing::Bands => hand_out(self.division.bands(nodes), actions),
                     Sharing::Estimate => actions.push(Action::Estimate),
                     Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
+                    Sharing::Adaptive(ledger) => {
+                        hand_out(self.division.bands(nodes), actions);
+                        if let Some(ledger) = ledger {
+                            ledger.start(now);
+                            actions.push(Action::SetTimer(ledger.next_look(now)));
+                        }
+                    }
                 }
             }
             Event::Estimated(costs) => {
@@ -76,22 +97,42 @@ impl Parent {
                     self.shut_down(actions);
                 }
             }
-            Event::Message { from: Party::Node(node), message: Message::Request } => {
-                let Sharing::Farm(parts) = &mut self.sharing else {
-                    unreachable!("node {node} asks for atoms, and there is no farm");
-                };
-                let message = Message::Part(parts.next(node));
-                actions.push(Action::Send { to: Party::Node(node), message });
+            Event::Message { from: Party::Node(node), message } => self.answer(now, node, message, actions),
+            Event::Timer => {
+                if let Sharing::Adaptive(Some(ledger)) = &mut self.sharing {
+                    ledger.look(now, &self.placed, actions);
+                    actions.push(Action::SetTimer(ledger.next_look(now)));
+                }
             }
             other => unreachable!("a parent is never handed {other:?}"),
         }
     }
 
+    /// Answers what is not results.
+    fn answer(&mut self, now: Time, node: NodeId, message: Message, actions: &mut Vec<Action>) {
+        match (&mut self.sharing, message) {
+            (Sharing::Farm(parts), Message::Request) => {
+                let message = Message::Part(parts.next(node));
+                actions.push(Action::Send { to: Party::Node(node), message });
+            }
+            (Sharing::Adaptive(Some(ledger)), Message::Request) => ledger.ask_in(node, actions),
+            // Without a ledger what it had is lost; it may help all the same.
+            (Sharing::Adaptive(None), Message::Request) => hand_out_to(node, 0..0, actions),
+            (Sharing::Adaptive(Some(ledger)), Message::Beat { holds, idle, sent }) => {
+                ledger.beat(now, (node, sent), (&holds, idle), &self.placed, actions);
+            }
+            (Sharing::Adaptive(Some(ledger)), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
+            (Sharing::Adaptive(None), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
+            (_, other) => unreachable!("node {node} sends {other:?} to a parent that has no use for it"),
+        }
+    }
+
+    /// Of an atom that was traced more than once the first result counts.
     fn place(&mut self, atom: Atom) {
         let placed = &mut self.placed[atom as usize];
-        assert!(!*placed, "atom {atom} was traced twice");
-        *placed = true;
-        self.missing -= 1;
+        let again = std::mem::replace(placed, true);
+        assert!(!again || matches!(self.sharing, Sharing::Adaptive(_)), "atom {atom} was traced twice");
+        self.missing -= u32::from(!again);
     }
 
     fn shut_down(&self, actions: &mut Vec<Action>) {
@@ -103,8 +144,11 @@ impl Parent {
 
 /// Gives each node its first share, and the scene with it.
 fn hand_out(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
-    let to_node = |(node, band)| Action::Send { to: Party::Node(node), message: Message::Band(band) };
-    actions.extend((0..).zip(bands).map(to_node));
+    (0..).zip(bands).for_each(|(node, band)| hand_out_to(node, band, actions));
+}
+
+fn hand_out_to(node: NodeId, band: Range<Atom>, actions: &mut Vec<Action>) {
+    actions.push(Action::Send { to: Party::Node(node), message: Message::Band(band) });
 }
 
 #[cfg(test)]

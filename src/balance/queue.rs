@@ -34,6 +34,24 @@ impl Queue {
         atom
     }
 
+    /// The ranges, in their order.
+    pub fn ranges(&self) -> impl Iterator<Item = &Range<Atom>> {
+        self.ranges.iter()
+    }
+
+    /// Takes out those of these atoms that are there.
+    pub fn remove(&mut self, atoms: &Range<Atom>) {
+        if atoms.is_empty() {
+            return;
+        }
+        let apart = |range: &Range<Atom>| {
+            let before = range.start..range.end.min(atoms.start);
+            let after = range.start.max(atoms.end)..range.end;
+            [before, after].into_iter().filter(|rest| rest.start < rest.end)
+        };
+        self.ranges = self.ranges.iter().flat_map(apart).collect();
+    }
+
     /// Takes the last `count` atoms, or all if there are fewer; they keep their order.
     pub fn split_off(&mut self, mut count: u32) -> Vec<Range<Atom>> {
         let mut taken = VecDeque::new();
@@ -72,6 +90,20 @@ mod tests {
             prop_assert_eq!(taken.len(), all.len().min(count as usize));
             let kept: Vec<Atom> = std::iter::from_fn(|| queue.pop()).collect();
             prop_assert_eq!([kept, taken].concat(), all);
+        }
+
+        #[test]
+        fn removing_takes_out_those_atoms_and_no_others(
+            ranges in prop::collection::vec((0u32..100, 0u32..20).prop_map(|(start, len)| start..start + len), 0..6),
+            (start, len) in (0u32..100, 0u32..40),
+        ) {
+            let mut queue = Queue::default();
+            ranges.iter().for_each(|range| queue.push(range.clone()));
+            queue.remove(&(start..start + len));
+            let kept: Vec<Atom> = std::iter::from_fn(|| queue.pop()).collect();
+            let expected: Vec<Atom> =
+                ranges.into_iter().flatten().filter(|atom| !(start..start + len).contains(atom)).collect();
+            prop_assert_eq!(kept, expected);
         }
     }
 }

@@ -7,8 +7,9 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::message::{Action, Event, NodeId};
-use super::work::Work;
-use super::{farm, ring, solo};
+use super::remedy::Remedies;
+use super::work::{PIPE, Work};
+use super::{adaptive, farm, ring, solo};
 use crate::picture::Division;
 use crate::time::Time;
 
@@ -28,7 +29,12 @@ pub enum Strategy {
     FarmBySpeed,
     /// The article's ring (§7).
     Ring,
+    /// The ring as one would build it today: what [`Remedies`] says.
+    Adaptive,
 }
+
+/// After so many beats whoever is silent counts as gone, and what nobody vouches for as lost.
+pub(super) const LEASE: u32 = 4;
 
 /// The rules by which a run's atoms are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,12 +46,29 @@ pub struct Rules {
     /// How long a traced atom waits at most for others to travel to the parent with; `None`: until its node has no atoms
     /// left, as in the article (§7).
     pub batch: Option<Duration>,
+    /// How often a node tells the parent what it has, in the ring that adapts.
+    #[serde(default = "usual_beat")]
+    pub beat: Duration,
+    /// What the ring that adapts does otherwise than the article's.
+    #[serde(default)]
+    pub remedies: Remedies,
+}
+
+fn usual_beat() -> Duration {
+    Rules::BEAT
 }
 
 impl Strategy {
     /// Every strategy, in the order in which they are named to the user.
-    pub const ALL: [Self; 6] =
-        [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring];
+    pub const ALL: [Self; 7] = [
+        Self::Serial,
+        Self::Static,
+        Self::StaticEstimate,
+        Self::Farm,
+        Self::FarmBySpeed,
+        Self::Ring,
+        Self::Adaptive,
+    ];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -56,12 +79,18 @@ impl Strategy {
             Self::Farm => "farm",
             Self::FarmBySpeed => "farm-by-speed",
             Self::Ring => "ring",
+            Self::Adaptive => "adaptive",
         }
     }
 
     /// Whether the parent is asked for parts of the picture.
     pub fn is_farm(self) -> bool {
         matches!(self, Self::Farm | Self::FarmBySpeed)
+    }
+
+    /// Whether nodes that are done offer help round a ring.
+    pub fn is_ring(self) -> bool {
+        matches!(self, Self::Ring | Self::Adaptive)
     }
 
     /// What [`Rules::part`] is unless somebody wants otherwise: 1 in a ring; in a farm what makes about 16 parts a node.
@@ -75,6 +104,8 @@ impl Strategy {
 impl Rules {
     /// How long a traced atom usually waits. *Ours:* in small batches the picture fills in while one watches.
     pub const BATCH: Duration = Duration::from_millis(15);
+    /// How often a node usually tells the parent what it has.
+    pub const BEAT: Duration = Duration::from_millis(60);
 
     /// How long a traced atom waits for others, where somebody looks on. A parent that takes so long for a message is sent
     /// fewer of them: all nodes' results take at most half of its time.
@@ -82,9 +113,16 @@ impl Rules {
         Self::BATCH.max(handling * 2 * nodes as u32)
     }
 
+    /// How often a node tells the parent what it has. A parent that takes so long for a message, or has many nodes, hears of
+    /// each less often: all of them take at most an eighth of its time, and half a millisecond is between two.
+    pub fn beat_for(handling: Duration, nodes: usize) -> Duration {
+        Self::BEAT.max((handling * 8).max(Duration::from_micros(500)) * nodes as u32)
+    }
+
     /// The rules of a strategy, unless somebody wants otherwise.
     pub fn usual(strategy: Strategy, division: Division, nodes: usize) -> Self {
-        Self { strategy, part: strategy.usual_part(division, nodes), batch: Some(Self::BATCH) }
+        let (part, beat) = (strategy.usual_part(division, nodes), Self::beat_for(Duration::ZERO, nodes));
+        Self { strategy, part, batch: Some(Self::BATCH), beat, remedies: Remedies::ALL }
     }
 }
 
@@ -116,16 +154,18 @@ enum Role {
     Solo(solo::Node),
     Farm(farm::Node),
     Ring(ring::Node),
+    Adaptive(Box<adaptive::Node>),
 }
 
 impl Node {
     /// Node `id` of `nodes`.
     pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
-        let work = Work::new(rules.batch);
+        let work = Work::new(rules.batch, PIPE);
         let role = match rules.strategy {
             Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(solo::Node::new(work)),
             Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::Node::new(work)),
             Strategy::Ring => Role::Ring(ring::Node::new(id, nodes, rules.part, work)),
+            Strategy::Adaptive => Role::Adaptive(Box::new(adaptive::Node::new(id, nodes, rules))),
         };
         Self { role }
     }
@@ -136,9 +176,12 @@ impl Node {
     /// If the event is impossible: something that no parent or node of the same run can have sent.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match &mut self.role {
+            // Nobody else expects a machine that begins anew, and it has nothing to say.
+            Role::Solo(_) | Role::Farm(_) | Role::Ring(_) if event == Event::Started => {}
             Role::Solo(node) => node.handle(now, event, actions),
             Role::Farm(node) => node.handle(now, event, actions),
             Role::Ring(node) => node.handle(now, event, actions),
+            Role::Adaptive(node) => node.handle(now, event, actions),
         }
     }
 }

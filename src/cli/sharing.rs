@@ -68,6 +68,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     }
     let mut rules = Rules::usual(strategy, division, speeds.len());
     rules.part = args.part.unwrap_or(rules.part);
+    rules.beat = Rules::beat_for(args.handling, speeds.len());
     let cores = if driver == Driver::Sim { speeds.len() } else { cores() };
     let pace = match args.pace {
         Pace::Of(pace) => pace,

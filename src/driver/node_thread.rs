@@ -69,7 +69,7 @@ impl Handler {
                 Action::SetTimer(at) => port.set_timer(at),
                 Action::Retire => _ = port.record(What::Retired { node: self.id }),
                 Action::Finish => self.finished = true,
-                Action::Estimate => unreachable!("only the parent estimates"),
+                Action::Estimate | Action::Fail(_) => unreachable!("only the parent asks for {action:?}"),
             }
         }
         self.actions = actions;

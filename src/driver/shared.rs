@@ -138,7 +138,8 @@ impl Shared {
     pub fn command(&self, command: Command) {
         match command {
             Command::Latency(latency) => self.set_latency(latency),
-            Command::Speed { node, .. } | Command::Pause { node, .. } => {
+            Command::Link { .. } => {}
+            Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
                 if usize::from(node) < self.nodes {
                     self.deliver(self.worker(node), self.clock.now(), Content::Command(command));
                 }

@@ -194,6 +194,7 @@ impl Worker {
                 self.machine.set_paused(paused, at);
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
+            Command::Condition { .. } | Command::Link { .. } => return,
             Command::Latency(_) => unreachable!("the parent notes down the latency"),
         };
         self.port.record(what);

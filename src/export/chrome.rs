@@ -168,6 +168,12 @@ fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travell
             Message::Request => (OFFERS, "request"),
             Message::Shutdown => (OFFERS, "shutdown"),
             Message::Results(_) => (RESULTS, "results"),
+            Message::Again(_) => (ATOMS, "again"),
+            Message::Wake => (OFFERS, "wake"),
+            Message::Beat { .. } => (RESULTS, "beat"),
+            Message::Gone(_) => (RESULTS, "gone"),
+            Message::Placed(_) => (RESULTS, "placed"),
+            Message::Failed(_) => (RESULTS, "failed"),
         };
         let tracks = taken.entry(process).or_default();
         let track = tracks.iter().position(|until| *until <= record.at).unwrap_or(tracks.len());

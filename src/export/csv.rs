@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
@@ -109,6 +109,22 @@ fn row(record: &Record) -> Row {
         What::Estimated { costs } => {
             Row { what: "estimated", cost_s: Some(seconds(costs.iter().sum())), ..Row::default() }
         }
+        What::Condition { node, condition } => {
+            let what = match condition {
+                Condition::Well => "well",
+                Condition::Hung => "hung",
+                Condition::CutOff => "cut off",
+                Condition::Off => "off",
+            };
+            of(what, *node)
+        }
+        What::Link { one, other, cut } => {
+            let what = if *cut { "link cut" } else { "link mended" };
+            Row { what, from: Some(name(*one)), to: Some(name(*other)), ..Row::default() }
+        }
+        What::Lost { id } => Row { what: "lost", message: Some(*id), ..Row::default() },
+        What::AtomFailed { node, atom } => Row { atoms: Some(atom.to_string()), count: Some(1), ..of("failed", *node) },
+        What::GivenUp { atom } => Row { what: "given up", atoms: Some(atom.to_string()), ..Row::default() },
         What::Finished => Row { what: "finished", ..Row::default() },
     };
     Row { time_s: at(record.at), ..row }
@@ -124,8 +140,18 @@ fn sent(from: Party, message: &Message) -> Row {
         Message::Transfer(_) => carried("transfer"),
         Message::Results(_) => carried("results"),
         Message::Request => Row { what: "request", ..Row::default() },
+        Message::Again(_) => carried("again"),
+        Message::Wake => Row { what: "wake", ..Row::default() },
+        Message::Beat { holds, .. } => {
+            Row { what: "beat", atoms: Some(atoms(holds)), count: Some(atoms_in(holds)), ..Row::default() }
+        }
+        Message::Gone(nodes) => Row { what: "gone", count: Some(nodes.len() as u32), ..Row::default() },
+        Message::Placed(placed) => {
+            Row { what: "placed", atoms: Some(atoms(placed)), count: Some(atoms_in(placed)), ..Row::default() }
+        }
+        Message::Failed(atom) => Row { what: "failed", atoms: Some(atom.to_string()), ..Row::default() },
         Message::Shutdown => Row { what: "shutdown", ..Row::default() },
-        Message::Offer { who, done } => {
+        Message::Offer { who, done, .. } => {
             let what = if from == Party::Node(*who) { "offer" } else { "hop" };
             Row { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..Row::default() }
         }

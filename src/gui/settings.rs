@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::preset::Preset;
 use super::tempo::Tempo;
-use crate::balance::{Rules, Strategy};
+use crate::balance::{Remedies, Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::language::{say, word};
 use crate::picture::{Division, Quality, Size};
@@ -176,6 +176,8 @@ impl Settings {
                 strategy: self.strategy,
                 part: self.part,
                 batch: Some(Rules::batch_for(handling, self.speeds.len())),
+                beat: Rules::beat_for(handling, self.speeds.len()),
+                remedies: Remedies::ALL,
             },
             speeds: self.speeds.clone(),
             pace: self.pace(work, cores),

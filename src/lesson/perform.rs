@@ -88,6 +88,7 @@ impl Plan {
             rules: Rules {
                 part: self.part.unwrap_or(plain.rules.part),
                 batch: Some(Rules::batch_for(self.handling, self.speeds.len())),
+                beat: Rules::beat_for(self.handling, self.speeds.len()),
                 ..plain.rules
             },
             pace: pace.clamp(1e-9, 1.0),

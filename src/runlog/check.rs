@@ -76,32 +76,52 @@ impl<'a> Checker<'a> {
                 node(header, *id)
             }
             What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
+            What::Condition { node: id, .. } => node(header, *id),
+            What::Link { one, other, .. } => {
+                party(header, *one)?;
+                party(header, *other)
+            }
+            What::AtomFailed { node: id, atom } => {
+                self.atom(*atom)?;
+                node(header, *id)
+            }
+            What::GivenUp { atom } => self.atom(*atom),
             What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
             What::Estimated { costs } => {
                 let stretches = estimate::samples(header.division).len();
                 ensure(costs.len() == stretches, "the sample is not of this picture")?;
                 costs.iter().try_for_each(possible_cost)
             }
-            What::Estimating | What::Finished => Ok(()),
+            What::Estimating | What::Lost { .. } | What::Finished => Ok(()),
         }
     }
 
     fn message(&mut self, message: &Message) -> Result<(), String> {
         match message {
             Message::Band(range) | Message::Part(range) => self.atoms(range),
-            Message::Transfer(ranges) | Message::Results(ranges) => {
+            Message::Transfer(ranges) | Message::Results(ranges) | Message::Again(ranges) => {
                 ranges.iter().try_for_each(|range| self.atoms(range))
             }
+            Message::Beat { holds: ranges, .. } | Message::Placed(ranges) => {
+                ranges.iter().try_for_each(|range| self.range(range))
+            }
+            Message::Gone(nodes) => nodes.iter().try_for_each(|id| node(self.header, *id)),
+            Message::Failed(atom) => self.atom(*atom),
             Message::Offer { who, .. } => node(self.header, *who),
-            Message::Request | Message::Shutdown => Ok(()),
+            Message::Request | Message::Wake | Message::Shutdown => Ok(()),
         }
     }
 
     fn atoms(&mut self, range: &Range<Atom>) -> Result<(), String> {
         let division = self.header.division;
-        ensure(range.start <= range.end && range.end <= division.atoms(), "there are no such atoms")?;
+        self.range(range)?;
         self.sent += u64::from(division.pixels_in(range));
         ensure(self.sent <= MOST_SENT, "by now more atoms have been sent than a run can send")
+    }
+
+    fn range(&self, range: &Range<Atom>) -> Result<(), String> {
+        let atoms = self.header.division.atoms();
+        ensure(range.start <= range.end && range.end <= atoms, "there are no such atoms")
     }
 
     fn atom(&self, atom: Atom) -> Result<(), String> {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{Header, RunLog};
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -19,6 +19,9 @@ pub struct Tally {
     start: Option<Time>,
     finished: Option<Time>,
     work: Duration,
+    /// By atom: whether it was traced.
+    traced: Vec<bool>,
+    twice: Duration,
     /// By node: how many atoms it has traced, and when the last.
     nodes: Vec<(u32, Time)>,
     changes: Vec<(Time, NodeId, Change)>,
@@ -42,6 +45,14 @@ pub struct Messages {
     pub atoms_moved: u64,
     /// Batches of results.
     pub results: u64,
+    /// What nodes told the parent of what they had.
+    pub beats: u64,
+    /// Those that sleep, woken.
+    pub wakes: u64,
+    /// Atoms sent to be traced once more.
+    pub agains: u64,
+    /// Atoms in those.
+    pub atoms_again: u64,
     /// Messages of every kind.
     pub total: u64,
     /// Their weight ([`Message::bytes`]).
@@ -52,6 +63,7 @@ pub struct Messages {
 enum Change {
     Speed(f64),
     Paused(bool),
+    Condition(Condition),
 }
 
 impl Tally {
@@ -64,6 +76,8 @@ impl Tally {
             start: None,
             finished: None,
             work: Duration::ZERO,
+            traced: vec![false; header.division.atoms() as usize],
+            twice: Duration::ZERO,
             nodes: vec![(0, Time::ZERO); header.speeds.len()],
             changes: Vec::new(),
             messages: Messages::default(),
@@ -88,8 +102,11 @@ impl Tally {
                 self.messages.add(*from, message, *bytes);
             }
             What::Estimating => _ = self.start.get_or_insert(at),
-            What::AtomDone { node, cost, .. } => {
-                self.work += *cost;
+            What::AtomDone { node, atom, cost } => {
+                match self.traced.get_mut(*atom as usize) {
+                    Some(traced) if !*traced => (*traced, self.work) = (true, self.work + *cost),
+                    _ => self.twice += *cost,
+                }
                 if let Some((atoms, end)) = self.nodes.get_mut(usize::from(*node)) {
                     (*atoms, *end) = (*atoms + 1, at);
                 }
@@ -97,11 +114,16 @@ impl Tally {
             What::SpeedSet { node, speed } => self.changes.push((at, *node, Change::Speed(*speed))),
             What::Paused { node } => self.changes.push((at, *node, Change::Paused(true))),
             What::Resumed { node } => self.changes.push((at, *node, Change::Paused(false))),
+            What::Condition { node, condition } => self.changes.push((at, *node, Change::Condition(*condition))),
             What::Finished => self.finished = Some(at),
             What::Received { .. }
             | What::Estimated { .. }
             | What::AtomStarted { .. }
             | What::LatencySet { .. }
+            | What::Link { .. }
+            | What::Lost { .. }
+            | What::AtomFailed { .. }
+            | What::GivenUp { .. }
             | What::Retired { .. } => {}
         }
     }
@@ -112,18 +134,25 @@ impl Tally {
         Some(self.finished?.since(self.start?))
     }
 
-    /// Σ of the atoms' costs: CPU time of this computer in the tracer.
+    /// Σ of the atoms' costs, each counted once: CPU time of this computer in the tracer.
     pub fn work(&self) -> Duration {
         self.work
     }
 
+    /// What atoms cost that had been traced already: only the ring that adapts, and losses, make any.
+    pub fn twice(&self) -> Duration {
+        self.twice
+    }
+
     /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
     /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Tally::work`].
-    /// Speeds that change count from then on, and a paused machine does nothing. `None` if the machines stand still before
+    /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is cut
+    /// off has done reaches nobody. `None` if the machines stand still before
     /// the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
-        let mut machines: Vec<_> = self.speeds.iter().map(|&speed| Machine { speed, paused: false }).collect();
+        let machine = |&speed| Machine { speed, paused: false, condition: Condition::Well };
+        let mut machines: Vec<_> = self.speeds.iter().map(machine).collect();
         let mut left = self.work.as_secs_f64();
         let mut since = start;
         for &(at, node, change) in &self.changes {
@@ -138,6 +167,7 @@ impl Tally {
                 match change {
                     Change::Speed(speed) => machine.speed = speed,
                     Change::Paused(paused) => machine.paused = paused,
+                    Change::Condition(condition) => machine.condition = condition,
                 }
             }
         }
@@ -182,7 +212,7 @@ impl Tally {
 
     /// CPU seconds of this computer that all machines together do in a second.
     fn rate(&self, machines: &[Machine]) -> f64 {
-        let speeds = machines.iter().map(|machine| if machine.paused { 0.0 } else { machine.speed });
+        let speeds = machines.iter().filter(|machine| machine.works()).map(|machine| machine.speed);
         (speeds.sum::<f64>() * self.pace).min(self.cores as f64)
     }
 }
@@ -201,7 +231,13 @@ impl Messages {
             Message::Results(_) => self.results += 1,
             Message::Request => self.requests += 1,
             Message::Part(_) => self.parts += 1,
-            Message::Band(_) | Message::Shutdown => {}
+            Message::Beat { .. } => self.beats += 1,
+            Message::Wake => self.wakes += 1,
+            Message::Again(ranges) => {
+                self.agains += 1;
+                self.atoms_again += ranges.iter().map(|range| range.len() as u64).sum::<u64>();
+            }
+            Message::Gone(_) | Message::Placed(_) | Message::Failed(_) | Message::Band(_) | Message::Shutdown => {}
         }
     }
 }
@@ -209,6 +245,13 @@ impl Messages {
 struct Machine {
     speed: f64,
     paused: bool,
+    condition: Condition,
+}
+
+impl Machine {
+    fn works(&self) -> bool {
+        !self.paused && self.condition == Condition::Well
+    }
 }
 
 #[cfg(test)]
@@ -341,6 +384,10 @@ mod tests {
             transfers: 1,
             atoms_moved: 4,
             results: 1,
+            beats: 0,
+            wakes: 0,
+            agains: 0,
+            atoms_again: 0,
             total: 10,
             bytes: 100,
         };

@@ -21,8 +21,10 @@ pub(super) enum Happening {
     Estimated(Vec<Duration>),
     /// A worker is done with its atom, unless it has been given another due time since: only the latest plan holds.
     AtomDone { node: NodeId, plan: u32 },
-    /// A node's timer, unless it has been set anew since.
-    Timer(NodeId),
+    /// A party's timer, unless it has been set anew since.
+    Timer(Party),
+    /// A message would have arrived, had it not been lost.
+    Lost(u64),
     /// Something is done to the run.
     Command(Command),
 }

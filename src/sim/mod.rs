@@ -3,6 +3,7 @@
 
 mod event;
 mod link;
+mod losses;
 mod machine;
 mod party;
 mod simulation;

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use super::event::Mail;
 use super::link::Link;
 use super::machine::Machine;
-use crate::balance::{Node, NodeId};
+use crate::balance::{Condition, Node, NodeId, Rules};
 use crate::picture::Atom;
 use crate::runlog::Header;
 use crate::time::Time;
@@ -20,6 +21,11 @@ pub(super) struct Party {
     /// Counts the due times that the first was given.
     pub plan: u32,
     pub timer: Option<Time>,
+    pub condition: Condition,
+    /// What has arrived while the machine hangs.
+    pub mailbox: Vec<Mail>,
+    /// Whether the user has paused the worker; a machine that hangs stands still too.
+    pub paused: bool,
     pub finished: bool,
     /// By the receiver's place: to those that something was ever sent to.
     pub links: BTreeMap<usize, Link>,
@@ -35,8 +41,22 @@ impl Party {
             in_hand: false,
             plan: 0,
             timer: None,
+            condition: Condition::Well,
+            mailbox: Vec::new(),
+            paused: false,
             finished: false,
             links: BTreeMap::new(),
         }
+    }
+
+    /// The machine is switched off: what it had is lost.
+    pub fn lose_all(&mut self, rules: &Rules, id: NodeId, nodes: NodeId, now: Time) {
+        self.node = Node::new(rules, id, nodes);
+        self.machine.finish(now);
+        self.pipe.clear();
+        self.in_hand = false;
+        self.plan = self.plan.wrapping_add(1);
+        self.timer = None;
+        self.mailbox.clear();
     }
 }

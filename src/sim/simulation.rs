@@ -1,13 +1,13 @@
 //! A run in virtual time.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem;
 use std::time::Duration;
 
 use super::event::{Future, Happening, Mail};
 use super::link::{Link, Wire};
 use super::party::Party as Machinery;
-use crate::balance::{Action, Event, Message, NodeId, Parent, Party, estimate};
+use crate::balance::{Action, Condition, Event, Message, NodeId, Parent, Party, Rules, estimate};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
 use crate::runlog::{Header, RunLog};
@@ -16,16 +16,20 @@ use crate::time::Time;
 
 /// A run in virtual time. It happens as far as it is asked to, and tells its records in the order of time.
 pub struct Sim {
-    now: Time,
+    pub(super) now: Time,
     future: Future,
     parent: Parent,
     parent_links: BTreeMap<usize, Link>,
     /// Until when the parent is busy with what has arrived so far.
     parent_busy: Time,
-    finished: bool,
-    nodes: Vec<Machinery>,
+    pub(super) finished: bool,
+    pub(super) nodes: Vec<Machinery>,
     /// What all share, if they do.
     wire: Option<Wire>,
+    /// Links that are cut, the lesser party first.
+    pub(super) cut: BTreeSet<(Party, Party)>,
+    parent_timer: Option<Time>,
+    pub(super) rules: Rules,
     latency: Duration,
     bandwidth: Option<f64>,
     handling: Duration,
@@ -38,13 +42,18 @@ pub struct Sim {
     sent: u64,
     happened: u64,
     actions: Vec<Action>,
+    /// How often an action is carried out, if not once.
+    tamper: Option<Box<Tamper>>,
 }
+
+/// How often an action of a party is carried out.
+type Tamper = dyn FnMut(Party, &Action) -> usize + Send;
 
 /// What an atom costs, in CPU time of the reference machine at full pace.
 type Cost = dyn Fn(Atom) -> Duration + Send;
 
 /// Whoever is told of records.
-type Tell<'a> = &'a mut dyn FnMut(Record);
+pub(super) type Tell<'a> = &'a mut dyn FnMut(Record);
 
 impl Sim {
     /// The run that `header` describes, to which `script` is done; nothing has happened yet.
@@ -67,6 +76,9 @@ impl Sim {
             finished: false,
             nodes: (0..nodes as NodeId).map(|id| Machinery::new(header, id)).collect(),
             wire: header.link.shared.then(Wire::default),
+            cut: BTreeSet::new(),
+            parent_timer: None,
+            rules: header.rules,
             latency: header.link.latency,
             bandwidth: header.link.bandwidth,
             handling: header.handling,
@@ -78,6 +90,7 @@ impl Sim {
             sent: 0,
             happened: 0,
             actions: Vec::new(),
+            tamper: None,
         };
         sim.future.plan(Time::ZERO, Happening::Started);
         sim
@@ -110,6 +123,12 @@ impl Sim {
             _ => None,
         });
         Ok(sim)
+    }
+
+    /// From now on each action of a party is carried out as often as `tamper` says: bugs that are put in on purpose, to see
+    /// whether they are found.
+    pub fn tamper(&mut self, tamper: impl FnMut(Party, &Action) -> usize + Send + 'static) {
+        self.tamper = Some(Box::new(tamper));
     }
 
     /// The time up to which everything has happened.
@@ -161,12 +180,20 @@ impl Sim {
             }
             Command::Pause { node, paused } => {
                 let Some(index) = self.machine(node) else { return };
-                if self.nodes[index].machine.is_paused() == paused {
+                let party = &mut self.nodes[index];
+                if mem::replace(&mut party.paused, paused) == paused {
                     return;
                 }
-                self.nodes[index].machine.set_paused(paused, self.now);
+                party.machine.set_paused(paused || party.condition == Condition::Hung, self.now);
                 self.note(if paused { What::Paused { node } } else { What::Resumed { node } }, tell);
                 self.go_on(node, tell);
+            }
+            Command::Condition { node, condition } => self.put(node, condition, tell),
+            Command::Link { one, other, cut } => {
+                let link = (one.min(other), one.max(other));
+                if !self.finished && if cut { self.cut.insert(link) } else { self.cut.remove(&link) } {
+                    self.note(What::Link { one, other, cut }, tell);
+                }
             }
             Command::Latency(latency) if self.finished || latency == self.latency => {}
             Command::Latency(latency) => {
@@ -177,7 +204,7 @@ impl Sim {
     }
 
     /// The place of a node that has not ended.
-    fn machine(&self, node: NodeId) -> Option<usize> {
+    pub(super) fn machine(&self, node: NodeId) -> Option<usize> {
         let index = usize::from(node);
         self.nodes.get(index).filter(|party| !party.finished).map(|_| index)
     }
@@ -185,6 +212,7 @@ impl Sim {
     fn happen(&mut self, happening: Happening, tell: Tell<'_>) {
         match happening {
             Happening::Started => self.hand_over(Party::Parent, Event::Started, tell),
+            Happening::Lost(id) => self.note(What::Lost { id }, tell),
             Happening::Arrival { to: Party::Parent, mail } if !self.handling.is_zero() => {
                 self.parent_busy = self.parent_busy.max(self.now) + self.handling;
                 self.future.plan(self.parent_busy, Happening::Handled(mail));
@@ -195,10 +223,11 @@ impl Sim {
                 self.note(What::Estimated { costs: costs.clone() }, tell);
                 self.hand_over(Party::Parent, Event::Estimated(costs), tell);
             }
-            Happening::Timer(node) => {
+            Happening::Timer(Party::Node(node)) => self.timer(node, tell),
+            Happening::Timer(Party::Parent) => {
                 let now = self.now;
-                if self.nodes[usize::from(node)].timer.take_if(|at| *at <= now).is_some() {
-                    self.hand_over(Party::Node(node), Event::Timer, tell);
+                if self.parent_timer.take_if(|at| *at <= now).is_some() {
+                    self.hand_over(Party::Parent, Event::Timer, tell);
                 }
             }
             Happening::AtomDone { node, plan } => self.atom_done(node, plan, tell),
@@ -206,8 +235,26 @@ impl Sim {
         }
     }
 
+    /// A node's timer, unless it has been set anew since; who hangs looks at it later.
+    pub(super) fn timer(&mut self, node: NodeId, tell: Tell<'_>) {
+        let now = self.now;
+        let party = &mut self.nodes[usize::from(node)];
+        if party.condition != Condition::Hung && party.timer.take_if(|at| *at <= now).is_some() {
+            self.hand_over(Party::Node(node), Event::Timer, tell);
+        }
+    }
+
     /// Who has ended no longer listens.
-    fn receive(&mut self, to: Party, Mail { id, from, message }: Mail, tell: Tell<'_>) {
+    pub(super) fn receive(&mut self, to: Party, mail: Mail, tell: Tell<'_>) {
+        if let Party::Node(node) = to {
+            let party = &mut self.nodes[usize::from(node)];
+            match party.condition {
+                Condition::Off => return self.note(What::Lost { id: mail.id }, tell),
+                Condition::Hung if !party.finished => return party.mailbox.push(mail),
+                _ => {}
+            }
+        }
+        let Mail { id, from, message } = mail;
         if !self.has_ended(to) {
             self.note(What::Received { id, by: to }, tell);
             self.hand_over(to, Event::Message { from, message }, tell);
@@ -236,7 +283,7 @@ impl Sim {
     }
 
     /// Hands a party that has not ended an event, and does what it asks for.
-    fn hand_over(&mut self, to: Party, event: Event, tell: Tell<'_>) {
+    pub(super) fn hand_over(&mut self, to: Party, event: Event, tell: Tell<'_>) {
         if self.has_ended(to) {
             return;
         }
@@ -245,7 +292,11 @@ impl Sim {
             Party::Parent => self.parent.handle(self.now, event, &mut actions),
             Party::Node(node) => self.nodes[usize::from(node)].node.handle(self.now, event, &mut actions),
         }
-        actions.drain(..).for_each(|action| self.carry_out(to, action, tell));
+        for action in actions.drain(..) {
+            for _ in 0..self.tamper.as_mut().map_or(1, |tamper| tamper(to, &action)) {
+                self.carry_out(to, action.clone(), tell);
+            }
+        }
         self.actions = actions;
     }
 
@@ -259,16 +310,23 @@ impl Sim {
                     self.go_on(node, tell);
                 }
             }
-            (Party::Node(node), Action::SetTimer(at)) => {
-                self.nodes[usize::from(node)].timer = Some(at);
-                self.future.plan(at, Happening::Timer(node));
+            (party, Action::SetTimer(at)) => {
+                match party {
+                    Party::Parent => self.parent_timer = Some(at),
+                    Party::Node(node) => self.nodes[usize::from(node)].timer = Some(at),
+                }
+                self.future.plan(at, Happening::Timer(party));
             }
             (Party::Node(node), Action::Retire) => self.note(What::Retired { node }, tell),
             (Party::Node(node), Action::Finish) => self.nodes[usize::from(node)].finished = true,
             (Party::Parent, Action::Estimate) => self.estimate(tell),
             (Party::Parent, Action::Finish) => {
                 self.note(What::Finished, tell);
-                self.finished = true;
+                self.end();
+            }
+            (Party::Parent, Action::Fail(atom)) => {
+                self.note(What::GivenUp { atom }, tell);
+                self.end();
             }
             (party, other) => unreachable!("{party:?} never asks for {other:?}"),
         }
@@ -286,7 +344,9 @@ impl Sim {
         let id = self.sent;
         self.sent += 1;
         self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
-        self.future.plan(arrives, Happening::Arrival { to, mail: Mail { id, from, message } });
+        let cut = from != to && self.is_cut(from, to);
+        let arrival = Happening::Arrival { to, mail: Mail { id, from, message } };
+        self.future.plan(arrives, if cut { Happening::Lost(id) } else { arrival });
     }
 
     /// The parent samples the picture as fast as the reference machine would; if it was not measured, a pixel costs what is
@@ -306,7 +366,7 @@ impl Sim {
     }
 
     /// The worker begins the next atom, unless it has one in hand, stands still, or has none; its speed is a new one.
-    fn go_on(&mut self, node: NodeId, tell: Tell<'_>) {
+    pub(super) fn go_on(&mut self, node: NodeId, tell: Tell<'_>) {
         let party = &mut self.nodes[usize::from(node)];
         if let Some(&atom) = party.pipe.front()
             && !party.in_hand
@@ -325,7 +385,7 @@ impl Sim {
         }
     }
 
-    fn note(&self, what: What, tell: Tell<'_>) {
+    pub(super) fn note(&self, what: What, tell: Tell<'_>) {
         tell(Record { at: self.now, what });
     }
 }

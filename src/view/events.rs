@@ -74,7 +74,7 @@ impl Events {
                     self.tell(at, Event::Bands, sentences::bands(state, band));
                 }
             }
-            What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
+            What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if from == who => {
                 // Later offers are told by what comes of them.
                 if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
                     let whole = node.given.atoms == 0;
@@ -135,6 +135,11 @@ impl Events {
             }
             What::Finished => self.tell(at, Event::End, sentences::complete().into()),
             What::Sent { .. }
+            | What::Condition { .. }
+            | What::Link { .. }
+            | What::Lost { .. }
+            | What::AtomFailed { .. }
+            | What::GivenUp { .. }
             | What::Received { .. }
             | What::AtomStarted { .. }
             | What::AtomDone { .. }

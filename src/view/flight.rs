@@ -50,6 +50,14 @@ pub enum Cargo {
     Transfer(Vec<Range<Atom>>),
     /// Traced atoms for the parent.
     Results(Vec<Range<Atom>>),
+    /// Atoms to be traced once more.
+    Again(Vec<Range<Atom>>),
+    /// A sleeping node is woken.
+    Wake,
+    /// What a node tells the parent of what it has.
+    Beat,
+    /// What the parent is told or tells of losses.
+    Notice,
     /// The end.
     Shutdown,
 }
@@ -64,6 +72,10 @@ impl Flight {
             Message::Part(part) => Cargo::Part(part.clone()),
             Message::Transfer(ranges) => Cargo::Transfer(ranges.clone()),
             Message::Results(ranges) => Cargo::Results(ranges.clone()),
+            Message::Again(ranges) => Cargo::Again(ranges.clone()),
+            Message::Wake => Cargo::Wake,
+            Message::Beat { .. } => Cargo::Beat,
+            Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
             Message::Shutdown => Cargo::Shutdown,
         };
         Self { id, from, to, cargo, sent, arrives, rate: 1.0 }
@@ -113,8 +125,8 @@ impl Cargo {
     pub fn ranges(&self) -> &[Range<Atom>] {
         match self {
             Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
-            Self::Transfer(ranges) | Self::Results(ranges) => ranges,
-            Self::Offer { .. } | Self::Request | Self::Shutdown => &[],
+            Self::Transfer(ranges) | Self::Results(ranges) | Self::Again(ranges) => ranges,
+            Self::Offer { .. } | Self::Request | Self::Wake | Self::Beat | Self::Notice | Self::Shutdown => &[],
         }
     }
 
@@ -128,13 +140,13 @@ impl Cargo {
     pub const fn shortest(&self) -> Duration {
         match self {
             Self::Band(_) => Duration::from_millis(900),
-            Self::Transfer(_) => Duration::from_millis(1000),
+            Self::Transfer(_) | Self::Again(_) => Duration::from_millis(1000),
             Self::Results(_) => Duration::from_millis(500),
             // There may be many, and whoever asks waits: they are hardly stretched.
             Self::Part(atoms) if atoms.start == atoms.end => Duration::from_millis(900),
             Self::Part(_) => Duration::from_millis(400),
-            Self::Request => Duration::from_millis(250),
-            Self::Offer { .. } | Self::Shutdown => Duration::ZERO,
+            Self::Request | Self::Wake => Duration::from_millis(250),
+            Self::Offer { .. } | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
         }
     }
 
@@ -142,8 +154,8 @@ impl Cargo {
     const fn fade(&self) -> Duration {
         match self {
             Self::Offer { .. } => Duration::from_millis(700),
-            Self::Band(_) | Self::Part(_) | Self::Transfer(_) => Duration::from_millis(300),
-            Self::Results(_) | Self::Request | Self::Shutdown => Duration::ZERO,
+            Self::Band(_) | Self::Part(_) | Self::Transfer(_) | Self::Again(_) | Self::Wake => Duration::from_millis(300),
+            Self::Results(_) | Self::Request | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
         }
     }
 }

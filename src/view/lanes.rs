@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::flight::{Cargo, Flight};
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::Atom;
 use crate::record::{Record, What};
 use crate::runlog::{Header, RunLog};
@@ -114,6 +114,13 @@ impl Lanes {
             What::Sent { id, from, to, message, bytes, arrives } => {
                 self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), message, *bytes);
             }
+            What::Condition { node, condition } => {
+                let stands = matches!(condition, Condition::Hung | Condition::Off);
+                if let Some(lane) = self.lane(*node) {
+                    lane.stands(at, stands);
+                }
+            }
+            What::Link { .. } | What::Lost { .. } | What::AtomFailed { .. } | What::GivenUp { .. } => {}
             What::Received { .. } | What::Estimating | What::Estimated { .. } | What::LatencySet { .. } => {}
             What::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
@@ -193,11 +200,11 @@ impl Lanes {
         let Flight { id, from, to, sent, arrives, .. } = flight;
         let atoms = flight.cargo.atoms();
         let load = match &flight.cargo {
-            Cargo::Offer { .. } => Load::Offer,
+            Cargo::Offer { .. } | Cargo::Wake => Load::Offer,
             Cargo::Request => Load::Request,
             Cargo::Part(part) if part.is_empty() => Load::Request,
-            Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) => Load::Atoms,
-            Cargo::Results(_) => Load::Results,
+            Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_) => Load::Atoms,
+            Cargo::Results(_) | Cargo::Beat | Cargo::Notice => Load::Results,
             Cargo::Shutdown => Load::Shutdown,
         };
         if let Party::Node(node) = from {

@@ -128,7 +128,7 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             let atoms = atoms_in(ranges);
             ((3, atoms.checked_ilog2().unwrap_or(0)), sentences::transfer(state, *from, *to, atoms))
         }
-        What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if from == who => {
+        What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if from == who => {
             ((1, 0), sentences::offer(*who, false, *done))
         }
         What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),

@@ -15,13 +15,14 @@ pub enum Sharing {
 
 impl Sharing {
     /// All of them, in the order in which they are offered: from no sharing to the article's, and what came after it.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::By(Strategy::Serial),
         Self::By(Strategy::Static),
         Self::By(Strategy::StaticEstimate),
         Self::By(Strategy::Farm),
         Self::By(Strategy::FarmBySpeed),
         Self::By(Strategy::Ring),
+        Self::By(Strategy::Adaptive),
         Self::Stealing,
     ];
 
@@ -39,6 +40,7 @@ impl Sharing {
             Self::By(Strategy::Farm) => word!("Farm", "Dinâmica"),
             Self::By(Strategy::FarmBySpeed) => word!("Farm by speed", "Dinâmica por velocidade"),
             Self::By(Strategy::Ring) => word!("Ring", "Anel"),
+            Self::By(Strategy::Adaptive) => word!("Adaptive ring", "Anel adaptativo"),
             Self::Stealing => word!("Work stealing (rayon)", "Roubo de trabalho (rayon)"),
         }
     }
@@ -68,6 +70,9 @@ impl Sharing {
             Self::By(Strategy::Ring) => {
                 word!("Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
             }
+            Self::By(Strategy::Adaptive) => {
+                word!("A ring that wakes helpers and survives losses", "Um anel que acorda quem ajuda e sobrevive a perdas")
+            }
             Self::Stealing => word!("Threads take atoms from each other", "As threads tomam átomos umas das outras"),
         }
     }
@@ -85,6 +90,7 @@ impl Sharing {
                 word!("machines in a farm", "máquinas que pedem ao pai")
             }
             Self::By(Strategy::Ring) => word!("machines in a ring", "máquinas em anel"),
+            Self::By(Strategy::Adaptive) => word!("machines in an adaptive ring", "máquinas em anel adaptativo"),
             Self::Stealing => word!("threads of rayon", "threads do rayon"),
         };
         format!("{machines} {are}")
@@ -92,7 +98,7 @@ impl Sharing {
 
     /// Whether whoever is done offers help round the ring.
     pub(super) fn is_ring(self) -> bool {
-        self == Self::By(Strategy::Ring)
+        matches!(self, Self::By(strategy) if strategy.is_ring())
     }
 
     /// Whether whoever is done asks the parent for more.

@@ -98,7 +98,7 @@ impl RunState {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
                 }
-                if let (Party::Node(from), Message::Offer { who, done }) = (from, message)
+                if let (Party::Node(from), Message::Offer { who, done, .. }) = (from, message)
                     && from == who
                     && let Some(node) = self.node(*from)
                 {
@@ -131,6 +131,8 @@ impl RunState {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
+            What::Condition { .. } | What::Link { .. } | What::Lost { .. } => {}
+            What::AtomFailed { .. } | What::GivenUp { .. } => {}
             What::Estimating => self.is_estimating = true,
             What::Estimated { .. } => self.is_estimating = false,
             What::Finished => self.finished = Some(at),

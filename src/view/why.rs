@@ -7,7 +7,7 @@ use super::sharing::Sharing;
 use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, count, duration, node_name};
-use crate::balance::{NodeId, Party};
+use crate::balance::{Condition, NodeId, Party};
 use crate::language::{say, word};
 use crate::record::{Record, What};
 
@@ -48,6 +48,36 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
         What::Paused { node } => sentences::paused(state, *node),
         What::Resumed { node } => sentences::resumed(state, *node),
         What::LatencySet { latency } => sentences::latency(state, *latency),
+        What::Condition { node, condition } => {
+            let name = node_name(*node);
+            match condition {
+                Condition::Well => say!("{name} is well again", "{name} voltou"),
+                Condition::Hung => say!("{name} hangs", "{name} travou"),
+                Condition::CutOff => say!("{name} is cut off", "{name} ficou isolada"),
+                Condition::Off => say!("{name} is switched off", "{name} foi desligada"),
+            }
+        }
+        What::Link { one, other, cut } => {
+            let name = |party: &Party| match party {
+                Party::Parent => word!("the parent", "o pai").into(),
+                Party::Node(node) => node_name(*node).to_string(),
+            };
+            let (one, other) = (name(one), name(other));
+            if *cut {
+                say!("The link between {one} and {other} is cut", "A ligação entre {one} e {other} foi cortada")
+            } else {
+                say!("The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
+            }
+        }
+        What::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
+        What::AtomFailed { node, atom } => {
+            let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
+            say!("{name} fails to trace atom {atom}", "{name} não consegue calcular o átomo {atom}")
+        }
+        What::GivenUp { atom } => {
+            let atom = count(atom.saturating_add(1));
+            say!("Atom {atom} cannot be traced: the run has failed", "O átomo {atom} não pode ser calculado: a execução falhou")
+        }
         What::Retired { node } => sentences::retired(state, &[*node]),
         What::Finished => sentences::complete().into(),
     }

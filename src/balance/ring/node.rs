@@ -81,12 +81,12 @@ impl Node {
                 self.state = State::Busy;
                 self.work.add(ranges, actions);
             }
-            Message::Offer { who, done } if who == self.id => {
+            Message::Offer { who, done, .. } if who == self.id => {
                 assert!(matches!(self.state, State::Offering), "node {}'s offer of {done} came back twice", self.id);
                 self.state = State::Retired;
                 actions.push(Action::Retire);
             }
-            Message::Offer { who, done } => {
+            Message::Offer { who, done, .. } => {
                 let offer = Offer { who, done };
                 match &mut self.state {
                     State::Waiting { early } => early.push(offer),
@@ -115,6 +115,6 @@ impl Node {
     }
 
     fn send_left(&self, Offer { who, done }: Offer, actions: &mut Vec<Action>) {
-        actions.push(Action::Send { to: Party::Node(self.left), message: Message::Offer { who, done } });
+        actions.push(Action::Send { to: Party::Node(self.left), message: Message::Offer { who, done, help: None } });
     }
 }

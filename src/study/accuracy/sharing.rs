@@ -152,7 +152,7 @@ impl Watcher {
                 atoms.truncate(atoms.len().saturating_sub(given.len()));
                 self.under_way.insert(*id, given);
             }
-            What::Sent { from: Party::Node(from), message: Message::Offer { who, done }, .. } if who == from => {
+            What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if who == from => {
                 self.node(*who).offered = *done;
             }
             What::Received { id, by: Party::Node(by) } => {

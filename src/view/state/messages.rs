@@ -38,6 +38,7 @@ impl RunState {
                 Cargo::Offer { .. } => sender.hops += 1,
                 Cargo::Request => (sender.requests, sender.offer_out) = (sender.requests + 1, true),
                 Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
+                Cargo::Again(_) | Cargo::Wake | Cargo::Beat | Cargo::Notice => {}
             }
         }
         if let Cargo::Part(part) = &flight.cargo
@@ -67,7 +68,7 @@ impl RunState {
             return false;
         }
         let (node, kind) = match (flight.from, flight.to, &flight.cargo) {
-            (_, _, Cargo::Shutdown) => return false,
+            (_, _, Cargo::Shutdown | Cargo::Beat | Cargo::Notice) => return false,
             (Party::Node(from), _, Cargo::Results(_)) => (from, 0),
             (Party::Node(from), _, Cargo::Request) => (from, 1),
             (_, Party::Node(to), Cargo::Part(part)) if !part.is_empty() => (to, 2),
@@ -104,12 +105,13 @@ impl RunState {
                 }
                 vec![part]
             }
-            Cargo::Transfer(ranges) => {
+            Cargo::Transfer(ranges) | Cargo::Again(ranges) => {
                 state.offer_out = false;
                 state.got.add(atoms_in(&ranges));
                 ranges
             }
             Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => return,
+            Cargo::Wake | Cargo::Beat | Cargo::Notice => return,
         };
         state.give(atoms_in(&ranges), at);
         for range in ranges {

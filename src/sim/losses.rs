@@ -1,0 +1,58 @@
+//! What is lost in a run in virtual time: machines that hang, are cut off or off, links that are cut, and what was on them.
+
+use std::mem;
+
+use super::simulation::{Sim, Tell};
+use crate::balance::{Condition, Event, NodeId, Party};
+use crate::record::What;
+
+impl Sim {
+    /// Something becomes of a node's machine.
+    pub(super) fn put(&mut self, node: NodeId, condition: Condition, tell: Tell<'_>) {
+        let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
+        let nodes = self.nodes.len() as NodeId;
+        let party = &mut self.nodes[index];
+        let before = mem::replace(&mut party.condition, condition);
+        if before == condition {
+            return;
+        }
+        party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
+        self.note(What::Condition { node, condition }, tell);
+        let party = &mut self.nodes[index];
+        match (before, condition) {
+            (_, Condition::Off) => party.lose_all(&self.rules, node, nodes, self.now),
+            (Condition::Off, _) => self.hand_over(Party::Node(node), Event::Started, tell),
+            (Condition::Hung, _) => {
+                let mailbox = mem::take(&mut party.mailbox);
+                self.go_on(node, tell);
+                mailbox.into_iter().for_each(|mail| self.receive(Party::Node(node), mail, tell));
+                self.timer(node, tell);
+            }
+            _ => self.go_on(node, tell),
+        }
+    }
+
+    /// Whether nothing travels between the two.
+    pub(super) fn is_cut(&self, one: Party, other: Party) -> bool {
+        let is_cut_off = |party| match party {
+            Party::Parent => false,
+            Party::Node(node) => self.nodes[usize::from(node)].condition == Condition::CutOff,
+        };
+        self.cut.contains(&(one.min(other), one.max(other))) || is_cut_off(one) || is_cut_off(other)
+    }
+
+    /// The parent has nothing more to do. Nodes that its last message cannot reach are abandoned: whoever owns their machines
+    /// has to look after them.
+    pub(super) fn end(&mut self) {
+        self.finished = true;
+        for node in 0..self.nodes.len() as NodeId {
+            let unheard = self.is_cut(Party::Parent, Party::Node(node));
+            let party = &mut self.nodes[usize::from(node)];
+            if unheard || matches!(party.condition, Condition::Hung | Condition::Off) {
+                party.finished = true;
+                party.pipe.clear();
+                party.plan = party.plan.wrapping_add(1);
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! A random run from its seed: machines, what atoms cost, a network, and everything that befalls them.
+
+use std::time::Duration;
+
+use fastrand::Rng;
+
+use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
+use crate::picture::Size;
+use crate::runlog::{Driver, Header, Link};
+use crate::scenario::{Command, Script};
+use crate::time::Time;
+
+/// Pixels in an atom: a picture has an atom a row.
+const ATOM: u32 = 50;
+
+/// No speed is less than this, but where a machine stands still.
+const SLOWEST: f64 = 1e-3;
+
+/// A run that is to be tried.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub header: Header,
+    pub script: Script,
+    /// By atom.
+    pub costs: Vec<Duration>,
+    /// Whether nothing befalls anybody: no loss, no change of speed.
+    pub calm: bool,
+}
+
+impl Plan {
+    /// The run of a seed: the same on every computer.
+    pub fn new(seed: u64) -> Self {
+        let mut rng = Rng::with_seed(seed);
+        let nodes = *pick(&mut rng, &[1, 2, 3, 4, 5, 6, 8, 12, 24]);
+        let atoms = 10f64.powf(between(&mut rng, 0.0, 2.6)) as u32;
+        // Where nothing is lost, no machine may seem to be stuck.
+        let calm = rng.u32(0..8) == 0;
+        let mean = 10f64.powf(between(&mut rng, -5.0, if calm { -3.0 } else { -2.3 }));
+        let costs = (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(between(&mut rng, -1.0, 1.0)))).collect();
+        let speeds: Vec<f64> = (0..nodes).map(|_| speed(&mut rng, if calm { 0.2 } else { SLOWEST })).collect();
+        let mut header = plain(atoms, speeds);
+        let batches = [None, Some(Duration::ZERO), Some(Rules::BATCH), Some(5 * Rules::BATCH)];
+        header.rules.batch = *pick(&mut rng, &batches);
+        header.link.latency = latency(&mut rng, calm);
+        if rng.u32(0..4) == 0 {
+            header.link = Link { bandwidth: Some(10f64.powf(between(&mut rng, 5.0, 8.0))), shared: rng.bool(), ..header.link };
+            header.handling = Duration::from_micros(rng.u64(0..500));
+        }
+        header.rules.beat = Rules::beat_for(header.handling, nodes);
+        let mut plan = Self { header, script: Vec::new(), costs, calm };
+        if !calm {
+            plan.befall(&mut rng);
+        }
+        plan
+    }
+
+    /// How long all machines take together at their first speeds.
+    pub fn ideal(&self) -> Duration {
+        self.costs.iter().sum::<Duration>().div_f64(self.header.speeds.iter().sum::<f64>())
+    }
+
+    /// Lets things happen to machines and links, and at last makes one of the machines well: somebody has to be.
+    fn befall(&mut self, rng: &mut Rng) {
+        let nodes = self.header.speeds.len() as NodeId;
+        // Long enough that what is lost is noticed.
+        let span = (self.ideal().as_secs_f64() * 3.0).max(2.0);
+        let at = |rng: &mut Rng, from: f64| Time::from_secs(between(rng, from, span));
+        let mut script = Script::new();
+        for _ in 0..rng.u32(1..=12) {
+            let node = rng.u16(0..nodes);
+            let begins = at(rng, 0.0);
+            let ends = at(rng, begins.secs());
+            let condition = *pick(rng, &[Condition::Hung, Condition::CutOff, Condition::Off]);
+            match rng.u32(0..8) {
+                // It joins late.
+                0 => {
+                    script.push((Time::ZERO, Command::Condition { node, condition: Condition::Off }));
+                    script.push((ends, Command::Condition { node, condition: Condition::Well }));
+                }
+                1 | 2 => {
+                    script.push((begins, Command::Condition { node, condition }));
+                    script.push((ends, Command::Condition { node, condition: Condition::Well }));
+                }
+                // For good.
+                3 => script.push((begins, Command::Condition { node, condition })),
+                4 => {
+                    let one = Party::Node(node);
+                    let other = match rng.u16(0..=nodes) {
+                        last if last == nodes => Party::Parent,
+                        other => Party::Node(other),
+                    };
+                    script.push((begins, Command::Link { one, other, cut: true }));
+                    if rng.bool() {
+                        script.push((ends, Command::Link { one, other, cut: false }));
+                    }
+                }
+                5 => script.push((begins, Command::Latency(latency(rng, false)))),
+                6 => {
+                    script.push((begins, Command::Speed { node, speed: 0.0 }));
+                    script.push((ends, Command::Speed { node, speed: speed(rng, SLOWEST) }));
+                }
+                _ => script.push((begins, Command::Speed { node, speed: speed(rng, SLOWEST) })),
+            }
+        }
+        let (node, end) = (rng.u16(0..nodes), Time::from_secs(span));
+        script.push((end, Command::Condition { node, condition: Condition::Well }));
+        script.push((end, Command::Speed { node, speed: between(rng, 0.1, 1.0) }));
+        script.push((end, Command::Link { one: Party::Node(node), other: Party::Parent, cut: false }));
+        script.sort_by_key(|(at, _)| *at);
+        self.script = script;
+    }
+}
+
+fn plain(atoms: u32, speeds: Vec<f64>) -> Header {
+    // No picture is without pixels, and none of these is too large.
+    let size = Size::new(ATOM, atoms.max(1)).expect("a small picture");
+    Header { driver: Driver::Sim, ..Header::plain(size, ATOM, Strategy::Adaptive, speeds) }
+}
+
+fn latency(rng: &mut Rng, calm: bool) -> Duration {
+    // Where nothing is lost, no message may seem to be.
+    let longest = if calm { -2.5 } else { -0.7 };
+    if rng.u32(0..4) == 0 { Duration::ZERO } else { Duration::from_secs_f64(10f64.powf(between(rng, -5.0, longest))) }
+}
+
+fn speed(rng: &mut Rng, slowest: f64) -> f64 {
+    if rng.bool() { 1.0 } else { slowest.powf(rng.f64()) }
+}
+
+fn between(rng: &mut Rng, from: f64, to: f64) -> f64 {
+    from + (to - from) * rng.f64()
+}
+
+fn pick<'a, T>(rng: &mut Rng, choices: &'a [T]) -> &'a T {
+    &choices[rng.usize(0..choices.len())]
+}
