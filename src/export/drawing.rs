@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Raster, to_hatched_svg, to_svg};
+use super::{Raster, to_hatched_svg};
 use crate::picture::encode_png;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -24,16 +24,11 @@ impl Drawing {
     /// The text of an SVG file.
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
-        match self {
-            Self::Ring(at) => {
-                let Paper { marks, size } = Paper::ring(log, at);
-                to_svg(&marks, size, nodes)
-            }
-            Self::Timeline => {
-                let Paper { marks, size } = Paper::timeline(log);
-                to_hatched_svg(&marks, size, nodes)
-            }
-        }
+        let Paper { marks, size } = match self {
+            Self::Ring(at) => Paper::ring(log, at),
+            Self::Timeline => Paper::timeline(log),
+        };
+        to_hatched_svg(&marks, size, nodes)
     }
 
     /// Writes it as PNG if it `is_png`, else as SVG.
