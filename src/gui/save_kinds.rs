@@ -102,6 +102,18 @@ impl Kind {
         }
     }
 
+    /// What its file is, in capitals.
+    pub fn format(self) -> &'static str {
+        match self.ending() {
+            "png" => "PNG",
+            "svg" => "SVG",
+            "gif" => "GIF",
+            "csv" => "CSV",
+            "json" => "JSON",
+            _ => "ANEL",
+        }
+    }
+
     /// How the name of its file ends.
     pub fn ending(self) -> &'static str {
         match self {
@@ -136,6 +148,19 @@ impl Kind {
     }
 }
 
+/// The largest size of this shape that a 4K screen holds.
+pub fn four_k([width, height]: [u32; 2]) -> [u32; 2] {
+    let scale = (3840.0 / f64::from(width)).min(2160.0 / f64::from(height));
+    [width, height].map(|side| (f64::from(side) * scale).round() as u32)
+}
+
+/// Whether two sizes have one shape, but for a pixel.
+pub fn is_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
+    let (width, height) = (f64::from(width), f64::from(height));
+    (width * f64::from(h) / f64::from(w) - height).abs() <= 1.0
+        || (height * f64::from(w) / f64::from(h) - width).abs() <= 1.0
+}
+
 /// A side of a picture that is traced anew is at most so long.
 pub const LONGEST_SIDE: u32 = 16_384;
 
@@ -151,6 +176,15 @@ pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
 mod tests {
     use super::super::settings::Settings;
     use super::*;
+
+    #[test]
+    fn a_larger_picture_keeps_its_shape() {
+        assert_eq!(four_k([640, 480]), [2880, 2160]);
+        assert_eq!(four_k([1600, 900]), [3840, 2160]);
+        assert_eq!(four_k([2000, 100]), [3840, 192]);
+        assert!(is_shape([641, 480], [2885, 2160]) && is_shape([640, 480], [333, 250]));
+        assert!(!is_shape([640, 480], [3840, 2160]) && !is_shape([640, 480], [480, 640]));
+    }
 
     #[test]
     fn a_name_says_what_is_saved() {

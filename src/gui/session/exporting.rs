@@ -68,6 +68,8 @@ impl Session {
         let is_known = !self.is_recorded() || self.stage.performer.has_ended();
         let source = Source { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
         let (job, (stop, stopped), language) = (self.jobs.number(), bounded::<()>(0), Language::spoken());
+        // What was said of the file before would cover how far this one is.
+        self.notice = None;
         self.making = Some(Making { job, name, since: self.clock, part: 0.0, _stop: stop });
         let failed = move |why| Done::Made(job, Err(why));
         self.jobs.start_many("export", failed, move |tell| {
