@@ -171,7 +171,8 @@ fn item(text: &str, from: usize, step: &str) -> Option<usize> {
         let rest = &text[at..];
         let is_comment = rest.starts_with("//") || rest.starts_with("/*");
         if begins && !is_comment && !c.is_whitespace() {
-            if if is_list { step == number.to_string() } else { is_named(rest, step) } {
+            let is_it = if is_list { step == number.to_string() } else { is_named(rest, step) };
+            if is_it {
                 return Some(at);
             }
             begins = false;

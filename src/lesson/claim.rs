@@ -150,10 +150,10 @@ impl Step {
 }
 
 impl Lesson {
-    /// What is to be said of the first moment that a run does not have.
+    /// Whether the runs have all moments to which steps lead.
     ///
     /// # Errors
-    /// That.
+    /// A sentence on the first that a run does not have.
     pub fn has_moments(&self, performed: &[(String, Performed)]) -> Result<(), String> {
         let missing = (1..).zip(&self.steps).find_map(|(number, step)| Some((number, step.missing(performed)?)));
         missing.map_or(Ok(()), |(number, why)| Err(format!("step {number}: {why}")))

@@ -43,7 +43,7 @@ fn gather(shape: &Shape, room: Rect, seen: &mut Vec<Text>) {
             let surface = rect.rect.intersect(room);
             seen.retain(|text| !surface.expand(SLACK).contains_rect(text.letters));
             for text in seen {
-                text.is_covered |= surface.intersects(text.letters.shrink(SLACK));
+                text.is_covered |= surface.intersects(text.letters.intersect(text.room).shrink(SLACK));
             }
         }
         Shape::Text(text) if !text.galley.text().trim().is_empty() => {
