@@ -236,7 +236,7 @@ mod tests {
                     of: {\"a b\": (n: 1)},\n)";
         let found = |path: &[&str]| find_path(text, &path.iter().map(|&step| step.to_owned()).collect::<Vec<_>>());
         assert_eq!(found(&["steps", "0"]), Some((3, 11)));
-        assert_eq!(found(&["steps", "1", "run"]), Some((3, 33)));
+        assert_eq!(found(&["steps", "1", "run"]), Some((3, 32)));
         assert_eq!(found(&["of", "a b", "n"]), Some((4, 16)));
         assert_eq!(found(&["steps", "1", "none"]), found(&["steps", "1"]));
         assert_eq!(found(&["none"]), None);

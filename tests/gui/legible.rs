@@ -101,7 +101,7 @@ fn faults(window: &Window, hidden: Hidden) -> Vec<String> {
             found.push(format!("{words:?} at {letters:?} is cut off by {room:?}"));
         }
         for other in texts[index + 1..].iter().filter(|_| !text.is_covered) {
-            let both = letters.intersect(other.letters).intersect(room).intersect(other.room);
+            let both = letters.intersect(other.letters).intersect(text.room).intersect(other.room);
             let is_fault = both.width() > SLACK && both.height() > SLACK;
             if is_fault && !passes(words, both) && !passes(&other.words, both) {
                 found.push(format!("{words:?} and {:?} lie over each other at {both:?}", other.words));
