@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Duration;
 
 use super::super::settings::Settings;
 use super::Session;
@@ -64,8 +65,10 @@ impl Tracing {
 
 /// How well strategies do with more and more machines.
 pub struct Growth {
-    /// By strategy: machines, the power of all beside one at full speed, and the makespan in seconds.
+    /// By strategy: what comes of more and more machines.
     pub of: Vec<(Strategy, Vec<Grown>)>,
+    /// How long one machine at full speed takes.
+    pub alone: Duration,
     /// The last machine is a slow one.
     pub slow: Option<f64>,
 }
@@ -201,5 +204,5 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
         };
         (strategy, (1..=MOST).filter_map(run).collect())
     };
-    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), slow }
+    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), alone, slow }
 }
