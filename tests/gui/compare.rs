@@ -125,3 +125,20 @@ fn every_tab_is_told_in_words() {
     press(&mut window, "8 at 0 %");
     until(&mut window, "a run without an end", |window| is_told(window, "E never ends"));
 }
+
+#[test]
+fn what_is_compared_is_saved_as_a_table_and_as_bars() {
+    let mut window = open_comparison();
+    let directory = tempfile::tempdir().expect("a directory");
+    for (kind, name, begins) in [("table", "runs.csv", "run,strategy,machines,time_s"), ("bars", "runs.svg", "<svg")] {
+        let path = directory.path().join(name);
+        key(&mut window, Key::S);
+        press(&mut window, kind);
+        window.run_steps(2);
+        type_path(&mut window, "Where to save", &path);
+        key(&mut window, Key::Enter);
+        until(&mut window, "the file", |_| path.exists());
+        let written = std::fs::read_to_string(&path).expect("a text");
+        assert!(written.contains(begins) && written.contains("Equal bands"), "{written}");
+    }
+}

@@ -17,6 +17,7 @@ use super::keys::Command;
 use super::session::{Compared, Growth, Known, Phase, Pictured, Session, Subject, Tracing};
 use super::theme::{self, GRID, Look};
 use crate::balance::Strategy;
+use crate::export::{ComparedRun, Comparison};
 use crate::language::word;
 use crate::sim::{Change, Trial};
 use crate::time::Time;
@@ -131,6 +132,20 @@ impl Compare {
     pub fn runs(&self) -> Vec<(String, Option<Duration>)> {
         let known = self.entries.iter().filter_map(|entry| entry.contender.as_ref());
         known.map(|known| (known.name.clone(), known.account.as_ref().map(|account| account.makespan))).collect()
+    }
+
+    /// The runs that are known, for a file; nothing until there is one.
+    pub fn comparison(&self) -> Option<Comparison> {
+        let header = &self.subject.as_ref()?.trial.header;
+        let run = |entry: &Entry| {
+            let header = &entry.trial.header;
+            let (strategy, machines) = (header.rules.strategy, header.speeds.len());
+            let account = entry.contender.as_ref()?.account.clone();
+            Some(ComparedRun { strategy, changes: entry.changes.clone(), machines, account })
+        };
+        let (title, size) = (header.title().to_owned(), header.size);
+        let runs: Vec<_> = self.entries.iter().filter_map(run).collect();
+        (!runs.is_empty()).then_some(Comparison { title, size, runs })
     }
 
     /// Takes in what a job has come to.
