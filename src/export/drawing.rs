@@ -18,9 +18,6 @@ pub enum Drawing {
 }
 
 impl Drawing {
-    /// Pixels of a PNG in a unit of the SVG.
-    const SCALE: f32 = 2.0;
-
     /// The text of an SVG file.
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
@@ -35,12 +32,18 @@ impl Drawing {
     ///
     /// # Errors
     /// What `to` says.
-    pub fn write(self, mut to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
-        let svg = self.svg(log);
-        if !is_png {
-            return to.write_all(svg.as_bytes());
-        }
-        let (size, rgb) = Raster::new().draw(&svg, Self::SCALE).map_err(io::Error::other)?;
-        encode_png(to, size, &rgb)
+    pub fn write(self, to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
+        write_drawing(to, &self.svg(log), is_png)
     }
+}
+
+/// Writes the text of an SVG file, or its picture if it `is_png`.
+pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<()> {
+    /// Pixels in a unit of the SVG.
+    const SCALE: f32 = 2.0;
+    if !is_png {
+        return to.write_all(svg.as_bytes());
+    }
+    let (size, rgb) = Raster::new().draw(svg, SCALE).map_err(io::Error::other)?;
+    encode_png(to, size, &rgb)
 }

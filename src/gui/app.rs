@@ -239,7 +239,7 @@ impl App {
         }
         if self.save_bar.is_open() {
             let shown = self.picture.shown();
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown);
+            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown, &self.compare);
             if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
                 self.obey(command, ui.ctx());
             }

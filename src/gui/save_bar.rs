@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
+use super::compare::Compare;
 use super::icons::Icon;
 use super::keys::Command;
 use super::save_kinds::{Kind, LONGEST_SIDE, four_k, is_shape, large};
@@ -103,15 +104,26 @@ impl SaveBar {
         }
     }
 
-    /// Shows the bar, and returns what else was asked for; the picture is shown with so much of a layer.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shown: (Layer, f32)) -> Option<Command> {
+    /// Shows the bar, and returns what else was asked for; the picture is shown with so much of a layer. While runs are
+    /// compared these are saved.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        session: &mut Session,
+        shown: (Layer, f32),
+        compare: &Compare,
+    ) -> Option<Command> {
         let look = Look::of(ui.ctx());
+        let kinds = if compare.is_open() { &Kind::OF_COMPARISON[..] } else { &Kind::OF_RUN[..] };
+        if !kinds.contains(&self.kind) {
+            self.choose(kinds[0]);
+        }
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
         let mut copies = false;
         // In a low window a row more would leave nothing of the picture.
         let is_low = ui.ctx().content_rect().height() < 600.0;
         if !is_low {
-            self.kinds(ui);
+            self.kinds(ui, kinds);
         }
         match self.kind {
             Kind::Large => self.choose_size(ui, session, look),
@@ -121,7 +133,7 @@ impl SaveBar {
         self.suggest(session);
         ui.horizontal(|ui| {
             if is_low {
-                self.list_of_kinds(ui);
+                self.list_of_kinds(ui, kinds);
             }
             ui.label(quiet(word!("as", "como")));
             let width = (ui.available_width() - word!(43.0, 47.5) * GRID).max(20.0 * GRID);
@@ -132,7 +144,7 @@ impl SaveBar {
                 (self.warned, self.trouble) = (None, None);
             }
             if button(ui, None, word!("Save", "Salvar"), true, Weight::Primary).clicked() || field.entered {
-                self.save(session, shown);
+                self.save(session, shown, compare);
             }
             if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
@@ -156,12 +168,12 @@ impl SaveBar {
     }
 
     /// All kinds, to be pressed at once.
-    fn kinds(&mut self, ui: &mut Ui) {
+    fn kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
         let quiet = Look::of(ui.ctx()).quiet;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
             let mut format = "";
-            for kind in Kind::ALL {
+            for &kind in kinds {
                 // Said once of those that follow each other.
                 if std::mem::replace(&mut format, kind.format()) != kind.format() {
                     // It stands beside the first of them.
@@ -180,11 +192,11 @@ impl SaveBar {
     }
 
     /// The same where there is no room for them.
-    fn list_of_kinds(&mut self, ui: &mut Ui) {
+    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
         let mut chosen = self.kind;
         let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name()).width(13.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
-            for kind in Kind::ALL {
+            for &kind in kinds {
                 ui.selectable_value(&mut chosen, kind, kind.name()).on_hover_text(kind.hint());
             }
         });
@@ -250,7 +262,7 @@ impl SaveBar {
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
-    fn save(&mut self, session: &mut Session, shown: (Layer, f32)) {
+    fn save(&mut self, session: &mut Session, shown: (Layer, f32), compare: &Compare) {
         let path = match resolve(&self.path, std::env::home_dir()) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
@@ -296,6 +308,13 @@ impl SaveBar {
             Kind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
             Kind::Table => session.export(path, Export::Table),
             Kind::Chrome => session.export(path, Export::Chrome),
+            Kind::Bars | Kind::Rows => match compare.comparison() {
+                Some(runs) => {
+                    let export = if self.kind == Kind::Bars { Export::Bars } else { Export::Rows };
+                    session.export(path, export(runs));
+                }
+                None => session.trouble(word!("No run is known yet", "Nenhuma execução é conhecida ainda")),
+            },
         }
     }
 

@@ -67,7 +67,7 @@ pub use account::{Account, Last, Spent};
 pub use bars::{Bar, Bars};
 pub use canvas::Canvas;
 pub use changes::{change_words, trial_name};
-pub use chart::{CHART_SIZE, Chart, Series, Style, series_hue};
+pub use chart::{CHART_SIZE, Chart, LEAST_HIGH, Series, Style, series_hue};
 pub use contender::{Contender, length_of_all};
 pub use contrast::{Named, contrast};
 pub use display::{Anchor, Hue, Ink, Mark, Point, TextSize};

@@ -165,6 +165,14 @@ fn pages_can_be_read(size: [f32; 2], is_for_a_room: bool) {
         key(&mut walk.window, Key::K);
         walk.until("three runs", |window| window.state().compared().len() == 3);
         walk.look("what is compared", Hidden::Lines);
+        let english = language == Language::English;
+        let efficiency = if english { "Efficiency" } else { "Eficiência" };
+        for tab in [if english { "Where the time went" } else { "Para onde foi o tempo" }, "Speedup", efficiency] {
+            press(&mut walk.window, tab);
+            let waits = if english { "Running with" } else { "Executando com" };
+            walk.until("the curves", |window| window.query_by_label_contains(waits).is_none());
+            walk.look(tab, Hidden::Lines);
+        }
         key(&mut walk.window, Key::Escape);
         key(&mut walk.window, Key::End);
         walk.until("the end", |window| session(window).stage().phase == Phase::Finished);
