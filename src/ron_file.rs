@@ -7,6 +7,7 @@ use std::path::Path;
 
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
 
 use crate::sentence::shown;
 
@@ -99,15 +100,12 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
     let mut reader = ron::Deserializer::from_str_with_options(text, &options)
         .map_err(|wrong| FileError::new(at(wrong.span.end), &wrong.code.to_string()))?;
     let file = serde_path_to_error::deserialize(&mut reader).map_err(|wrong| {
-        let path = wrong.path().to_string();
+        let field = field(wrong.path());
         let spanned = reader.span_error(wrong.into_inner());
         let place = at(spanned.span.end);
         if spanned.code == ron::Error::ExceededRecursionLimit {
             return FileError::new(place, deep);
         }
-        // A field that was not read to its end has no name yet.
-        let path = path.trim_end_matches(['?', '.']);
-        let field = if path.is_empty() { String::new() } else { format!("{path}: ") };
         FileError::new(place, &format!("{field}{}", spanned.code))
     })?;
     reader.end().map_err(|wrong| {
@@ -142,12 +140,105 @@ pub fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
     let mut rest = text;
     while !rest.is_empty() {
         if rest.starts_with(&quoted) {
-            let before = &text[..text.len() - rest.len()];
-            let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-            return Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1));
+            return Some(place(text, text.len() - rest.len()));
         }
         let skipped = skipped(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
         rest = &rest[skipped..];
     }
     None
+}
+
+/// Line and column, from 1, of what stands at a path: names of fields and entries, and numbers of a list's items, from 0.
+/// What cannot be found is where its surroundings are.
+pub fn find_path(text: &str, path: &[String]) -> Option<(usize, usize)> {
+    let found = path.iter().try_fold(0, |from, step| item(text, from, step).ok_or(from));
+    let (Ok(at) | Err(at)) = found;
+    (at > 0).then(|| place(text, at))
+}
+
+/// Line and column, from 1.
+fn place(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..at];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// Where an item of the first brackets after `from` begins.
+fn item(text: &str, from: usize, step: &str) -> Option<usize> {
+    let (mut at, mut depth, mut number) = (from, 0_usize, 0_usize);
+    let (mut is_list, mut begins) = (false, false);
+    while let Some(c) = text[at..].chars().next() {
+        let rest = &text[at..];
+        let is_comment = rest.starts_with("//") || rest.starts_with("/*");
+        if begins && !is_comment && !c.is_whitespace() {
+            let is_it = if is_list { step == number.to_string() } else { is_named(rest, step) };
+            if is_it {
+                return Some(at);
+            }
+            begins = false;
+        }
+        match c {
+            '(' | '[' | '{' => {
+                depth += 1;
+                if depth == 1 {
+                    (is_list, begins) = (c == '[', true);
+                }
+            }
+            ')' | ']' | '}' if depth <= 1 => return None,
+            ')' | ']' | '}' => depth -= 1,
+            ',' if depth == 1 => (number, begins) = (number + 1, true),
+            _ => {}
+        }
+        at += skipped(rest).unwrap_or(c.len_utf8());
+    }
+    None
+}
+
+/// Whether a field or an entry of this name begins here.
+fn is_named(rest: &str, name: &str) -> bool {
+    let after = rest.strip_prefix(name).or_else(|| rest.strip_prefix('"')?.strip_prefix(name)?.strip_prefix('"'));
+    after.is_some_and(|after| after.trim_start().starts_with(':'))
+}
+
+/// A field for a sentence, as in `object 2, Sphere.radius: `; people count from 1. Empty if there is none.
+fn field(path: &serde_path_to_error::Path) -> String {
+    let mut field = String::new();
+    for segment in path {
+        let name = match segment {
+            Segment::Seq { index } => {
+                // One of several.
+                let one = field.strip_suffix('s').unwrap_or(&field);
+                field = format!("{one} {}", index + 1);
+                continue;
+            }
+            Segment::Map { key } => key,
+            Segment::Enum { variant } => variant,
+            // What was not read to its end has no name yet.
+            Segment::Unknown => continue,
+        };
+        let between = match field.chars().last() {
+            None => "",
+            Some(last) if last.is_ascii_digit() => ", ",
+            Some(_) => ".",
+        };
+        field = format!("{field}{between}{name}");
+    }
+    if field.is_empty() { field } else { field + ": " }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_at_a_path_is_found_past_comments_and_strings() {
+        let text = "A(\n  title: \"steps: [(\", // steps: [\n  steps: [(run: \"x\"), /* , */ (run : \"y\", at: (1, 2))],\n  \
+                    of: {\"a b\": (n: 1)},\n)";
+        let found = |path: &[&str]| find_path(text, &path.iter().map(|&step| step.to_owned()).collect::<Vec<_>>());
+        assert_eq!(found(&["steps", "0"]), Some((3, 11)));
+        assert_eq!(found(&["steps", "1", "run"]), Some((3, 32)));
+        assert_eq!(found(&["of", "a b", "n"]), Some((4, 16)));
+        assert_eq!(found(&["steps", "1", "none"]), found(&["steps", "1"]));
+        assert_eq!(found(&["none"]), None);
+    }
 }

@@ -48,7 +48,14 @@ fn a_false_claim_is_found() {
     assert!(!told[0].1 && told[0].0.contains("Atoms of `one` is 24"), "{told:?}");
     let lesson = Lesson::parse("mine", &written("strategy: \"static\"", "until: FirstTransfer")).expect("a lesson");
     let told = lesson.check(&performed(&lesson));
-    assert_eq!(told, [("step 1: the run `one` has no FirstTransfer".to_owned(), false)]);
+    assert!(
+        told.len() == 1 && told[0].0.starts_with("step 1: the run `one` has no FirstTransfer; it lasts "),
+        "{told:?}"
+    );
+    // What lies beyond the end is no moment either.
+    let lesson = Lesson::parse("mine", &written("", "until: Seconds(500)")).expect("a lesson");
+    let refused = lesson.has_moments(&performed(&lesson)).expect_err("it lasts some twenty seconds");
+    assert!(refused.starts_with("step 1: the run `one` has no Seconds(500.0); it lasts "), "{refused}");
 }
 
 #[test]
@@ -60,16 +67,26 @@ fn a_mistake_is_told_with_its_place() {
     };
     place("colour: 3", "", "line 4");
     place("strategy: \"tree\"", "", "there is no strategy `tree`");
-    place("speeds: []", "", "line 4, column 12: the run `one`: there can be 1 to 32 machines");
+    place("speeds: []", "", "line 4, column 36: the run `one`: there can be 1 to 32 machines");
     place("speeds: [2]", "", "a speed can be 0 to 1");
-    place("script: [(at: 1, machine: 9, speed: 0.1)]", "", "there are machines 1 to 8, not 9");
+    place(
+        "script: [(at: 1, machine: 9, speed: 0.1)]",
+        "",
+        "line 4, column 45: the run `one`: there are machines 1 to 8, not 9",
+    );
+    place(
+        "scene: \"no\"",
+        "",
+        "line 4, column 36: the run `one`: there is no scene `no` beside the lesson, and no built-in one",
+    );
     place("seconds: -1", "", "`seconds` can be 0.1 to 3600, not -1");
-    place("", "run: \"two\"", "line 6, column 25: step 1: there is no run `two`; there are `one`");
-    place("", "machine: 0", "step 1: there are machines 1 to 8, not 0");
+    place("", "run: \"two\"", "line 6, column 20: step 1: there is no run `two`; there are `one`");
+    place("", "machine: 0", "line 6, column 20: step 1: there are machines 1 to 8, not 0");
+    place("", "until: Noon", "step 1, until: ");
     place("", "until: Noon", "line 6");
-    place("", "holds: [(figure: Seconds)]", "step 1: a claim needs `at_least` or `at_most`");
+    place("", "holds: [(figure: Seconds)]", "line 6, column 28: step 1: a claim needs `at_least` or `at_most`");
     let ask = "ask: (question: \"Q\", answers: [\"a\", \"b\"], right: 3, because: \"c\")";
-    place("", ask, "`right` is the number of the right answer, 1 to 2, not 3");
+    place("", ask, "line 6, column 62: step 1: `right` is the number of the right answer, 1 to 2, not 3");
     assert!(told("").contains("the file is empty; a lesson needs at least a title, runs and steps"));
     assert!(told("Lesson(title: \"A\", about: \"B\", runs: {}, steps: [])").contains("at least one run"));
     assert!(told(&(written("", "") + "x")).contains("something follows the end of the lesson"));
@@ -82,8 +99,9 @@ fn a_scene_may_stand_beside_the_lesson() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let scene = "Scene(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), lights: [], objects: [Sphere(radius: 1)])";
     fs::write(directory.path().join("ball.ron"), scene).expect("a file");
-    let lesson = Lesson::parse("mine", &written("scene: \"ball.ron\"", "until: End")).expect("a lesson");
-    let lesson = Lesson { directory: directory.path().to_owned(), ..lesson };
+    let path = directory.path().join("mine.ron");
+    fs::write(&path, written("scene: \"ball.ron\"", "until: End")).expect("a file");
+    let lesson = Lesson::open(path.to_str().expect("a plain path")).expect("a lesson");
     let performed = performed(&lesson);
     assert_eq!(performed[0].1.opened.name, "ball");
     let lesson = Lesson { directory: "/nowhere".into(), ..lesson };

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Raster, to_hatched_svg, to_svg};
+use super::{Raster, to_hatched_svg};
 use crate::picture::encode_png;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -18,34 +18,32 @@ pub enum Drawing {
 }
 
 impl Drawing {
-    /// Pixels of a PNG in a unit of the SVG.
-    const SCALE: f32 = 2.0;
-
     /// The text of an SVG file.
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
-        match self {
-            Self::Ring(at) => {
-                let Paper { marks, size } = Paper::ring(log, at);
-                to_svg(&marks, size, nodes)
-            }
-            Self::Timeline => {
-                let Paper { marks, size } = Paper::timeline(log);
-                to_hatched_svg(&marks, size, nodes)
-            }
-        }
+        let Paper { marks, size } = match self {
+            Self::Ring(at) => Paper::ring(log, at),
+            Self::Timeline => Paper::timeline(log),
+        };
+        to_hatched_svg(&marks, size, nodes)
     }
 
     /// Writes it as PNG if it `is_png`, else as SVG.
     ///
     /// # Errors
     /// What `to` says.
-    pub fn write(self, mut to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
-        let svg = self.svg(log);
-        if !is_png {
-            return to.write_all(svg.as_bytes());
-        }
-        let (size, rgb) = Raster::new().draw(&svg, Self::SCALE).map_err(io::Error::other)?;
-        encode_png(to, size, &rgb)
+    pub fn write(self, to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
+        write_drawing(to, &self.svg(log), is_png)
     }
+}
+
+/// Writes the text of an SVG file, or its picture if it `is_png`.
+pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<()> {
+    /// Pixels in a unit of the SVG.
+    const SCALE: f32 = 2.0;
+    if !is_png {
+        return to.write_all(svg.as_bytes());
+    }
+    let (size, rgb) = Raster::new().draw(svg, SCALE).map_err(io::Error::other)?;
+    encode_png(to, size, &rgb)
 }

@@ -4,6 +4,7 @@
 mod animation;
 mod chrome;
 mod colours;
+mod comparison;
 mod csv;
 mod drawing;
 mod film;
@@ -13,6 +14,7 @@ mod raster;
 mod svg;
 
 pub use chrome::write_chrome;
+pub use comparison::{ComparedRun, Comparison};
 pub use csv::write_csv;
 pub use drawing::Drawing;
 pub use film::Film;

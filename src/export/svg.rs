@@ -14,8 +14,8 @@ pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
     written(marks, size, nodes, false)
 }
 
-/// As [`to_svg`], but boxes in a node's colour are hatched as well, each node's in its own way, so that they are told apart
-/// where nothing is printed in colour.
+/// As [`to_svg`], but boxes and larger discs in a node's colour are hatched as well, each node's in its own way, so that
+/// they are told apart where nothing is printed in colour.
 pub fn to_hatched_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
     written(marks, size, nodes, true)
 }
@@ -47,7 +47,9 @@ impl Svg {
     fn put_mark(&mut self, mark: &Mark) {
         match mark {
             Mark::Disc { centre, radius, ink } => {
-                let ([x, y], r, fill) = (centre.map(number), number(*radius), self.paint("fill", *ink));
+                // On less no hatch could be told.
+                let fill = if *radius >= hatch::SIDE { self.fill(*ink) } else { self.paint("fill", *ink) };
+                let ([x, y], r) = (centre.map(number), number(*radius));
                 self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"{fill}/>\n"));
             }
             Mark::Box { centre, half, round, ink } => {
@@ -73,10 +75,11 @@ impl Svg {
         }
     }
 
-    /// The hatches of all nodes that have boxes.
+    /// The hatches of all nodes that have boxes or discs.
     fn put_hatches(&mut self, marks: &[Mark]) {
         let node = |mark: &Mark| match mark {
-            Mark::Box { ink: Ink { hue: Hue::Node(node), .. }, .. } => Some(*node),
+            Mark::Box { ink: Ink { hue: Hue::Node(node), .. }, .. }
+            | Mark::Disc { ink: Ink { hue: Hue::Node(node), .. }, .. } => Some(*node),
             _ => None,
         };
         let nodes: BTreeSet<u16> = marks.iter().filter_map(node).collect();
@@ -100,7 +103,9 @@ impl Svg {
         let last = points.len().saturating_sub(1);
         let sides = |i: usize| {
             let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
-            let half = width / 2.0 * i as f32 / last as f32 / distance(before, after).max(f32::MIN_POSITIVE);
+            // A way of no length has no sides.
+            let length = distance(before, after);
+            let half = if length > 1e-3 { width / 2.0 * i as f32 / last as f32 / length } else { 0.0 };
             let ([x, y], [across, down]) = (points[i], [after[1] - before[1], before[0] - after[0]]);
             [[x - across * half, y - down * half], [x + across * half, y + down * half]]
         };
@@ -124,10 +129,11 @@ impl Svg {
         let weight = if matches!(size, TextSize::Small(_)) { 400 } else { 600 };
         let own = self.colour(ink.hue);
         let colour = if matches!(ink.hue, Hue::Node(_)) { readable(own, PRINT.ground) } else { own };
-        let (fill, size, text) = (paint("fill", colour, ink.alpha), number(units), escaped(text));
+        let (fill, halo) = (paint("fill", colour, ink.alpha), self.halo(ink.hue, units));
+        let (size, text) = (number(units), escaped(text));
         self.put(format_args!(
             "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\" \
-             font-weight=\"{weight}\"{fill}>{text}</text>\n"
+             font-weight=\"{weight}\"{fill}{halo}>{text}</text>\n"
         ));
     }
 
@@ -145,7 +151,20 @@ impl Svg {
         }
     }
 
-    /// What a box is filled with.
+    /// What keeps a hatch away from what stands on it.
+    fn halo(&self, hue: Hue, units: f32) -> String {
+        match hue {
+            Hue::OnNode(node) if self.hatched => {
+                let (colour, width) = (hex(self.colour(Hue::Node(node))), number(0.3 * units));
+                format!(
+                    " stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+                )
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// What a box or a disc is filled with.
     fn fill(&self, ink: Ink) -> String {
         match ink.hue {
             Hue::Node(node) if self.hatched => attributes("fill", &format!("url(#node-{node})"), ink.alpha),
@@ -330,6 +349,8 @@ mod tests {
         let document = Document::parse(&text).expect("it is XML");
         let pieces: Vec<_> = document.descendants().filter_map(|node| node.attribute("points")).collect();
         assert_eq!(pieces, ["0,0 0,0 10,-1 10,1", "10,1 10,-1 20,-2 20,2"]);
+        let still = Mark::Trail { points: vec![[9.0, 9.0]; 2], width: 4.0, ink: Hue::Text.full() };
+        assert!(to_svg(&[still], [640.0, 480.0], 8).contains("points=\"9,9 9,9 9,9 9,9\""));
     }
 
     #[test]
@@ -343,5 +364,21 @@ mod tests {
         assert!(is(&yellow, &[("x", "9"), ("y", "105.76"), ("text-anchor", "end"), ("font-size", "16")]), "{yellow:?}");
         let on_yellow = label(Hue::OnNode(5));
         assert!(is(&on_yellow, &[("fill", &hex(text_on(node_colour(5, 8))))]), "{on_yellow:?}");
+    }
+    #[test]
+    fn machines_are_hatched_and_their_numbers_kept_free_of_the_hatch() {
+        let disc = |radius| Mark::Disc { centre: [50.0; 2], radius, ink: Hue::Node(1).full() };
+        let (anchor, size, text) = (Anchor::Centre, TextSize::Body(1.0), "2".to_owned());
+        let label = Mark::Label { at: [50.0; 2], anchor, text, size, ink: Hue::OnNode(1).full() };
+        let text = to_hatched_svg(&[disc(30.0), disc(3.0), label], [100.0; 2], 8);
+        let document = Document::parse(&text).expect("it is XML");
+        let all = |name: &str, attribute: &str| -> Vec<String> {
+            let named = document.descendants().filter(|node| node.has_tag_name(name));
+            named.map(|node| node.attribute(attribute).unwrap_or_default().to_owned()).collect()
+        };
+        let colour = hex(node_colour(1, 8));
+        assert_eq!(all("circle", "fill"), ["url(#node-1)", &colour]);
+        assert_eq!(all("text", "stroke"), [colour]);
+        assert_eq!(all("pattern", "id"), ["node-1"]);
     }
 }

@@ -2,6 +2,7 @@
 
 mod commands;
 mod heroes;
+mod notices;
 
 use std::time::Duration;
 
@@ -50,6 +51,8 @@ pub struct App {
     hovered: Option<Dossier>,
     selected: Option<Dossier>,
     lit: Lit,
+    /// Where words about the run stand, if they do in this frame.
+    words: Option<Rect>,
     begun: usize,
     language: Language,
     /// Large, in strong colours, and nothing but what is looked at.
@@ -110,6 +113,7 @@ impl App {
             hovered: None,
             selected: None,
             lit: Lit::default(),
+            words: None,
             begun: 0,
             language,
             projector: remembered.projector,
@@ -168,6 +172,7 @@ impl App {
 
     fn panels(&mut self, ui: &mut Ui) {
         self.session.stage_mut().hides_later = self.learn.is_on();
+        self.words = None;
         self.bars(ui);
         if self.shows_page() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
@@ -196,13 +201,14 @@ impl App {
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID);
         let height = lesson.unwrap_or_else(|| words_panel::height(ui));
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        words.show(ui, |ui| {
+        let words = words.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
             } else {
                 words_panel::show(ui, &self.session, self.selected.as_ref());
             }
         });
+        self.words = Some(words.response.rect);
         // Beside a lesson a low window has no room for it, and the lesson's own buttons lead on.
         let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
         if !(self.projector || is_tight) || self.time.is_finding() {
@@ -233,7 +239,7 @@ impl App {
         }
         if self.save_bar.is_open() {
             let shown = self.picture.shown();
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown);
+            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, shown, &self.compare);
             if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
                 self.obey(command, ui.ctx());
             }
@@ -283,25 +289,6 @@ impl App {
         self.lit = lit.map(|dossier| dossier.lit(stage.state())).unwrap_or_default();
     }
 
-    /// What floats over the panels.
-    fn notices(&mut self, ctx: &Context) {
-        let is_free = self.session.notice().is_none() && !self.save_bar.is_open();
-        let making = self.session.making().filter(|(_, secs, _)| is_free && *secs > 0.4);
-        if let Some((name, _, part)) = making {
-            if notice::making(ctx, name, part) {
-                self.session.stop_making();
-            }
-        } else if let Some(notice) = self.session.notice().cloned() {
-            match notice.show(ctx) {
-                Some(notice::Click::Close) => self.session.close_notice(),
-                Some(notice::Click::Reload) => self.session.reload(),
-                None => {}
-            }
-        } else if let Some((name, _)) = self.session.loading().filter(|(_, secs)| *secs > 0.4) {
-            notice::loading(ctx, name);
-        }
-    }
-
     fn heroes(&mut self, ui: &mut Ui) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // Rather not at all than cut.
@@ -325,6 +312,7 @@ impl eframe::App for App {
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
                 Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
+                Done::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
                 Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
                 Done::ToTeach(lesson) => self.learn.open(lesson, &mut self.session),

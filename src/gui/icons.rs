@@ -33,6 +33,10 @@ pub enum Icon {
     StepBack,
     /// To what happened next.
     StepOn,
+    /// To the page before.
+    Back,
+    /// To the next page.
+    Next,
     /// Time goes slower.
     Slower,
     /// Time goes faster.
@@ -139,6 +143,14 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             line(&[(0.72, 0.2), (0.72, 0.8)]);
             let corners = vec![at(0.22, 0.2), at(0.62, 0.5), at(0.22, 0.8)];
             painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Icon::Back => {
+            line(&[(0.9, 0.5), (0.12, 0.5)]);
+            line(&[(0.44, 0.18), (0.12, 0.5), (0.44, 0.82)]);
+        }
+        Icon::Next => {
+            line(&[(0.1, 0.5), (0.88, 0.5)]);
+            line(&[(0.56, 0.18), (0.88, 0.5), (0.56, 0.82)]);
         }
         Icon::Slower => {
             for x in [0.46, 0.78] {

@@ -1,6 +1,6 @@
-//! A sentence that floats below the top bar: what was done, what went wrong, what can be done about it.
+//! A sentence that floats over the panels: what was done, what went wrong, what can be done about it.
 
-use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, ProgressBar, RichText, Stroke, Ui};
+use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, ProgressBar, RichText, Stroke, Ui};
 
 use super::icons::Icon;
 use super::theme::{self, GRID, Look};
@@ -65,10 +65,15 @@ impl Notice {
         (self.kind == Kind::Note).then(|| (self.since + Self::READ - now).max(0.0))
     }
 
+    /// Whether it is about a run that is over when another one begins.
+    pub fn is_of_the_run(&self) -> bool {
+        self.kind != Kind::Changed
+    }
+
     /// Shows it, and returns what was pressed.
-    pub fn show(&self, ctx: &Context) -> Option<Click> {
+    pub fn show(&self, ctx: &Context, at: Pos2) -> Option<Click> {
         let look = Look::of(ctx);
-        floating(ctx, |ui| {
+        floating(ctx, at, |ui| {
             let colour = if self.kind == Kind::Trouble { look.trouble } else { look.text };
             let text = RichText::new(&self.text).font(theme::regular(theme::BODY)).color(colour);
             ui.scope(|ui| {
@@ -86,35 +91,51 @@ impl Notice {
 }
 
 /// Says that something is being read and compiled.
-pub fn loading(ctx: &Context, name: &str) {
+pub fn loading(ctx: &Context, at: Pos2, name: &str) {
     let look = Look::of(ctx);
-    floating(ctx, |ui| {
+    floating(ctx, at, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
         let text = say!("{name} is being read and compiled …", "{name} está sendo lida e compilada …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
 
-/// Says what is being made and how far it is; returns whether that is to end.
-pub fn making(ctx: &Context, name: &str, part: f64) -> bool {
+/// Says what is being made, for how many seconds already, and what part of it is done; returns whether that is to end.
+pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64)) -> bool {
     let look = Look::of(ctx);
-    floating(ctx, |ui| {
+    floating(ctx, at, |ui| {
         let text = say!("{name} is being made", "{name} está sendo feito");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
-        let percent = fraction(part);
+        let done = fraction(part);
+        let done = left(secs, part).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
         ui.visuals_mut().extreme_bg_color = look.hairline;
         let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
-        ui.label(RichText::new(percent).font(theme::regular(theme::BODY)).color(look.quiet));
+        ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
         button(ui, None, word!("Cancel", "Cancelar"), true, Weight::Quiet).clicked()
     })
 }
 
-/// Over everything else, so that nothing moves away under somebody's hand when it comes or goes.
-fn floating<T>(ctx: &Context, content: impl FnOnce(&mut Ui) -> T) -> T {
+/// How long it will still take, as soon as that can be told.
+fn left(secs: f64, part: f64) -> Option<String> {
+    let left = (secs / part - secs).ceil();
+    if secs < 1.5 || part < 0.01 || left < 1.0 {
+        return None;
+    }
+    let minutes = (left / 60.0).round();
+    Some(if left < 90.0 {
+        say!("about {left} s left", "faltam uns {left} s")
+    } else {
+        say!("about {minutes} min left", "faltam uns {minutes} min")
+    })
+}
+
+/// Over everything else, so that nothing moves away under somebody's hand when it comes or goes: its lower right corner
+/// is here.
+fn floating<T>(ctx: &Context, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T {
     let look = Look::of(ctx);
     let frame = Frame::NONE.fill(look.raised).stroke(Stroke::new(1.0, look.hairline)).corner_radius(8.0);
-    let area = Area::new(Id::unique("notice")).order(Order::Foreground).anchor(Align2::CENTER_TOP, [0.0, 8.0 * GRID]);
+    let area = Area::new(Id::unique("notice")).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM).fixed_pos(at);
     let shown = area.show(ctx, |ui| {
         frame.inner_margin(egui::vec2(1.5 * GRID, GRID)).show(ui, |ui| ui.horizontal(content).inner).inner
     });
@@ -123,7 +144,7 @@ fn floating<T>(ctx: &Context, content: impl FnOnce(&mut Ui) -> T) -> T {
 
 /// How wide a notice can be.
 fn widest(ui: &Ui) -> f32 {
-    (ui.ctx().content_rect().width() - 8.0 * GRID).min(110.0 * GRID)
+    (ui.ctx().content_rect().width() - 8.0 * GRID).min(72.0 * GRID)
 }
 
 /// Says, over everything, that a file can be dropped.
@@ -147,5 +168,11 @@ mod tests {
         let note = Notice::note("Saved", 10.0);
         assert_eq!([note.remains(10.0), note.remains(15.0), note.remains(99.0)], [Some(8.0), Some(3.0), Some(0.0)]);
         assert_eq!(Notice::trouble("No", 10.0).remains(99.0), None);
+    }
+    #[test]
+    fn what_takes_long_says_how_long_still() {
+        assert_eq!(left(10.0, 0.25).as_deref(), Some("about 30 s left"));
+        assert_eq!(left(60.0, 0.25).as_deref(), Some("about 3 min left"));
+        assert_eq!([left(1.0, 0.25), left(10.0, 0.0), left(10.0, 1.0)], [None, None, None]);
     }
 }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
+use super::compare::Compare;
 use super::icons::Icon;
 use super::keys::Command;
-use super::save_kinds::{Kind, LONGEST_SIDE, large};
+use super::save_kinds::{Kind, LONGEST_SIDE, four_k, is_shape, large};
 use super::session::{Export, Phase, Purpose, Session};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, number, path_field};
@@ -21,6 +22,8 @@ use crate::view::Layer;
 pub struct SaveBar {
     open: bool,
     wants_focus: bool,
+    /// The path is being typed.
+    focused: bool,
     kind: Kind,
     path: String,
     /// The name that the bar itself has put there last: it is renewed as long as nobody has changed it.
@@ -29,8 +32,8 @@ pub struct SaveBar {
     warned: Option<PathBuf>,
     /// What is in the way.
     trouble: Option<String>,
-    /// Of a picture that is traced anew: its sides, and n × n samples a pixel.
-    size: [u32; 2],
+    /// Of a picture that is traced anew: its sides, once they were chosen, and n × n samples a pixel.
+    size: Option<[u32; 2]>,
     samples: u32,
     /// What a run is called, and what is to be known of it.
     title: String,
@@ -42,20 +45,19 @@ impl Default for SaveBar {
         Self {
             open: false,
             wants_focus: false,
+            focused: false,
             kind: Kind::default(),
             path: String::new(),
             suggested: String::new(),
             warned: None,
             trouble: None,
-            size: FOUR_K,
+            size: None,
             samples: 2,
             title: String::new(),
             memo: String::new(),
         }
     }
 }
-
-const FOUR_K: [u32; 2] = [3840, 2160];
 
 impl SaveBar {
     /// Opens the bar, with a name that says what is saved, or closes it.
@@ -102,15 +104,26 @@ impl SaveBar {
         }
     }
 
-    /// Shows the bar, and returns what else was asked for; the picture is shown with so much of a layer.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shown: (Layer, f32)) -> Option<Command> {
+    /// Shows the bar, and returns what else was asked for; the picture is shown with so much of a layer. While runs are
+    /// compared these are saved.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        session: &mut Session,
+        shown: (Layer, f32),
+        compare: &Compare,
+    ) -> Option<Command> {
         let look = Look::of(ui.ctx());
+        let kinds = if compare.is_open() { &Kind::OF_COMPARISON[..] } else { &Kind::OF_RUN[..] };
+        if !kinds.contains(&self.kind) {
+            self.choose(kinds[0]);
+        }
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
         let mut copies = false;
         // In a low window a row more would leave nothing of the picture.
         let is_low = ui.ctx().content_rect().height() < 600.0;
         if !is_low {
-            self.kinds(ui);
+            self.kinds(ui, kinds);
         }
         match self.kind {
             Kind::Large => self.choose_size(ui, session, look),
@@ -120,17 +133,18 @@ impl SaveBar {
         self.suggest(session);
         ui.horizontal(|ui| {
             if is_low {
-                self.list_of_kinds(ui);
+                self.list_of_kinds(ui, kinds);
             }
             ui.label(quiet(word!("as", "como")));
-            let width = (ui.available_width() - 43.0 * GRID).max(20.0 * GRID);
+            let width = (ui.available_width() - word!(43.0, 47.5) * GRID).max(20.0 * GRID);
             let name = word!("Where to save", "Onde salvar");
             let field = path_field(ui, (&mut self.path, ""), width, name, &mut self.wants_focus);
+            self.focused = field.focused;
             if field.changed {
                 (self.warned, self.trouble) = (None, None);
             }
             if button(ui, None, word!("Save", "Salvar"), true, Weight::Primary).clicked() || field.entered {
-                self.save(session, shown);
+                self.save(session, shown, compare);
             }
             if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
@@ -154,10 +168,21 @@ impl SaveBar {
     }
 
     /// All kinds, to be pressed at once.
-    fn kinds(&mut self, ui: &mut Ui) {
+    fn kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
+        let quiet = Look::of(ui.ctx()).quiet;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
-            for kind in Kind::ALL {
+            let mut format = "";
+            for &kind in kinds {
+                // Said once of those that follow each other.
+                if std::mem::replace(&mut format, kind.format()) != kind.format() {
+                    // It stands beside the first of them.
+                    if ui.available_size_before_wrap().x < 16.0 * GRID {
+                        ui.end_row();
+                    }
+                    ui.add_space(GRID / 2.0);
+                    ui.label(RichText::new(kind.format()).font(theme::regular(theme::SMALL)).color(quiet));
+                }
                 let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
                 if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
                     self.choose(kind);
@@ -167,11 +192,11 @@ impl SaveBar {
     }
 
     /// The same where there is no room for them.
-    fn list_of_kinds(&mut self, ui: &mut Ui) {
+    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
         let mut chosen = self.kind;
         let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name()).width(13.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
-            for kind in Kind::ALL {
+            for &kind in kinds {
                 ui.selectable_value(&mut chosen, kind, kind.name()).on_hover_text(kind.hint());
             }
         });
@@ -194,23 +219,35 @@ impl SaveBar {
     /// Size and quality of a picture that is traced anew.
     fn choose_size(&mut self, ui: &mut Ui, session: &Session, look: Look) {
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
-        let own = session.header().size;
-        let own = [own.width(), own.height()];
+        let own = own_size(session);
+        let mut size = self.large_size(session);
         let twice = own.map(|side| 2 * side);
         ui.horizontal(|ui| {
-            for (name, size) in [(word!("Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", FOUR_K)] {
-                let weight = if self.size == size { Weight::On } else { Weight::Quiet };
-                if button(ui, None, name, true, weight).clicked() {
-                    self.size = size;
+            for (name, other) in [(word!("Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))] {
+                let weight = if size == other { Weight::On } else { Weight::Quiet };
+                let [width, height] = other;
+                let hint = format!("{width} × {height}");
+                if button(ui, None, name, true, weight).on_hover_text(hint).clicked() {
+                    size = other;
                 }
             }
-            let [width, height] = &mut self.size;
+            let [width, height] = &mut size;
             number(ui, width, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels across", "Pixels na horizontal"));
             ui.label(quiet("×"));
             number(ui, height, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels down", "Pixels na vertical"));
             ui.label(quiet(word!("samples a pixel, n × n:", "amostras por pixel, n × n:")));
             number(ui, &mut self.samples, 1..=16, "", 6.0 * GRID, word!("Samples a pixel", "Amostras por pixel"));
         });
+        if size != self.large_size(session) {
+            self.size = Some(size);
+        }
+        if !is_shape(own, size) {
+            let words = word!(
+                "Another shape than the picture's: at the sides more is seen, or less",
+                "Outro formato que o da imagem: dos lados se vê mais, ou menos"
+            );
+            ui.label(quiet(words));
+        }
     }
 
     /// Title and memo of a run.
@@ -225,7 +262,7 @@ impl SaveBar {
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
-    fn save(&mut self, session: &mut Session, shown: (Layer, f32)) {
+    fn save(&mut self, session: &mut Session, shown: (Layer, f32), compare: &Compare) {
         let path = match resolve(&self.path, std::env::home_dir()) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
@@ -241,7 +278,7 @@ impl SaveBar {
                 "{name} é a cena que está aberta; escolha outro nome"
             ));
         }
-        let size = match large(self.size) {
+        let size = match large(self.large_size(session)) {
             Ok(size) => size,
             Err(why) => return self.trouble = Some(why),
         };
@@ -254,7 +291,7 @@ impl SaveBar {
             self.warned = Some(path);
             return;
         }
-        self.open = false;
+        // Open for the next one: a notice says what becomes of this one.
         match self.kind {
             Kind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
             Kind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
@@ -271,21 +308,42 @@ impl SaveBar {
             Kind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
             Kind::Table => session.export(path, Export::Table),
             Kind::Chrome => session.export(path, Export::Chrome),
+            Kind::Bars | Kind::Rows => match compare.comparison() {
+                Some(runs) => {
+                    let export = if self.kind == Kind::Bars { Export::Bars } else { Export::Rows };
+                    session.export(path, export(runs));
+                }
+                None => session.trouble(word!("No run is known yet", "Nenhuma execução é conhecida ainda")),
+            },
         }
+    }
+
+    /// The size of a picture that is traced anew: of the picture's shape, unless another one was chosen.
+    fn large_size(&self, session: &Session) -> [u32; 2] {
+        self.size.unwrap_or_else(|| four_k(own_size(session)))
     }
 
     /// Puts a name there that says what is saved, unless the user has put something else there.
     fn suggest(&mut self, session: &Session) {
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
-        let size = format!("{}x{}", self.size[0], self.size[1]);
+        let size = self.large_size(session);
+        let size = format!("{}x{}", size[0], size[1]);
         let name = self.kind.file_name(session.header(), done, &size);
         let suggested = directory.join(name).display().to_string();
-        if self.path == self.suggested {
+        if self.path == self.suggested && self.path != suggested {
+            // The name is selected anew.
+            self.wants_focus |= self.focused;
             self.path.clone_from(&suggested);
         }
         self.suggested = suggested;
     }
+}
+
+/// Of the picture that is shown.
+fn own_size(session: &Session) -> [u32; 2] {
+    let size = session.header().size;
+    [size.width(), size.height()]
 }
 
 /// The path that was typed, `~` being the home directory.

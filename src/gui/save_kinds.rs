@@ -33,11 +33,15 @@ pub enum Kind {
     Table,
     /// The run's records for Perfetto.
     Chrome,
+    /// Where the time of the compared runs went.
+    Bars,
+    /// The compared runs as a table.
+    Rows,
 }
 
 impl Kind {
-    /// All of them: pictures, then drawings, then records.
-    pub const ALL: [Self; 12] = [
+    /// Those of a run: pictures, then drawings, then records.
+    pub const OF_RUN: [Self; 12] = [
         Self::Render,
         Self::Owners,
         Self::Costs,
@@ -52,6 +56,9 @@ impl Kind {
         Self::Chrome,
     ];
 
+    /// Those of runs that are compared, and the run that is their subject.
+    pub const OF_COMPARISON: [Self; 3] = [Self::Bars, Self::Rows, Self::Run];
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {
@@ -65,8 +72,9 @@ impl Kind {
             Self::Timeline => word!("timeline", "linha do tempo"),
             Self::Film => word!("animation", "animação"),
             Self::Run => word!("run", "execução"),
-            Self::Table => word!("table", "tabela"),
+            Self::Table | Self::Rows => word!("table", "tabela"),
             Self::Chrome => "Perfetto",
+            Self::Bars => word!("bars", "barras"),
         }
     }
 
@@ -99,6 +107,23 @@ impl Kind {
             Self::Chrome => {
                 word!("What each machine did, for ui.perfetto.dev", "O que cada máquina fez, para ui.perfetto.dev")
             }
+            Self::Bars => word!(
+                "Where the time of the compared runs went: SVG, or PNG",
+                "Para onde foi o tempo das execuções comparadas: SVG, ou PNG"
+            ),
+            Self::Rows => word!("A row for each compared run: CSV", "Uma linha por execução comparada: CSV"),
+        }
+    }
+
+    /// What its file is, in capitals.
+    pub fn format(self) -> &'static str {
+        match self.ending() {
+            "png" => "PNG",
+            "svg" => "SVG",
+            "gif" => "GIF",
+            "csv" => "CSV",
+            "json" => "JSON",
+            _ => "ANEL",
         }
     }
 
@@ -106,10 +131,10 @@ impl Kind {
     pub fn ending(self) -> &'static str {
         match self {
             Self::Render | Self::Owners | Self::Costs | Self::Arrival | Self::Blend | Self::Large => "png",
-            Self::Ring | Self::Timeline => "svg",
+            Self::Ring | Self::Timeline | Self::Bars => "svg",
             Self::Film => "gif",
             Self::Run => "anel",
-            Self::Table => "csv",
+            Self::Table | Self::Rows => "csv",
             Self::Chrome => "json",
         }
     }
@@ -128,12 +153,27 @@ impl Kind {
             Self::Ring => of_run + "-moment",
             Self::Timeline => of_run + "-timeline",
             Self::Chrome => of_run + "-perfetto",
+            Self::Bars | Self::Rows => "-comparison".into(),
         };
         let size = header.size.to_string();
         let size = if self == Self::Large { large } else { &size };
-        let unfinished = if done || self == Self::Large { "" } else { "-unfinished" };
+        let is_whole = done || matches!(self, Self::Large | Self::Bars | Self::Rows);
+        let unfinished = if is_whole { "" } else { "-unfinished" };
         format!("{scene}-{size}{what}{unfinished}.{}", self.ending())
     }
+}
+
+/// The largest size of this shape that a 4K screen holds.
+pub fn four_k([width, height]: [u32; 2]) -> [u32; 2] {
+    let scale = (3840.0 / f64::from(width)).min(2160.0 / f64::from(height));
+    [width, height].map(|side| (f64::from(side) * scale).round() as u32)
+}
+
+/// Whether two sizes have one shape, but for a pixel.
+pub fn is_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
+    let (width, height) = (f64::from(width), f64::from(height));
+    (width * f64::from(h) / f64::from(w) - height).abs() <= 1.0
+        || (height * f64::from(w) / f64::from(h) - width).abs() <= 1.0
 }
 
 /// A side of a picture that is traced anew is at most so long.
@@ -153,6 +193,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_larger_picture_keeps_its_shape() {
+        assert_eq!(four_k([640, 480]), [2880, 2160]);
+        assert_eq!(four_k([1600, 900]), [3840, 2160]);
+        assert_eq!(four_k([2000, 100]), [3840, 192]);
+        assert!(is_shape([641, 480], [2885, 2160]) && is_shape([640, 480], [333, 250]));
+        assert!(!is_shape([640, 480], [3840, 2160]) && !is_shape([640, 480], [480, 640]));
+    }
+
+    #[test]
     fn a_name_says_what_is_saved() {
         let header = Settings::default().header("my scene", "", Default::default(), 2);
         let named = |kind: Kind, done| kind.file_name(&header, done, "3840x2160");
@@ -161,7 +210,10 @@ mod tests {
         assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
         assert_eq!(named(Kind::Large, false), "my-scene-3840x2160.png");
         assert_eq!(named(Kind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
-        let names: std::collections::BTreeSet<String> = Kind::ALL.into_iter().map(|kind| named(kind, true)).collect();
-        assert_eq!(names.len(), Kind::ALL.len(), "no two are the same");
+        assert_eq!(named(Kind::Bars, false), "my-scene-640x480-comparison.svg");
+        for kinds in [&Kind::OF_RUN[..], &Kind::OF_COMPARISON] {
+            let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
+            assert_eq!(names.len(), kinds.len(), "no two are the same");
+        }
     }
 }

@@ -360,9 +360,14 @@ fn pace(ui: &mut Ui, draft: &mut Settings, look: Look) {
         }
     });
     if let Tempo::Lasts(seconds) = &mut draft.tempo {
-        line(ui, word!("The run takes about", "A execução leva uns"), look, |ui| {
+        line(ui, word!("Shared well, about", "Bem dividida, uns"), look, |ui| {
             let name = word!("Seconds of the run", "Segundos da execução");
-            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, name);
+            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, name).on_hover_text(word!(
+                "So long the run takes if nearly all machines work until the end, as in a ring. Bands take longer beside a \
+                 slow machine, and so does this computer in real time while it has other things to do",
+                "Tanto leva a execução se quase todas as máquinas trabalham até o fim, como num anel. Faixas levam mais ao \
+                 lado de uma máquina lenta, e também este computador em tempo real, quando tem outras coisas a fazer"
+            ));
         });
     }
 }

@@ -202,7 +202,7 @@ fn visuals(theme: Theme, look: Look) -> Visuals {
     visuals.window_fill = look.ground;
     visuals.window_stroke = Stroke::new(1.0, look.hairline);
     visuals.extreme_bg_color = look.raised;
-    visuals.selection.bg_fill = look.accent.gamma_multiply(0.5);
+    visuals.selection.bg_fill = look.accent.gamma_multiply(0.25);
     visuals.selection.stroke = Stroke::new(1.5, look.accent);
     visuals.error_fg_color = look.trouble;
     visuals.hyperlink_color = look.accent;

@@ -137,6 +137,8 @@ impl TimePanel {
             let known = (session.stage().lanes().version(), Language::spoken());
             if !was_open || self.found_in != known {
                 (self.found, self.found_in) = (landmarks(&session.stage().log), known);
+                let told = session.stage().told_length();
+                self.found.retain(|mark| mark.at <= told);
             }
             ui.set_width(54.0 * GRID);
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
@@ -216,7 +218,7 @@ fn arrows(ui: &Ui, response: &Response, step: Step) -> Option<Command> {
 
 /// The line along which one drags, with what stands out.
 fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Look) {
-    let length = session.stage().length();
+    let length = session.stage().told_length();
     let rail =
         Rect::from_x_y_ranges(rect.left() + GRID..=rect.right() - GRID, rect.center().y - 2.0..=rect.center().y + 2.0);
     let time_at = |at: Pos2| {
@@ -225,7 +227,8 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     };
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
         let stands = session.stage().time.stands() || response.dragged();
-        let at = if at.x >= rail.right() { Time(u64::MAX) } else { time_at(at) };
+        let is_end = at.x >= rail.right() && !session.stage().hides_later;
+        let at = if is_end { Time(u64::MAX) } else { time_at(at) };
         session.drag_to(at, stands);
     }
     if response.drag_stopped() {
@@ -240,7 +243,8 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     let grain = stage.grain();
     response.widget_info(|| {
         let mut info = WidgetInfo::slider(true, now.secs(), word!("The run's time", "O tempo da execução"));
-        let of = if stage.phase == Phase::Running { word!("so far", "até agora") } else { word!("in all", "ao todo") };
+        let is_more = stage.phase == Phase::Running || stage.hides_later;
+        let of = if is_more { word!("so far", "até agora") } else { word!("in all", "ao todo") };
         let [now, length] = [now, length].map(|time| time_words(time, grain));
         info.current_text_value = Some(say!("{now} of {length} {of}", "{now} de {length} {of}"));
         info

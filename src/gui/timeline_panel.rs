@@ -74,10 +74,10 @@ impl TimelinePanel {
         let place = area.with_min_x(area.left() + left);
         let plan = LanePlan::new(nodes, place.width(), place.height());
         let response = ui.allocate_rect(place, Sense::click_and_drag());
-        self.window.fit(session.stage().length());
+        self.window.fit(session.stage().told_length());
         self.follow(session.stage());
         self.move_about(ui, &response, place);
-        self.window.fit(session.stage().length());
+        self.window.fit(session.stage().told_length());
         self.point(&response, place, &plan, session, focus);
         let stage = session.stage();
         describe(&response, stage);
@@ -169,7 +169,7 @@ impl TimelinePanel {
 
     fn paint(&mut self, painter: &Painter, place: Rect, plan: &LanePlan, stage: &Stage, lit: &Lit, look: Look) {
         let inks = Inks { look, nodes: &stage.colours };
-        let head = stage.length();
+        let head = stage.told_length();
         let key = Key { version: stage.lanes().version(), window: self.window, plan: *plan, head };
         if self.drawn.as_ref().is_none_or(|(drawn, _)| *drawn != key) {
             self.drawn = Some((key, timeline(stage.lanes(), &self.window, plan, head)));
@@ -301,8 +301,8 @@ fn usage_words(stage: &Stage) -> [String; 4] {
 
 fn describe(response: &Response, stage: &Stage) {
     widgets::describe(response, word!("Timeline", "Linha do tempo"), || {
-        let [until, length] = [stage.lasted(), stage.length()].map(|time| time_words(time, stage.grain()));
-        let over = stage.phase == Phase::Finished;
+        let [until, length] = [stage.lasted(), stage.told_length()].map(|time| time_words(time, stage.grain()));
+        let over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if over { word!("in all", "ao todo") } else { word!("so far", "até agora") };
         let usage = usage_words(stage).join(" · ");
         say!("{until} of {length} {of}: {usage}", "{until} de {length} {of}: {usage}")

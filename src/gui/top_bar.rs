@@ -1,6 +1,6 @@
 //! The bar at the top: what runs, how long, and what to press.
 
-use egui::{Align, Color32, Label, Layout, RichText, Ui};
+use egui::{Align, Color32, Label, Layout, RichText, TextStyle, Ui};
 
 use super::icons::Icon;
 use super::keys::Command;
@@ -33,8 +33,9 @@ pub struct Open {
 pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
     let look = Look::of(ui.ctx());
     let width = ui.available_width();
+    let worded = worded(ui, width);
     // All buttons have room for their words.
-    let wide = width > word!(1230.0, 1270.0);
+    let wide = worded == WORDED;
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
@@ -52,7 +53,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
-            clicked = clicked.or(buttons(ui, session, wide, open));
+            clicked = clicked.or(buttons(ui, session, worded, open));
             ui.add_space(if wide { 2.0 * GRID } else { GRID });
             let time = time_words(session.stage().lasted(), session.stage().grain());
             let font = theme::strong(theme::LARGE);
@@ -81,9 +82,32 @@ fn hint(session: &Session) -> String {
     first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 
-/// From right to left.
-fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Command> {
+/// How many buttons have words only where there is room for them.
+const WORDED: usize = 5;
+
+/// Those buttons, first those that keep their words longest.
+fn names() -> [&'static str; WORDED] {
+    word!(["Learn", "Compare", "Set up", "Save…", "Accuracy"], ["Lições", "Comparar", "Ajustar", "Salvar…", "Precisão"])
+}
+
+/// How many of them have words in a bar of this width.
+fn worded(ui: &Ui, width: f32) -> usize {
+    // What all else needs.
+    let mut room = width - word!(886.0, 906.0);
+    let font = TextStyle::Button.resolve(ui.style());
+    let has_room = |name: &&str| {
+        let words = ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
+        room -= words.size().x + 2.0 * GRID;
+        room >= 0.0
+    };
+    names().into_iter().take_while(has_room).count()
+}
+
+/// From right to left; so many have words.
+fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<Command> {
     let mut clicked = None;
+    let [learn, compare, set_up, save, accuracy] = names();
+    let words = |name| names()[..worded].contains(&name);
     let mut press = |icon, name, words, weight, command, hint: &str| {
         if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
             clicked = Some(command);
@@ -105,15 +129,15 @@ fn buttons(ui: &mut Ui, session: &Session, words: bool, open: Open) -> Option<Co
     let hint = word!("Dark or light (D)", "Escuro ou claro (D)");
     press(Icon::Contrast, word!("Dark or light", "Escuro ou claro"), false, Weight::Quiet, Command::Theme, hint);
     let hint = word!("Save a picture, or the run (S)", "Salvar uma imagem, ou a execução (S)");
-    press(Icon::Save, word!("Save…", "Salvar…"), words, shown(open.save), Command::Save, hint);
+    press(Icon::Save, save, words(save), shown(open.save), Command::Save, hint);
     let hint = word!("What other qualities cost (A)", "O que custam outras qualidades (A)");
-    press(Icon::Chart, word!("Accuracy", "Precisão"), words, shown(open.accuracy), Command::Accuracy, hint);
+    press(Icon::Chart, accuracy, words(accuracy), shown(open.accuracy), Command::Accuracy, hint);
     let hint = word!("Lessons with questions (N)", "Lições com perguntas (N)");
-    press(Icon::Learn, word!("Learn", "Lições"), words, shown(open.learn), Command::Learn, hint);
+    press(Icon::Learn, learn, words(learn), shown(open.learn), Command::Learn, hint);
     let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
-    press(Icon::Compare, word!("Compare", "Comparar"), words, shown(open.compare), Command::Compare, hint);
+    press(Icon::Compare, compare, words(compare), shown(open.compare), Command::Compare, hint);
     let hint = word!("Machines, picture, strategy (E)", "Máquinas, imagem, estratégia (E)");
-    press(Icon::Sliders, word!("Set up", "Ajustar"), words, shown(open.setup), Command::Setup, hint);
+    press(Icon::Sliders, set_up, words(set_up), shown(open.setup), Command::Setup, hint);
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
         let button = button(ui, Some(Icon::Undo), word!("Undo", "Desfazer"), false, Weight::Quiet);
         let hint = word!(

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{
     Color32, Context, DragValue, Frame, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextEdit,
     TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -103,6 +105,8 @@ pub struct Typed {
     pub changed: bool,
     /// Enter was pressed.
     pub entered: bool,
+    /// Whoever types, types there.
+    pub focused: bool,
 }
 
 /// A field for a path, with a hint while it is empty. It gets the focus if it `wants_focus`, and keeps it on Enter:
@@ -119,10 +123,25 @@ pub fn path_field(
     let field = ui.add(field);
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    if std::mem::take(wants_focus) || entered {
+    let begins = std::mem::take(wants_focus);
+    if begins || entered {
         field.request_focus();
     }
-    Typed { changed: field.changed(), entered }
+    if begins {
+        // The name is what one would change, rather than the directory or the ending.
+        let mut state = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+        let [from, to] = stem(path).map(CCursor::new);
+        state.cursor.set_char_range(Some(CCursorRange::two(from, to)));
+        state.store(ui.ctx(), field.id);
+    }
+    Typed { changed: field.changed(), entered, focused: field.has_focus() }
+}
+
+/// Where in a path the file's name without its ending begins and ends, in characters.
+fn stem(path: &str) -> [usize; 2] {
+    let name = path.rfind(std::path::is_separator).map_or(0, |separator| separator + 1);
+    let end = path[name..].rfind('.').filter(|&dot| dot > 0).map_or(path.len(), |dot| name + dot);
+    [name, end].map(|place| path[..place].chars().count())
 }
 
 /// What lies round the content of a popup.
@@ -218,5 +237,22 @@ fn focus_ring(ui: &Ui, response: &Response, rect: Rect, look: Look) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, look.accent);
         ui.painter().rect_stroke(rect.expand(2.0), 8.0, stroke, StrokeKind::Outside);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_files_stem_is_found() {
+        let found = |path: &str| {
+            let [from, to] = stem(path);
+            path.chars().skip(from).take(to - from).collect::<String>()
+        };
+        assert_eq!(found("/home/é/my.picture.png"), "my.picture");
+        assert_eq!(found("picture"), "picture");
+        assert_eq!(found("/tmp/.hidden"), ".hidden");
+        assert_eq!((found("/tmp/"), found("")), (String::new(), String::new()));
     }
 }

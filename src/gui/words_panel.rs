@@ -1,5 +1,6 @@
 //! What happens in sentences, what came of it in figures, and who has done how much in a bar.
 
+use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::session::{Phase, Session};
@@ -8,7 +9,7 @@ use super::widgets;
 use crate::language::{decimal, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
-use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares};
+use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares, unfinished_words};
 
 const SENTENCE: f32 = 3.25 * GRID;
 const EVENT: f32 = 2.25 * GRID;
@@ -27,12 +28,21 @@ pub fn show(ui: &mut Ui, session: &Session, about: Option<&Dossier>) {
     let words = &mut ui.new_child(UiBuilder::new().max_rect(above.with_max_y(above.bottom() - GRID)));
     words.spacing_mut().item_spacing.y = 0.0;
     words.shrink_clip_rect(above);
-    if let Some(about) = about {
-        selected(words, session, about, look);
-    } else if session.stage().result().is_some() {
-        result(words, session, look)
-    } else {
-        story(words, session, look)
+    match about {
+        Some(about) => {
+            // The run is told of above, where there is room for both.
+            if events_shown(words) > 0 {
+                sentence(words, session, look);
+            }
+            selected(words, session, about, look);
+        }
+        None if session.stage().result().is_some() => result(words, session, look),
+        None => {
+            sentence(words, session, look);
+            let stage = session.stage();
+            let earlier = stage.narrator().earlier(stage.state(), session.now());
+            events(words, earlier.rev().take(events_shown(words)), look);
+        }
     }
     bar(ui, below, session, look);
 }
@@ -47,28 +57,31 @@ fn events_shown(ui: &Ui) -> usize {
     }
 }
 
-/// What is selected, in the story's place: whoever clicks wants to know.
+/// What is selected, in the place of earlier events: whoever clicks wants to know.
 fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
     let stage = session.stage();
     let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("selected"), Sense::hover());
     widgets::describe(&response, word!("Selected", "Selecionado"), || format!("{title}. {more}"));
-    ui.allocate_ui(vec2(ui.available_width(), SENTENCE), |ui| {
-        ui.set_min_height(SENTENCE);
-        ui.add(Label::new(RichText::new(&title).font(theme::strong(18.0)).color(look.text)).truncate());
-    });
+    let layout = |more: &str| {
+        let mut job = LayoutJob::default();
+        job.wrap.max_width = area.width();
+        job.append(&title, 0.0, TextFormat::simple(theme::strong(theme::SMALL), look.text));
+        job.append(more, 0.0, TextFormat::simple(theme::regular(theme::SMALL), look.quiet));
+        ui.painter().layout_job(job)
+    };
     // As much as there is room for.
-    let (width, room) = (ui.available_width(), ui.available_height());
-    let layout = |text: &str| ui.painter().layout(text.to_owned(), theme::regular(theme::SMALL), look.quiet, width);
+    let more = format!(" · {more}");
     let ends = more.match_indices(" · ").map(|(end, _)| end).chain([more.len()]);
-    if let Some(end) = ends.filter(|&end| layout(&more[..end]).size().y <= room).last() {
-        ui.label(RichText::new(&more[..end]).font(theme::regular(theme::SMALL)).color(look.quiet));
+    let fits = ends.map(|end| layout(&more[..end])).take_while(|galley| galley.size().y <= area.height());
+    if let Some(galley) = fits.last() {
+        ui.painter().galley(area.min, galley, look.text);
     }
 }
 
-/// The sentence of the moment, and the last events before it.
-fn story(ui: &mut Ui, session: &Session, look: Look) {
+/// The sentence of the moment.
+fn sentence(ui: &mut Ui, session: &Session, look: Look) {
     let stage = session.stage();
     let sentence = match &stage.phase {
         Phase::Preparing => word!(
@@ -77,10 +90,7 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
         )
         .to_owned(),
         Phase::Failed(why) => say!("The run cannot go on: {why}", "A execução não pode continuar: {why}"),
-        Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => {
-            let done = percent(stage.state().done(), stage.state().atoms());
-            say!("The record ends here, with {done} of the picture", "O registro acaba aqui, com {done} da imagem")
-        }
+        Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => unfinished_words(stage.state()),
         _ => match stage.stepped_to() {
             Some(record) => record_words(record, stage.state()),
             None => stage.narrator().sentence(stage.state(), session.now()),
@@ -94,8 +104,6 @@ fn story(ui: &mut Ui, session: &Session, look: Look) {
         ui.set_min_height(SENTENCE);
         ui.add(Label::new(text).wrap());
     });
-    let earlier = stage.narrator().earlier(stage.state(), session.now());
-    events(ui, earlier.rev().take(events_shown(ui)), look);
 }
 
 /// Events and their times, a line each.
@@ -152,8 +160,8 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
 }
 
 fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::sync::Arc<egui::Galley> {
-    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font.clone(), look.quiet);
-    job.wrap = egui::text::TextWrapping::truncate_at_width(width);
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font.clone(), look.quiet);
+    job.wrap = TextWrapping::truncate_at_width(width);
     ui.painter().layout_job(job)
 }
 

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::perform::Performed;
-use super::{Lesson, Moment};
+use super::{Lesson, Moment, Step};
 use crate::picture::atoms_in;
 use crate::record::What;
 use crate::runlog::RunLog;
@@ -117,6 +117,10 @@ struct Run<'a> {
     account: Option<Account>,
 }
 
+fn known(performed: &[(String, Performed)]) -> Vec<Run<'_>> {
+    performed.iter().map(|(name, run)| Run { name, log: &run.log, account: Account::of(&run.log) }).collect()
+}
+
 impl Claim {
     /// The claim's value, and whether it holds; `run` is what the step shows.
     fn holds(&self, run: &str, runs: &[Run<'_>]) -> (Option<f64>, bool) {
@@ -136,18 +140,38 @@ impl Claim {
     }
 }
 
+impl Step {
+    /// What is to be said if its run does not have the moment to which it leads.
+    fn missing(&self, performed: &[(String, Performed)]) -> Option<String> {
+        let (until, (name, run)) = (self.until?, performed.iter().find(|(name, _)| *name == self.run)?);
+        let lasts = run.log.records().last().map_or(0.0, |record| record.at.secs());
+        until.of(&run.log).is_none().then(|| format!("the run `{name}` has no {until:?}; it lasts {lasts:.1} s"))
+    }
+}
+
 impl Lesson {
+    /// Whether the runs have all moments to which steps lead.
+    ///
+    /// # Errors
+    /// A sentence on the first that a run does not have.
+    pub fn has_moments(&self, performed: &[(String, Performed)]) -> Result<(), String> {
+        let missing = (1..).zip(&self.steps).find_map(|(number, step)| Some((number, step.missing(performed)?)));
+        missing.map_or(Ok(()), |(number, why)| Err(format!("step {number}: {why}")))
+    }
+
+    /// What each step claims and what that comes to in these runs; `None` where a run never ends.
+    pub fn values(&self, performed: &[(String, Performed)]) -> Vec<Vec<Option<f64>>> {
+        let runs = known(performed);
+        let of = |step: &Step| step.holds.iter().map(|claim| claim.holds(&step.run, &runs).0).collect();
+        self.steps.iter().map(of).collect()
+    }
+
     /// Every claim with its value, and whether it holds; and every moment that a run does not have.
     pub fn check(&self, performed: &[(String, Performed)]) -> Vec<(String, bool)> {
-        let known = performed.iter().map(|(name, run)| Run { name, log: &run.log, account: Account::of(&run.log) });
-        let runs: Vec<Run<'_>> = known.collect();
+        let runs = known(performed);
         let mut told = Vec::new();
         for (number, step) in (1..).zip(&self.steps) {
-            if let (Some(until), Some(run)) = (step.until, runs.iter().find(|run| run.name == step.run))
-                && until.of(run.log).is_none()
-            {
-                told.push((format!("step {number}: the run `{}` has no {until:?}", step.run), false));
-            }
+            told.extend(step.missing(performed).map(|why| (format!("step {number}: {why}"), false)));
             for claim in &step.holds {
                 let (value, holds) = claim.holds(&step.run, &runs);
                 let of = claim.of.as_deref().unwrap_or(&step.run);

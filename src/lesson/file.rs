@@ -10,8 +10,9 @@ use serde::{Deserialize, Deserializer};
 use super::{BUILT_IN, Claim, Lesson, Look, Moment, Plan, Question, Step, Words};
 use crate::balance::{NodeId, Strategy};
 use crate::picture::Size;
-use crate::ron_file::{self, FileError, find_name, skipped};
+use crate::ron_file::{self, FileError, find_path, skipped};
 use crate::scenario::Command;
+use crate::scene;
 use crate::time::Time;
 
 /// What a window can show of a run.
@@ -37,20 +38,21 @@ impl Lesson {
         let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
         let text = ron_file::read(path, "lesson", none).map_err(|message| FileError::new(None, &message));
         let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        text.and_then(|text| Self::parse(&name, &text))
-            .map(|lesson| Self { directory, ..lesson })
-            .map_err(|error| error.of(argument))
+        text.and_then(|text| Self::parse_in(directory, &name, &text)).map_err(|error| error.of(argument))
     }
 
-    /// Reads the text of a lesson's file.
+    /// Reads the text of a lesson's file, beside which there are no scenes.
     ///
     /// # Errors
     /// The first thing that is wrong, with its line, its column and its field.
     pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
+        Self::parse_in(PathBuf::new(), name, text)
+    }
+
+    fn parse_in(directory: PathBuf, name: &str, text: &str) -> Result<Self, FileError> {
         const DEEP: &str = "a lesson has no such depths";
         let file: LessonFile = ron_file::parse(text, "lesson", "a title, runs and steps", DEEP)?;
-        file.resolve(name)
-            .map_err(|(what, message)| FileError::new(what.and_then(|what| find_name(text, &what)), &message))
+        file.resolve(name, directory).map_err(|Wrong { path, why }| FileError::new(find_path(text, &path), &why))
     }
 }
 
@@ -144,111 +146,148 @@ impl Default for PlanFile {
     }
 }
 
-/// What is wrong, and a text of the file that tells where, if there is one.
-type Wrong = (Option<String>, String);
+/// What is wrong, and where in the file.
+struct Wrong {
+    path: Vec<String>,
+    why: String,
+}
+
+impl Wrong {
+    fn new(path: &[&str], why: impl Into<String>) -> Self {
+        Self { path: path.iter().map(|&step| step.to_owned()).collect(), why: why.into() }
+    }
+
+    /// The same within something else, which is called so.
+    fn within(mut self, path: &[&str], called: &str) -> Self {
+        self.path.splice(0..0, path.iter().map(|&step| step.to_owned()));
+        Self { path: self.path, why: format!("{called}: {}", self.why) }
+    }
+}
 
 impl LessonFile {
-    fn resolve(self, name: &str) -> Result<Lesson, Wrong> {
+    fn resolve(self, name: &str, directory: PathBuf) -> Result<Lesson, Wrong> {
         if self.runs.is_empty() {
-            return Err((None, "a lesson needs at least one run".into()));
+            return Err(Wrong::new(&["runs"], "a lesson needs at least one run"));
         }
         let mut runs = BTreeMap::new();
         for (name, plan) in self.runs {
-            let plan =
-                plan.resolve().map_err(|message| (Some(name.clone()), format!("the run `{name}`: {message}")))?;
+            let plan = plan.resolve(&directory);
+            let plan = plan.map_err(|wrong| wrong.within(&["runs", &name], &format!("the run `{name}`")))?;
             runs.insert(name, plan);
         }
         let mut steps: Vec<Step> = Vec::new();
-        for (number, step) in (1..).zip(self.steps) {
+        for (index, step) in self.steps.into_iter().enumerate() {
             let only = runs.keys().next().filter(|_| runs.len() == 1);
             let run = step.run.clone().or_else(|| steps.last().map(|step| step.run.clone())).or_else(|| only.cloned());
-            let Some(run) = run else {
-                return Err((None, format!("step {number}: which run does it show? The first step has to say `run:`")));
-            };
-            steps.push(step.resolve(&runs, run).map_err(|(what, why)| (what, format!("step {number}: {why}")))?);
+            let unknown = || Wrong::new(&[], "which run does it show? The first step has to say `run:`");
+            let step = run.ok_or_else(unknown).and_then(|run| step.resolve(&runs, run));
+            let within = |wrong: Wrong| wrong.within(&["steps", &index.to_string()], &format!("step {}", index + 1));
+            steps.push(step.map_err(within)?);
         }
         if steps.is_empty() {
-            return Err((None, "a lesson needs at least one step".into()));
+            return Err(Wrong::new(&["steps"], "a lesson needs at least one step"));
         }
-        Ok(Lesson { name: name.into(), directory: PathBuf::new(), title: self.title, about: self.about, runs, steps })
+        Ok(Lesson { name: name.into(), directory, title: self.title, about: self.about, runs, steps })
     }
 }
 
 impl PlanFile {
-    fn resolve(self) -> Result<Plan, String> {
-        let size = Size::new(self.size.0, self.size.1)?;
+    fn resolve(self, directory: &Path) -> Result<Plan, Wrong> {
+        if scene::built_in(&self.scene).is_none() && !directory.join(&self.scene).is_file() {
+            let names: Vec<_> = scene::BUILT_IN.iter().map(|(name, _)| *name).collect();
+            let (scene, names) = (&self.scene, names.join(", "));
+            let why = format!("there is no scene `{scene}` beside the lesson, and no built-in one (they are {names})");
+            return Err(Wrong::new(&["scene"], why));
+        }
+        let size = Size::new(self.size.0, self.size.1).map_err(|why| Wrong::new(&["size"], why))?;
         if size.width().max(size.height()) > LONGEST_SIDE {
-            return Err(format!("a side of the picture can be up to {LONGEST_SIDE} pixels"));
+            return Err(Wrong::new(&["size"], format!("a side of the picture can be up to {LONGEST_SIDE} pixels")));
         }
         if self.atom == 0 || size.pixels().div_ceil(self.atom.max(1)) > MOST_ATOMS {
-            return Err(format!("atoms of {} pixels: there can be up to {MOST_ATOMS} of at least one", self.atom));
+            let why = format!("atoms of {} pixels: there can be up to {MOST_ATOMS} of at least one", self.atom);
+            return Err(Wrong::new(&["atom"], why));
         }
         if !(1..=MOST_MACHINES).contains(&self.speeds.len()) {
-            return Err(format!("there can be 1 to {MOST_MACHINES} machines, not {}", self.speeds.len()));
+            let why = format!("there can be 1 to {MOST_MACHINES} machines, not {}", self.speeds.len());
+            return Err(Wrong::new(&["speeds"], why));
         }
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
-            return Err("a speed can be 0 to 1".into());
+            return Err(Wrong::new(&["speeds"], "a speed can be 0 to 1"));
         }
-        let time = |what: &str, value: f64, least: f64, most: f64| {
-            let is_possible = (least..=most).contains(&value);
-            if is_possible { Ok(value) } else { Err(format!("{what} can be {least} to {most}, not {value}")) }
+        let ms = |field, value| {
+            within(&format!("`{field}`"), value, 0.0, 60_000.0)
+                .map(|value| Duration::from_secs_f64(value * 1e-3))
+                .map_err(|why| Wrong::new(&[field], why))
         };
-        let ms = |what, value| time(what, value, 0.0, 60_000.0).map(|value| Duration::from_secs_f64(value * 1e-3));
         let part = self.part.filter(|part| !(1..=MOST_ATOMS).contains(part));
         if let Some(part) = part {
-            return Err(format!("a part can be 1 to {MOST_ATOMS} atoms, not {part}"));
+            return Err(Wrong::new(&["part"], format!("a part can be 1 to {MOST_ATOMS} atoms, not {part}")));
         }
         let mut script = Vec::new();
-        for Deed { at, machine, speed } in self.script {
-            let node = node(machine, self.speeds.len())?;
-            let speed = time("a speed", speed, 0.0, 1.0)?;
-            let at = Time::from_secs(time("the second at which a machine changes", at, 0.0, 3600.0)?);
-            script.push((at, Command::Speed { node, speed }));
+        for (index, deed) in self.script.into_iter().enumerate() {
+            let deed = deed.resolve(self.speeds.len());
+            script.push(deed.map_err(|why| Wrong::new(&["script", &index.to_string()], why))?);
         }
         script.sort_by_key(|(at, _)| *at);
+        let lasts = within("`seconds`", self.seconds, 0.1, 3600.0).map_err(|why| Wrong::new(&["seconds"], why))?;
         Ok(Plan {
             scene: self.scene,
             size,
             atom: self.atom,
             strategy: self.strategy,
             part: self.part,
-            latency: ms("`latency_ms`", self.latency_ms)?,
-            handling: ms("`handling_ms`", self.handling_ms)?,
-            lasts: Duration::from_secs_f64(time("`seconds`", self.seconds, 0.1, 3600.0)?),
+            latency: ms("latency_ms", self.latency_ms)?,
+            handling: ms("handling_ms", self.handling_ms)?,
+            lasts: Duration::from_secs_f64(lasts),
             speeds: self.speeds,
             script,
         })
     }
 }
 
+impl Deed {
+    fn resolve(self, machines: usize) -> Result<(Time, Command), String> {
+        let node = node(self.machine, machines)?;
+        let speed = within("a speed", self.speed, 0.0, 1.0)?;
+        let at = within("the second at which a machine changes", self.at, 0.0, 3600.0)?;
+        Ok((Time::from_secs(at), Command::Speed { node, speed }))
+    }
+}
+
 impl StepFile {
     fn resolve(self, runs: &BTreeMap<String, Plan>, run: String) -> Result<Step, Wrong> {
-        let known = |name: &String| {
+        let known = |name: &String, path: &[&str]| {
             let all: Vec<_> = runs.keys().map(|name| format!("`{name}`")).collect();
-            let wrong = || (Some(name.clone()), format!("there is no run `{name}`; there are {}", all.join(", ")));
+            let wrong = || Wrong::new(path, format!("there is no run `{name}`; there are {}", all.join(", ")));
             runs.get(name).ok_or_else(wrong)
         };
-        let machines = known(&run)?.speeds.len();
-        for name in self.holds.iter().flat_map(|claim| claim.of.iter().chain(&claim.over)) {
-            known(name)?;
+        let machines = known(&run, &["run"])?.speeds.len();
+        for (index, claim) in self.holds.iter().enumerate() {
+            let index = index.to_string();
+            for (field, name) in [("of", &claim.of), ("over", &claim.over)] {
+                name.iter().try_for_each(|name| known(name, &["holds", &index, field]).map(|_| ()))?;
+            }
+            if claim.at_least.is_none() && claim.at_most.is_none() {
+                return Err(Wrong::new(&["holds", &index], "a claim needs `at_least` or `at_most`"));
+            }
         }
-        if self.holds.iter().any(|claim| claim.at_least.is_none() && claim.at_most.is_none()) {
-            return Err((None, "a claim needs `at_least` or `at_most`".into()));
-        }
-        let machine = self.machine.map(|machine| node(machine, machines)).transpose().map_err(|why| (None, why))?;
-        let ask = self.ask.map(QuestionFile::resolve).transpose().map_err(|why| (None, why))?;
+        let machine = self.machine.map(|machine| node(machine, machines)).transpose();
+        let machine = machine.map_err(|why| Wrong::new(&["machine"], why))?;
+        let ask = self.ask.map(QuestionFile::resolve).transpose()?;
         Ok(Step { say: self.say, run, until: self.until, machine, look: self.look, ask, holds: self.holds })
     }
 }
 
 impl QuestionFile {
-    fn resolve(self) -> Result<Question, String> {
+    fn resolve(self) -> Result<Question, Wrong> {
         let answers = self.answers.len();
         if !(2..=5).contains(&answers) {
-            return Err(format!("a question can have 2 to 5 answers, not {answers}"));
+            let why = format!("a question can have 2 to 5 answers, not {answers}");
+            return Err(Wrong::new(&["ask", "answers"], why));
         }
         if !(1..=answers).contains(&self.right) {
-            return Err(format!("`right` is the number of the right answer, 1 to {answers}, not {}", self.right));
+            let why = format!("`right` is the number of the right answer, 1 to {answers}, not {}", self.right);
+            return Err(Wrong::new(&["ask", "right"], why));
         }
         let Self { question, answers, right, because } = self;
         Ok(Question { question, answers, right: right - 1, because })
@@ -269,4 +308,10 @@ fn node(machine: usize, machines: usize) -> Result<NodeId, String> {
     } else {
         Err(format!("there are machines 1 to {machines}, not {machine}"))
     }
+}
+
+/// A number within bounds.
+fn within(what: &str, value: f64, least: f64, most: f64) -> Result<f64, String> {
+    let is_possible = (least..=most).contains(&value);
+    if is_possible { Ok(value) } else { Err(format!("{what} can be {least} to {most}, not {value}")) }
 }

@@ -42,7 +42,10 @@ impl Moment {
         let index = match self {
             Self::Start => return Some((0, None)),
             Self::End => return Some((records.len(), None)),
-            Self::Seconds(seconds) => return Some((log.until(Time::from_secs(seconds)), None)),
+            Self::Seconds(seconds) => {
+                let (at, end) = (Time::from_secs(seconds), records.last()?.at);
+                return (at <= end).then(|| (log.until(at), None));
+            }
             Self::Traced(part) => {
                 let wanted = (part * f64::from(log.header.division.atoms())).ceil() as usize;
                 let mut done = (0..records.len()).filter(|&i| matches!(records[i].what, What::AtomDone { .. }));

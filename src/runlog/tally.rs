@@ -218,6 +218,11 @@ impl Tally {
 }
 
 impl Messages {
+    /// All that was said for the atoms' sake, and not to bring results.
+    pub fn sharing(&self) -> u64 {
+        self.total - self.results
+    }
+
     fn add(&mut self, from: Party, message: &Message, bytes: u64) {
         self.total += 1;
         self.bytes += bytes;

@@ -95,6 +95,16 @@ impl Trial {
         trial
     }
 
+    /// A machine's speed at a time.
+    pub fn speed_at(&self, at: Time, node: NodeId) -> f64 {
+        let set = |(when, command): &(Time, Command)| match *command {
+            Command::Speed { node: of, speed } if of == node && *when <= at => Some(speed),
+            _ => None,
+        };
+        let at_first = || self.header.speeds.get(usize::from(node)).copied().unwrap_or_default();
+        self.script.iter().rev().find_map(set).unwrap_or_else(at_first)
+    }
+
     /// The whole run, if pixels cost so much. Its picture is not completed if machines that have atoms stand still for good.
     ///
     /// # Panics
@@ -196,6 +206,7 @@ mod tests {
         let log = trial.run(&costs(trial.header.size));
         assert_eq!(Trial::of(&log), trial);
         assert_eq!(Trial::of(&log).run(&costs(trial.header.size)), log);
+        assert_eq!([Time(400_000), Time(500_000)].map(|at| trial.speed_at(at, 1)), [1.0, 0.2]);
         let fork = trial.with(Change::SpeedAt(Time(10), 1, 0.5));
         assert_eq!(fork.script, [(Time(10), Command::Speed { node: 1, speed: 0.5 })]);
     }

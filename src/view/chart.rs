@@ -9,6 +9,9 @@ use crate::palette::CHART;
 /// The size of a chart on a slide.
 pub const CHART_SIZE: Point = [960.0, 540.0];
 
+/// The least height of a chart without a title.
+pub const LEAST_HIGH: f32 = Sheet::LEAST[1];
+
 /// Measurements over something that was varied.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
@@ -45,6 +48,8 @@ pub enum Style {
     Line,
     /// Dots that nothing connects.
     Dots,
+    /// The same, hollow: somebody else's measurements beside ours.
+    Hollow,
     /// A dashed line: what theory says, a bound, somebody else's figures.
     Dashed,
 }
@@ -65,9 +70,11 @@ const THIN: f32 = 2.5;
 const DOT: f32 = 5.0;
 /// Between the plot and the names.
 const ASIDE: f32 = 16.0;
+/// How thick the line of a hollow dot is.
+const HOLLOW: f32 = 2.0;
 
 impl Chart {
-    /// The chart as a display list whose corner is at 0, 0; it needs 480 × 360 at least.
+    /// The chart as a display list whose corner is at 0, 0; it needs 480 × 360 at least, without a title [`LEAST_HIGH`].
     pub fn marks(&self, size: Point) -> Vec<Mark> {
         let are_named = self.series.len() <= NAMED;
         let legend: Vec<_> = self.series.iter().map(|series| (&*series.name, series.hue)).collect();
@@ -114,16 +121,22 @@ impl Series {
             clipped(&places).iter().map(|line| line.iter().map(|&place| sheet.at(place)).collect()).collect();
         let inside = places.iter().flatten().filter(|&&place| is_inside(place));
         let dots: Vec<Point> = inside.map(|&place| sheet.at(place)).collect();
-        let end =
-            if self.style == Style::Dots { dots.last() } else { lines.last().and_then(|line| line.last()) }.copied();
-        let ink = self.hue.full();
+        let end = match self.style {
+            Style::Line | Style::Dashed => lines.last().and_then(|line| line.last()),
+            Style::Dots | Style::Hollow => dots.last(),
+        };
+        let (end, ink) = (end.copied(), self.hue.full());
+        let disc = |centre, radius, ink| Mark::Disc { centre, radius, ink };
         match self.style {
             Style::Line => lines.into_iter().for_each(|line| sheet.line(line, BROAD, ink)),
             Style::Dashed => lines.iter().for_each(|line| sheet.dashed(line, DASHES, THIN, ink)),
-            Style::Dots => {}
+            Style::Dots | Style::Hollow => {}
         }
         if self.style != Style::Dashed {
-            sheet.marks.extend(dots.into_iter().map(|centre| Mark::Disc { centre, radius: DOT, ink }));
+            sheet.marks.extend(dots.iter().map(|&centre| disc(centre, DOT, ink)));
+        }
+        if self.style == Style::Hollow {
+            sheet.marks.extend(dots.iter().map(|&centre| disc(centre, DOT - HOLLOW, Hue::Ground.full())));
         }
         end
     }
@@ -163,7 +176,7 @@ mod tests {
 
     fn charts(series: std::ops::Range<usize>) -> impl Strategy<Value = Chart> {
         let number = || prop_oneof![9 => -10.0..1100.0f64, 1 => any::<f64>()];
-        let styles = prop_oneof![Just(Style::Line), Just(Style::Dots), Just(Style::Dashed)];
+        let styles = prop_oneof![Just(Style::Line), Just(Style::Dots), Just(Style::Hollow), Just(Style::Dashed)];
         let one = ("[a-z, ]{0,40}", prop::collection::vec((number(), number()), 0..12), styles);
         let all = prop::collection::vec(one, series);
         ("[A-Z ]{0,90}", "[a-z ]{0,120}", axes(), axes(), all).prop_map(|(title, note, x, y, all)| {
@@ -176,6 +189,11 @@ mod tests {
         #[test]
         fn words_are_inside_and_apart(chart in charts(0..9), width in 480.0..1600.0f32, height in 360.0..1000.0f32) {
             check_words(&chart.marks([width, height]), [width, height])?;
+        }
+
+        #[test]
+        fn without_a_title_less_is_enough(chart in charts(0..6), width in 480.0..1600.0f32) {
+            check_words(&Chart { title: String::new(), ..chart }.marks([width, LEAST_HIGH]), [width, LEAST_HIGH])?;
         }
 
         #[test]

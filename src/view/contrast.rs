@@ -137,7 +137,9 @@ fn waiting(quick: &Account, slow: &Account) -> String {
 fn asking(_: &Account, slow: &Account) -> String {
     let share = fraction(share(slow, slow.spent.asking));
     let waited = slow.waited_at_parent;
-    let (messages, wait) = (count(slow.messages.total.min(u64::from(u32::MAX)) as u32), duration(waited));
+    // Only what comes to it keeps the parent busy.
+    let arrived = slow.messages.requests + slow.messages.results;
+    let (messages, wait) = (count(arrived.min(u64::from(u32::MAX)) as u32), duration(waited));
     if slow.sharing.is_farm() && waited > Duration::from_millis(1) {
         say!(
             "There machines wait {share} of their time for more work: the parent is busy with {messages} messages, \

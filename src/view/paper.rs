@@ -2,11 +2,13 @@
 
 use std::time::Duration;
 
+use super::account::Account;
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
 use super::lanes::Lanes;
 use super::moment::Moment;
 use super::outcome::Outcome;
 use super::ring::{Overlay, ring};
+use super::spent::{spent, spent_height};
 use super::timeline::{LanePlan, axis, timeline};
 use super::window::TimeWindow;
 use super::words::{duration, fraction, node_name, time_words};
@@ -24,6 +26,9 @@ pub struct Paper {
 }
 
 const MARGIN: f32 = 28.0;
+
+/// So much of a title or a memo is shown: more than a line may stand in the run's file.
+const LONGEST: usize = 150;
 
 /// Of the ring's sheet.
 const RING: Point = [900.0, 760.0];
@@ -98,6 +103,19 @@ impl Paper {
     }
 }
 
+impl Paper {
+    /// Where the time of several runs went.
+    pub fn comparison(title: &str, runs: &[(&str, &Account)]) -> Self {
+        const TOP: f32 = MARGIN + 36.0;
+        let room = WIDTH - 2.0 * MARGIN;
+        let title = shown(title, LONGEST);
+        let size = fitting(&title, 1.5 * TextSize::BODY, room);
+        let mut marks = vec![label([MARGIN, MARGIN + 6.0], Anchor::Left, title, size, Hue::Text)];
+        marks.extend(spent(runs, room).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
+        Self { marks, size: [WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
+    }
+}
+
 /// Number and speed of the machines, as many as there is room for, and what the strip above them is.
 fn heads(log: &RunLog, plan: &LanePlan, marks: &mut Vec<Mark>) {
     let every = (TextSize::SMALL / plan.lane).ceil().max(1.0) as usize;
@@ -131,8 +149,6 @@ fn times(log: &RunLog, window: &TimeWindow, plan: &LanePlan, marks: &mut Vec<Mar
 
 /// What the run is called, what it was, and what is said of it; returns where it ends.
 fn heading(log: &RunLog, outcome: Option<&Outcome>, width: f32, marks: &mut Vec<Mark>) -> f32 {
-    /// More than a line of memo stands in the run's file.
-    const LONGEST: usize = 150;
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };

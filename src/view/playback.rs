@@ -17,6 +17,8 @@ const USUAL: usize = 12;
 pub struct Playback {
     /// In nanoseconds of the run; a fraction of one counts where time goes slowly.
     now: f64,
+    /// The latest that was shown.
+    reached: f64,
     live: bool,
     stands: bool,
     rate: usize,
@@ -25,7 +27,7 @@ pub struct Playback {
 impl Playback {
     /// Shows what happens as it happens.
     pub fn live() -> Self {
-        Self { now: 0.0, live: true, stands: false, rate: USUAL }
+        Self { now: 0.0, reached: 0.0, live: true, stands: false, rate: USUAL }
     }
 
     /// Goes through what has happened, from its beginning.
@@ -36,6 +38,11 @@ impl Playback {
     /// The shown time.
     pub fn now(&self) -> Time {
         Time(self.now as u64)
+    }
+
+    /// The latest time that was shown.
+    pub fn reached(&self) -> Time {
+        Time(self.reached as u64)
     }
 
     /// Whether it follows the run's own clock.
@@ -71,6 +78,11 @@ impl Playback {
     /// A moment has passed, in which the run's clock has come to `head`. Where `head_keeps_pace` the run itself goes as
     /// fast as is asked here, so that whoever follows it never falls behind.
     pub fn advance(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
+        self.go(passed, head, head_keeps_pace);
+        self.reached = self.reached.max(self.now);
+    }
+
+    fn go(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
         let head = head.0 as f64;
         if self.live && (self.rate() >= 1.0 || head_keeps_pace) {
             self.now = head;
@@ -91,6 +103,7 @@ impl Playback {
     /// Shows another moment, and whether time goes on from there.
     pub fn seek(&mut self, time: Time, stands: bool) {
         (self.now, self.live, self.stands) = (time.0 as f64, false, stands);
+        self.reached = self.reached.max(self.now);
     }
 
     /// Follows the run again.
@@ -137,6 +150,16 @@ mod tests {
     use super::*;
 
     const FRAME: Duration = Duration::from_millis(40);
+
+    #[test]
+    fn what_was_reached_stays_reached() {
+        let mut playback = Playback::from_the_beginning();
+        playback.advance(Duration::from_secs(2), Time::from_secs(9.0), false);
+        playback.seek(Time::from_secs(1.0), true);
+        assert_eq!((playback.now(), playback.reached()), (Time::from_secs(1.0), Time::from_secs(2.0)));
+        playback.seek(Time::from_secs(5.0), true);
+        assert_eq!(playback.reached(), Time::from_secs(5.0));
+    }
 
     #[test]
     fn it_follows_until_it_is_slower_and_catches_up_when_it_is_faster() {

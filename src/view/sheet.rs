@@ -52,7 +52,7 @@ const NEXT: f32 = 22.0;
 
 impl Sheet {
     /// Charts are laid out for this size at least.
-    const LEAST: Point = [480.0, 360.0];
+    pub(super) const LEAST: Point = [480.0, 272.0];
 
     /// The words, the plot with room for `aside` to its right, and what is measured upwards.
     pub(super) fn new(

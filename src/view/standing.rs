@@ -134,8 +134,8 @@ pub(super) fn has_most(compute: &str, name: u32) -> String {
     say!("{compute}; {name} has most left", "{compute}; {name} é a que mais tem")
 }
 
-/// Machines stand still while others compute.
-fn waiting(still: &[Machine<'_>]) -> String {
+/// Machines stand still while others compute, or when nobody does any more.
+pub(super) fn waiting(still: &[Machine<'_>]) -> String {
     let in_queues = in_queues(still);
     match still {
         [(node, machine)] => {
@@ -264,7 +264,7 @@ pub(super) fn all_left(machines: &[Machine<'_>]) -> u32 {
 }
 
 /// How many of their atoms could be given away.
-fn in_queues(machines: &[Machine<'_>]) -> u32 {
+pub(super) fn in_queues(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE)).sum()
 }
 

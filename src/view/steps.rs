@@ -87,7 +87,8 @@ pub enum About {
 pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
     let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
     let mut hand = None;
-    for (index, record) in log.records().iter().enumerate() {
+    let records = seen(log);
+    for (index, record) in records.iter().enumerate() {
         let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
         match &record.what {
             What::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
@@ -138,16 +139,22 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
     // Said once, if they are the same.
     let transfer =
         transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
-    let slowest = slowest(log);
+    let slowest = slowest(records, log.header.speeds.len());
     let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
     [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
 }
 
+/// The records that one sees happen: once the picture is complete, time stands still.
+fn seen(log: &RunLog) -> &[Record] {
+    let records = log.records();
+    let end = records.iter().position(|record| record.what == What::Finished);
+    &records[..end.map_or(records.len(), |end| end + 1)]
+}
+
 /// The machine that traced the fewest atoms in the time in which it had any; its place is the end, where that is seen.
-fn slowest(log: &RunLog) -> Option<Landmark> {
-    let nodes = log.header.speeds.len();
+fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
     let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
-    for record in log.records() {
+    for record in records {
         match record.what {
             What::AtomStarted { node, .. } if usize::from(node) < nodes => {
                 started[usize::from(node)] = Some(record.at);
@@ -165,7 +172,7 @@ fn slowest(log: &RunLog) -> Option<Landmark> {
     let node = slowest as NodeId;
     let (name, traced) = (node_name(node), atoms_words(atoms[slowest]));
     let words = say!("The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
-    let (records, at) = (log.records().len(), log.records().last()?.at);
+    let (records, at) = (records.len(), records.last()?.at);
     (nodes > 1).then_some(Landmark { words, records, at, about: About::Node(node) })
 }
 
@@ -208,7 +215,10 @@ mod tests {
     fn what_one_asks_for_is_found() {
         let mut log = sample::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
         // There the last atoms keep everybody busy.
-        log.add(vec![Record { at: Time::from_secs(9e3), what: What::Retired { node: 0 } }]);
+        let retires = |secs, node| Record { at: Time::from_secs(secs), what: What::Retired { node } };
+        log.add(vec![retires(0.001, 0)]);
+        let end = log.end();
+        log.add(vec![retires(9e3, 1)]);
         let found = landmarks(&log);
         let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
         assert!(matches!(says("The first offer: "), Some(About::Message(_))));
@@ -217,6 +227,7 @@ mod tests {
         assert_eq!(says("The slowest machine: 5, "), Some(About::Node(4)));
         assert!(matches!(says("The costliest atom: "), Some(About::Atom(_))));
         assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
+        assert!(found.iter().all(|mark| mark.at <= end), "after the end nothing is seen any more: {found:?}");
         assert_eq!(landmarks(&RunLog::new(log.header)), []);
     }
 }

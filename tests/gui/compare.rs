@@ -32,6 +32,11 @@ fn texts(window: &Window, role: Role) -> Vec<String> {
     window.query_all_by_role(role).map(of).collect()
 }
 
+/// The clocks.
+fn times(window: &Window) -> Vec<String> {
+    texts(window, Role::Label).into_iter().filter(|text| text.ends_with(" s")).collect()
+}
+
 /// The demonstration, compared.
 fn open_comparison() -> Window {
     let mut window = open(SIZE);
@@ -63,6 +68,9 @@ fn bands_farm_and_ring_are_compared_while_the_run_stands_still() {
 fn a_run_is_forked_with_one_thing_changed_and_taken_away() {
     let mut window = open_comparison();
     press(&mut window, "The same as C with one thing changed");
+    // What is so already is there, and cannot be chosen.
+    window.get_by_role_and_label(Role::Label, "8 machines, now");
+    window.get_by_role_and_label(Role::Label, "8 at 10 %, now");
     press(&mut window, "8 at 5 %");
     until(&mut window, "the fork", |window| runs(window).len() == 4);
     let known = runs(&window);
@@ -85,9 +93,11 @@ fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
     window.run_steps(30);
     key(&mut window, Key::Space);
     press(&mut window, "The same as A with one thing changed");
+    let shown = times(&window);
     let later = texts(&window, Role::Button).into_iter().find(|label| label.starts_with("8 at 0 % from "));
     press(&mut window, &later.expect("what is done later"));
     until(&mut window, "the fork", |window| runs(window).len() == 4);
+    assert_eq!(times(&window), shown, "the shown time stays");
     let (name, makespan) = runs(&window).swap_remove(3);
     assert!(name.starts_with("Equal bands, 8 at 0 % from ") && makespan.is_none(), "{name} {makespan:?}");
     window.run_steps(2);
@@ -97,9 +107,38 @@ fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
 #[test]
 fn every_tab_is_told_in_words() {
     let mut window = open_comparison();
+    let tabs = |window: &Window| window.get_by_label("Efficiency").rect();
+    let before = tabs(&window);
     press(&mut window, "Where the time went");
     let spent = window.get_by_role_and_label(Role::Image, "Where the time went").value().expect("words");
     assert!(spent.contains("Equal bands: ") && spent.contains("waiting at the end"), "{spent}");
     press(&mut window, "Speedup");
-    until(&mut window, "curves", |window| texts(window, Role::Image).iter().any(|label| label.contains("Ring: 1: ")));
+    let is_told = |window: &Window, words: &str| texts(window, Role::Image).iter().any(|label| label.contains(words));
+    until(&mut window, "curves", |window| is_told(window, "Ring: 1: "));
+    assert_eq!(tabs(&window), before, "nothing moves");
+    assert!(is_told(&window, "Hollow dots: the article's") && !is_told(&window, "Letters: "));
+    // A fork lies on no curve, and one that never ends nowhere.
+    press(&mut window, "The same as C with one thing changed");
+    press(&mut window, "8 at 50 %");
+    until(&mut window, "a dot", |window| is_told(window, "\nD: 8: ") && is_told(window, "Letters: "));
+    press(&mut window, "The same as A with one thing changed");
+    press(&mut window, "8 at 0 %");
+    until(&mut window, "a run without an end", |window| is_told(window, "E never ends"));
+}
+
+#[test]
+fn what_is_compared_is_saved_as_a_table_and_as_bars() {
+    let mut window = open_comparison();
+    let directory = tempfile::tempdir().expect("a directory");
+    for (kind, name, begins) in [("table", "runs.csv", "run,strategy,machines,time_s"), ("bars", "runs.svg", "<svg")] {
+        let path = directory.path().join(name);
+        key(&mut window, Key::S);
+        press(&mut window, kind);
+        window.run_steps(2);
+        type_path(&mut window, "Where to save", &path);
+        key(&mut window, Key::Enter);
+        until(&mut window, "the file", |_| path.exists());
+        let written = std::fs::read_to_string(&path).expect("a text");
+        assert!(written.contains(begins) && written.contains("Equal bands"), "{written}");
+    }
 }

@@ -34,11 +34,15 @@ fn a_lesson_is_taken_step_by_step_and_answers_come_before_what_is_seen() {
     assert_eq!(step(&window), Some(("bands".into(), 1)));
     // Nothing goes on before the question is answered, and there is no way round it.
     let before = done(&window);
+    let stage = session(&window).stage();
+    assert!(stage.told_length() >= stage.lasted(), "what was seen is there");
+    assert!(2 * stage.told_length().0 < stage.length().0, "the end is not given away");
     window.run_steps(20);
     key(&mut window, Key::PageDown);
     assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));
     press(&mut window, "Yes");
     window.get_by_label_contains("more than a quarter of the machines' time is lost");
+    window.get_by_label_contains("Checked on these runs: efficiency: ");
     // Whoever is in a hurry comes to the end of the step first.
     key(&mut window, Key::PageDown);
     assert!(finished(&window) && step(&window) == Some(("bands".into(), 1)));

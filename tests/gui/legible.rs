@@ -43,7 +43,7 @@ fn gather(shape: &Shape, room: Rect, seen: &mut Vec<Text>) {
             let surface = rect.rect.intersect(room);
             seen.retain(|text| !surface.expand(SLACK).contains_rect(text.letters));
             for text in seen {
-                text.is_covered |= surface.intersects(text.letters.shrink(SLACK));
+                text.is_covered |= surface.intersects(text.letters.intersect(text.room).shrink(SLACK));
             }
         }
         Shape::Text(text) if !text.galley.text().trim().is_empty() => {
@@ -101,7 +101,7 @@ fn faults(window: &Window, hidden: Hidden) -> Vec<String> {
             found.push(format!("{words:?} at {letters:?} is cut off by {room:?}"));
         }
         for other in texts[index + 1..].iter().filter(|_| !text.is_covered) {
-            let both = letters.intersect(other.letters).intersect(room).intersect(other.room);
+            let both = letters.intersect(other.letters).intersect(text.room).intersect(other.room);
             let is_fault = both.width() > SLACK && both.height() > SLACK;
             if is_fault && !passes(words, both) && !passes(&other.words, both) {
                 found.push(format!("{words:?} and {:?} lie over each other at {both:?}", other.words));
@@ -165,6 +165,14 @@ fn pages_can_be_read(size: [f32; 2], is_for_a_room: bool) {
         key(&mut walk.window, Key::K);
         walk.until("three runs", |window| window.state().compared().len() == 3);
         walk.look("what is compared", Hidden::Lines);
+        let english = language == Language::English;
+        let efficiency = if english { "Efficiency" } else { "Eficiência" };
+        for tab in [if english { "Where the time went" } else { "Para onde foi o tempo" }, "Speedup", efficiency] {
+            press(&mut walk.window, tab);
+            let waits = if english { "Running with" } else { "Executando com" };
+            walk.until("the curves", |window| window.query_by_label_contains(waits).is_none());
+            walk.look(tab, Hidden::Lines);
+        }
         key(&mut walk.window, Key::Escape);
         key(&mut walk.window, Key::End);
         walk.until("the end", |window| session(window).stage().phase == Phase::Finished);

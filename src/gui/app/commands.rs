@@ -33,7 +33,10 @@ impl App {
         let session = &mut self.session;
         match command {
             Command::Pause => session.toggle_pause(),
-            Command::Restart => session.restart(),
+            Command::Restart => {
+                session.restart();
+                session.end_notice();
+            }
             Command::Step(by, forward) => session.step(by, forward),
             Command::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
             Command::SetRate(index) => session.stage_mut().set_rate(index),
@@ -57,15 +60,8 @@ impl App {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
                 session.note(word!("The picture is in the clipboard", "A imagem está na área de transferência"));
             }
-            Command::Save | Command::SaveRun => {
-                // It would float over the bar.
-                session.close_notice();
-                if command == Command::Save {
-                    self.save_bar.toggle(session)
-                } else {
-                    self.save_bar.open_for_run(session)
-                }
-            }
+            Command::Save => self.save_bar.toggle(session),
+            Command::SaveRun => self.save_bar.open_for_run(session),
             Command::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
@@ -143,6 +139,7 @@ impl App {
         /// How much larger everything is for a room.
         const LARGER: f32 = 1.5;
         self.projector = projector;
+        self.session.end_notice();
         if projector {
             // What is asked for from now on is shown nevertheless.
             self.setup.open = false;

@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use egui::{Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
 
 use super::super::icons::Icon;
 use super::super::settings::Settings;
@@ -26,7 +28,7 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
         Some(word!("Add …", "Acrescentar …")),
         Weight::Quiet,
     );
-    let changes = strategies.iter().map(|&strategy| Change::Strategy(strategy)).collect();
+    let changes = strategies.iter().map(|&strategy| (Change::Strategy(strategy), false)).collect();
     menu(&opener, |ui| row(ui, "", changes, look))
 }
 
@@ -52,7 +54,7 @@ pub fn changes(
         let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
         let mut chosen = None;
         for (group, changes) in possible(trial) {
-            chosen = chosen.or(row(ui, &group, changes, look));
+            chosen = chosen.or(row(ui, group, changes, look));
         }
         ui.horizontal(|ui| {
             heading(ui, word!("A machine", "Uma máquina"), look);
@@ -76,48 +78,58 @@ pub fn changes(
         });
         ui.data_mut(|data| data.insert_temp(id, node));
         let node = node as NodeId;
-        let speeds = [1.0, 0.5, 0.1, 0.05, 0.01, 0.0].into_iter();
-        let unlike = speeds.clone().filter(|speed| trial.header.speeds[usize::from(node)] != *speed);
-        let always = unlike.map(|speed| Change::Speed(node, speed)).collect();
+        let speeds = [0.0, 0.01, 0.05, 0.1, 0.5, 1.0];
+        let at_first = trial.header.speeds[usize::from(node)];
+        let always = values(&speeds, at_first, |speed| Change::Speed(node, speed));
         chosen = chosen.or(row(ui, word!("all along", "o tempo todo"), always, look));
         if let Some(now) = now {
             let at = time_words(now, 1.0);
-            let later = speeds.map(|speed| Change::SpeedAt(now, node, speed)).collect();
+            let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
             chosen = chosen.or(row(ui, &say!("from {at} on", "a partir de {at}"), later, look));
         }
         chosen
     })
 }
 
+/// A change, and whether it is so already.
+type Choice = (Change, bool);
+
 /// What can be changed, by what it is about.
-fn possible(trial: &Trial) -> Vec<(String, Vec<Change>)> {
+fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
     let header = &trial.header;
-    let nodes = header.speeds.len();
-    let strategies = Strategy::ALL.into_iter().filter(|&strategy| strategy != header.rules.strategy);
-    let counts = [1, 2, 3, 4, 5, 8, 16, 32].into_iter().filter(|&count| count != nodes);
-    let atom = header.division.atom_pixels();
-    let most = Settings::MOST_ATOMS;
+    let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
+    let mut machines = values(&[1, 2, 3, 4, 5, 8, 16, 32], header.speeds.len(), Change::Nodes);
+    if header.speeds.iter().any(|&speed| speed < 1.0) {
+        machines.push((Change::Equal, false));
+    }
     let atoms = [5, 20, 50, 200, 1000, 5000].into_iter();
-    let atoms = atoms.filter(|&pixels| pixels != atom && header.size.pixels() / pixels <= most);
+    let atoms: Vec<_> = atoms.filter(|pixels| header.size.pixels() / pixels <= Settings::MOST_ATOMS).collect();
+    let atoms = values(&atoms, header.division.atom_pixels(), Change::Atom);
     let ms = Duration::from_millis;
-    let latencies = [0, 5, 40, 200, 1000].map(ms).into_iter().filter(|&latency| latency != header.link.latency);
-    let handlings = [0, 2, 20, 100].map(ms).into_iter().filter(|&handling| handling != header.handling);
-    let machines =
-        counts.map(Change::Nodes).chain((header.speeds.iter().any(|&speed| speed < 1.0)).then_some(Change::Equal));
+    let latencies = values(&[0, 5, 40, 200, 1000].map(ms), header.link.latency, Change::Latency);
+    let handlings = values(&[0, 2, 20, 100].map(ms), header.handling, Change::Handling);
     vec![
-        (word!("Strategy", "Estratégia").into(), strategies.map(Change::Strategy).collect()),
-        (word!("Machines", "Máquinas").into(), machines.collect()),
-        (word!("Pixels in an atom", "Pixels por átomo").into(), atoms.map(Change::Atom).collect()),
-        (word!("A message takes", "Uma mensagem leva").into(), latencies.map(Change::Latency).collect()),
-        (word!("The parent takes", "O pai leva").into(), handlings.map(Change::Handling).collect()),
+        (word!("Strategy", "Estratégia"), strategies.into()),
+        (word!("Machines", "Máquinas"), machines),
+        (word!("Pixels in an atom", "Pixels por átomo"), atoms),
+        (word!("A message takes", "Uma mensagem leva"), latencies),
+        (word!("The parent takes", "O pai leva"), handlings),
     ]
+}
+
+/// What something can be, ascending, and among it what it is.
+fn values<T: Copy + PartialOrd>(offered: &[T], present: T, change: impl Fn(T) -> Change) -> Vec<Choice> {
+    let (below, from) = offered.split_at(offered.partition_point(|value| *value < present));
+    let above = from.iter().filter(|value| **value > present);
+    let choice = |value: &T| (change(*value), false);
+    below.iter().map(choice).chain([(change(present), true)]).chain(above.map(choice)).collect()
 }
 
 /// A menu that closes when something is chosen.
 fn menu(opener: &Response, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
     let popup = Popup::from_toggle_button_response(opener).frame(popup_frame(&opener.ctx));
     let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
-        ui.set_width(72.0 * GRID);
+        ui.set_width(80.0 * GRID);
         ui.spacing_mut().item_spacing = vec2(GRID / 2.0, 0.0);
         let chosen = content(ui);
         if chosen.is_some() {
@@ -136,15 +148,15 @@ fn heading(ui: &mut Ui, words: &str, look: Look) {
 }
 
 /// Changes of one thing, in a line.
-fn row(ui: &mut Ui, group: &str, changes: Vec<Change>, look: Look) -> Option<Change> {
+fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Change> {
     let mut chosen = None;
     if !changes.is_empty() {
         ui.horizontal_wrapped(|ui| {
             if !group.is_empty() {
                 heading(ui, group, look);
             }
-            for change in changes {
-                if item(ui, change, look).clicked() {
+            for (change, is_so) in changes {
+                if item(ui, change, is_so, look).clicked() {
                     chosen = Some(change);
                 }
             }
@@ -165,14 +177,20 @@ fn short(change: Change) -> String {
     }
 }
 
-fn item(ui: &mut Ui, change: Change, look: Look) -> Response {
+/// A change to press; what is so already only stands out.
+fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look) -> Response {
     let galley = ui.painter().layout_no_wrap(short(change), theme::regular(theme::BODY), look.text);
-    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, change_words(change)));
-    if response.hovered() || response.has_focus() {
+    let sense = if is_so { Sense::hover() } else { Sense::click() };
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), sense);
+    let (role, now) = if is_so { (Role::Label, word!(", now", ", agora")) } else { (Role::Button, "") };
+    response.widget_info(|| WidgetInfo::labeled(role, true, change_words(change) + now));
+    if is_so {
+        let stroke = Stroke::new(1.5, look.accent);
+        ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 2.0)), 6.0, stroke, StrokeKind::Inside);
+    } else if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
     let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(place, galley, look.text);
-    response
+    if is_so { response.on_hover_text(word!("As it is now", "Como está agora")) } else { response }
 }

@@ -1,8 +1,8 @@
 //! The runs side by side: what each is called, its picture, how far it is, and how long it took.
 
+use egui::text::LayoutJob;
 use egui::{
-    Align, Color32, Label, Layout, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align, Color32, Layout, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::super::icons::Icon;
@@ -105,12 +105,25 @@ fn heading(
             let colour = if is_chosen { look.on_accent } else { look.text };
             let font = theme::strong(theme::BODY);
             ui.painter().text(chip.center(), egui::Align2::CENTER_CENTER, letter, font, colour);
-            let name = entry.name();
-            let text = RichText::new(&name).font(theme::strong(theme::BODY)).color(look.text);
-            ui.add(Label::new(text).truncate());
+            name(ui, &entry.name(), look);
         });
     });
     asked
+}
+
+/// A run's name: in two small lines where it needs them, and all of it for whoever rests on it.
+fn name(ui: &mut Ui, name: &str, look: Look) {
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    let fitted = |size, rows| {
+        let mut job = LayoutJob::simple(name.to_owned(), theme::strong(size), look.text, rect.width());
+        job.wrap.max_rows = rows;
+        ui.painter().layout_job(job)
+    };
+    let large = fitted(theme::BODY, 1);
+    let galley = if large.elided { fitted(theme::SMALL, 2) } else { large };
+    ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, look.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
+    response.on_hover_text(name);
 }
 
 /// Its picture, as far as it is.

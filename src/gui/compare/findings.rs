@@ -1,21 +1,17 @@
 //! What comes of a comparison: when who did what, where the time went, how strategies grow, and why two runs differ.
 
-use egui::{Rect, RichText, ScrollArea, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
-use super::super::paint::{Inks, paint, quads};
-use super::super::session::{Grown, Growth};
+use super::super::paint::{Inks, paint};
+use super::super::session::Growth;
 use super::super::theme::{self, GRID, Look};
 use super::super::widgets;
-use super::Entry;
 use super::columns::letter;
-use crate::language::{decimal, say, word};
-use crate::palette::{DISTINCT, node_colours};
-use crate::study::article_over_ideal;
+use super::growth::{self, Measure};
+use super::{Entry, lanes};
+use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::{
-    Account, Axis, Chart, LanePlan, Named, Series, Sharing, Style, TimeWindow, contrast, count, duration, fraction,
-    series_hue, spent, spent_height, spent_words, timeline,
-};
+use crate::view::{Account, Named, contrast, count, duration, fraction, spent, spent_height, spent_words};
 
 /// What is shown of all runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,10 +21,8 @@ enum Tab {
     Lanes,
     /// Where the time went.
     Spent,
-    /// Speedup by the number of machines.
-    Speedup,
-    /// Efficiency by the number of machines.
-    Efficiency,
+    /// What comes of more machines.
+    Growth(Measure),
 }
 
 /// What is chosen.
@@ -42,12 +36,12 @@ pub struct Findings {
 impl Findings {
     /// Whether it is to be known how strategies grow.
     pub fn wants_growth(&self) -> bool {
-        matches!(self.tab, Tab::Speedup | Tab::Efficiency)
+        matches!(self.tab, Tab::Growth(_))
     }
 
-    /// The height that they want.
-    pub fn height(&self) -> f32 {
-        if self.wants_growth() { 49.0 * GRID } else { 34.0 * GRID }
+    /// The height that they want of so much, the same whatever is shown.
+    pub fn height(all: f32) -> f32 {
+        (0.47 * all).clamp(30.0 * GRID, 52.0 * GRID)
     }
 
     /// Shows them in what room there is. Returns the time that somebody points to with a button down.
@@ -77,9 +71,13 @@ impl Findings {
                     word!("Where the time went", "Para onde foi o tempo"),
                     word!("Work, waiting, messages", "Trabalho, espera, mensagens"),
                 ),
-                (Tab::Speedup, "Speedup", word!("With one machine to eight", "Com uma a oito máquinas")),
                 (
-                    Tab::Efficiency,
+                    Tab::Growth(Measure::Speedup),
+                    "Speedup",
+                    word!("With one machine to eight", "Com uma a oito máquinas"),
+                ),
+                (
+                    Tab::Growth(Measure::Efficiency),
                     word!("Efficiency", "Eficiência"),
                     word!("With one machine to eight", "Com uma a oito máquinas"),
                 ),
@@ -89,9 +87,9 @@ impl Findings {
             }
             ui.add_space(GRID);
             match self.tab {
-                Tab::Lanes => sought = lanes(ui, entries, now, length, look),
+                Tab::Lanes => sought = lanes::show(ui, entries, now, length, look),
                 Tab::Spent => where_time_went(ui, entries, look),
-                Tab::Speedup | Tab::Efficiency => grown(ui, growth, self.tab == Tab::Speedup, look),
+                Tab::Growth(measure) => growth::show(ui, growth, entries, measure, look),
             }
         });
         ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look));
@@ -130,14 +128,59 @@ impl Findings {
 
 /// A row a figure, a column a run.
 fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
-    type Figure = (&'static str, fn(&Account) -> String);
-    let all: [Figure; 6] = [
-        (word!("time", "tempo"), |account| duration(account.makespan)),
-        (word!("shared perfectly", "divisão perfeita"), |account| duration(account.ideal)),
-        (word!("efficiency", "eficiência"), |account| fraction(account.efficiency())),
-        (word!("messages", "mensagens"), |account| count(account.messages.total as u32)),
-        (word!("atoms given away", "átomos cedidos"), |account| count(account.messages.atoms_moved as u32)),
-        (word!("alone at the end", "sozinha no fim"), |account| duration(account.last.alone)),
+    /// What it is called, what it is, and how much.
+    type Figure = ([&'static str; 2], fn(&Account) -> String);
+    let all: [Figure; 7] = [
+        (word!(["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]), |account| {
+            duration(account.makespan)
+        }),
+        (
+            word!(
+                ["shared perfectly", "Had all machines worked until the end"],
+                ["divisão perfeita", "Se todas as máquinas trabalhassem até o fim"]
+            ),
+            |account| duration(account.ideal),
+        ),
+        (
+            word!(
+                ["efficiency", "The time if it were shared perfectly, over the time"],
+                ["eficiência", "O tempo da divisão perfeita sobre o tempo"]
+            ),
+            |account| fraction(account.efficiency()),
+        ),
+        (
+            word!(
+                ["messages to share", "Bands, requests, parts, offers and atoms given away"],
+                ["mensagens de divisão", "Faixas, pedidos, partes, ofertas e átomos cedidos"]
+            ),
+            |account| count(account.messages.sharing() as u32),
+        ),
+        (
+            word!(
+                [
+                    "messages with results",
+                    "What a machine has traced goes to the parent in small batches, so that one sees the picture grow. A slow \
+                     machine's atoms go one by one: the more of them it traces, the more messages, whoever shares",
+                ],
+                [
+                    "mensagens de resultados",
+                    "O que uma máquina calculou vai ao pai em pequenos lotes, para que se veja a imagem crescer. Os átomos de \
+                     uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
+                ]
+            ),
+            |account| count(account.messages.results as u32),
+        ),
+        (
+            word!(["atoms given away", "From one machine to another"], ["átomos cedidos", "De uma máquina a outra"]),
+            |account| count(account.messages.atoms_moved as u32),
+        ),
+        (
+            word!(
+                ["alone at the end", "While only one machine still traced"],
+                ["sozinha no fim", "Enquanto só uma máquina ainda calculava"]
+            ),
+            |account| duration(account.last.alone),
+        ),
     ];
     let font = theme::regular(theme::SMALL);
     let row = |ui: &mut Ui, name: &str, values: [String; 2]| {
@@ -150,64 +193,12 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
             let at = pos2(rect.right() - GRID - right, rect.center().y);
             painter.text(at, egui::Align2::RIGHT_CENTER, value, font.clone(), look.text);
         }
+        response
     };
     row(ui, "", runs.map(|(letter, _)| letter.to_string()));
-    for (name, of) in all {
-        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), of)));
+    for ([name, hint], of) in all {
+        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), of))).on_hover_text(hint);
     }
-}
-
-/// All lanes of all runs on one axis, along which one can drag.
-fn lanes(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look) -> Option<Time> {
-    let mut sought = None;
-    let area = ui.available_rect_before_wrap();
-    let left = 3.0 * GRID;
-    let each = (area.height() / entries.len().max(1) as f32).min(14.0 * GRID);
-    let mut window = TimeWindow::default();
-    window.fit(length);
-    for (place, entry) in entries.iter_mut().enumerate() {
-        let row =
-            Rect::from_min_size(area.left_top() + vec2(0.0, each * place as f32), vec2(area.width(), each - GRID));
-        let strip = row.with_min_x(row.left() + left);
-        let font = theme::strong(theme::BODY);
-        ui.painter().text(row.left_center(), egui::Align2::LEFT_CENTER, letter(place), font, look.text);
-        let Some(contender) = &entry.contender else { continue };
-        let plan = LanePlan {
-            head: 0.0,
-            foot: 0.0,
-            ..LanePlan::new(contender.lanes.lanes().len(), strip.width(), strip.height())
-        };
-        let plan = LanePlan { lane: strip.height() / plan.lanes as f32, ..plan };
-        let key = (strip.size(), length);
-        if entry.lanes.as_ref().is_none_or(|(size, of, _)| (*size, *of) != key) {
-            let drawn = timeline(&contender.lanes, &window, &plan, contender.length());
-            entry.lanes = Some((key.0, key.1, drawn));
-        }
-        let Some((.., drawn)) = &entry.lanes else { continue };
-        let inks = Inks { look, nodes: &contender.colours };
-        ui.painter().add(Shape::mesh(quads(&drawn.quads, strip.min, &inks)));
-        // Of many messages one would see only that they are many.
-        for (from, to, ink) in &drawn.lines {
-            let at = |[x, y]: [f32; 2]| strip.min + vec2(x, y);
-            ui.painter().line_segment([at(*from), at(*to)], Stroke::new(1.0, inks.colour(*ink)));
-        }
-        let response = ui.interact(strip, ui.scope_id().with(("lanes", entry.id)), Sense::click_and_drag());
-        if let Some(at) = response.interact_pointer_pos() {
-            sought = Some(window.at(f64::from(((at.x - strip.left()) / strip.width()).clamp(0.0, 1.0))));
-        }
-        let name = &contender.name;
-        widgets::describe(&response, name, || {
-            contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(name, account)]))
-        });
-        if let Some(end) = contender.end() {
-            let x = strip.left() + strip.width() * window.share(end) as f32;
-            ui.painter().line_segment([pos2(x, strip.top()), pos2(x, strip.bottom())], Stroke::new(1.5, look.text));
-        }
-    }
-    let bottom = area.top() + each * entries.len() as f32 - GRID;
-    let x = area.left() + left + (area.width() - left) * window.share(now.min(length)) as f32;
-    ui.painter().line_segment([pos2(x, area.top()), pos2(x, bottom)], Stroke::new(1.5, look.accent));
-    sought
 }
 
 /// Bars of what the machines' time was spent on.
@@ -223,66 +214,4 @@ fn where_time_went(ui: &mut Ui, entries: &[Entry], look: Look) {
         widgets::describe(&response, word!("Where the time went", "Para onde foi o tempo"), || spent_words(&runs));
         paint(ui.painter(), rect.min, &spent(&runs, rect.width()), &Inks { look, nodes: &[] });
     });
-}
-
-/// Curves over the number of machines, and the article's points.
-fn grown(ui: &mut Ui, growth: Option<&Growth>, is_speedup: bool, look: Look) {
-    let Some(growth) = growth else {
-        let text = word!("Running with one machine to eight …", "Executando com uma a oito máquinas …");
-        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
-        return;
-    };
-    let chart = chart(growth, is_speedup);
-    let rect = ui.available_rect_before_wrap();
-    let response = ui.allocate_rect(rect, Sense::hover());
-    response.widget_info(|| {
-        let line = |series: &Series| {
-            let points: Vec<_> = series.points.iter().map(|(x, y)| format!("{x:.0}: {}", decimal(*y, 2))).collect();
-            format!("{}: {}", series.name, points.join(", "))
-        };
-        let lines: Vec<_> = chart.series.iter().map(line).collect();
-        WidgetInfo::labeled(egui::Role::Image, true, format!("{}\n{}", chart.y.label, lines.join("\n")))
-    });
-    let colours = node_colours(DISTINCT);
-    paint(ui.painter(), rect.min, &chart.marks(rect.size().into()), &Inks { look, nodes: &colours });
-}
-
-fn chart(growth: &Growth, is_speedup: bool) -> Chart {
-    let mut series = Vec::new();
-    for (i, (strategy, runs)) in growth.of.iter().enumerate() {
-        let value = |run: &Grown| if is_speedup { run.speedup } else { run.efficiency };
-        let name = Sharing::By(*strategy).name();
-        let points = runs.iter().map(|run| (run.machines as f64, value(run))).collect();
-        series.push(Series { name: name.to_owned(), hue: series_hue(i), points, style: Style::Line });
-        // The article has figures of equal machines, and of four with a slow fifth.
-        let article = |run: &Grown| {
-            let over = article_over_ideal(*strategy, run.machines, growth.slow.is_some())?;
-            let power = run.speedup / run.efficiency;
-            Some((run.machines as f64, if is_speedup { power / over } else { 1.0 / over }))
-        };
-        let points: Vec<_> = runs.iter().filter_map(article).collect();
-        if !points.is_empty() {
-            series.push(Series { name: String::new(), hue: series_hue(i), points, style: Style::Dots });
-        }
-    }
-    let machines = match growth.slow {
-        None => word!("equal machines", "máquinas iguais").to_owned(),
-        Some(speed) => {
-            let speed = fraction(speed);
-            say!("machines, the last of which runs at {speed}", "máquinas, a última a {speed}")
-        }
-    };
-    let y = if is_speedup {
-        word!("times as fast as one machine", "vezes mais rápido que uma máquina")
-    } else {
-        word!("ideal time / time", "tempo ideal / tempo")
-    };
-    Chart {
-        title: String::new(),
-        note: word!("Dots without a line: what the article measured", "Pontos sem linha: o que o artigo mediu")
-            .to_owned(),
-        x: Axis { label: machines, ..Axis::default() },
-        y: Axis { label: y.to_owned(), ..Axis::default() },
-        series,
-    }
 }

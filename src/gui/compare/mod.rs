@@ -3,24 +3,25 @@
 mod adding;
 mod columns;
 mod findings;
+mod growth;
+mod head;
+mod lanes;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{RichText, Ui, UiBuilder};
 
 use super::canvas_texture::CanvasTexture;
-use super::icons::Icon;
 use super::keys::Command;
-use super::rates;
 use super::session::{Compared, Growth, Known, Phase, Pictured, Session, Subject, Tracing};
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button};
 use crate::balance::Strategy;
+use crate::export::{ComparedRun, Comparison};
 use crate::language::word;
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{Contender, Playback, RATES, Timeline, fraction, time_words, trial_name};
+use crate::view::{Contender, Playback, RATES, Timeline, trial_name};
 use findings::Findings;
 
 /// More runs than these nobody can follow, and fewer are no comparison.
@@ -42,6 +43,8 @@ pub struct Compare {
     growth: Option<(u64, Option<Growth>)>,
     trouble: Option<String>,
     time: Playback,
+    /// Whether the rate suits the first runs: those that are added change it no more.
+    is_paced: bool,
     findings: Findings,
     /// Whether the run on the stage stands still because of this.
     holds_run: bool,
@@ -72,6 +75,7 @@ impl Default for Compare {
             growth: None,
             trouble: None,
             time: Playback::from_the_beginning(),
+            is_paced: false,
             findings: Findings::default(),
             holds_run: false,
         }
@@ -81,6 +85,16 @@ impl Default for Compare {
 impl Entry {
     fn name(&self) -> String {
         trial_name(self.trial.header.rules.strategy, &self.changes)
+    }
+
+    /// Whether more is changed of it than who shares.
+    fn is_fork(&self) -> bool {
+        !self.changes.iter().all(|change| matches!(change, Change::Strategy(_)))
+    }
+
+    /// When it parts from the run that it is a fork of.
+    fn parts(&self) -> impl Iterator<Item = Time> {
+        self.changes.iter().filter_map(|change| if let Change::SpeedAt(at, ..) = change { Some(*at) } else { None })
     }
 }
 
@@ -120,6 +134,20 @@ impl Compare {
         known.map(|known| (known.name.clone(), known.account.as_ref().map(|account| account.makespan))).collect()
     }
 
+    /// The runs that are known, for a file; nothing until there is one.
+    pub fn comparison(&self) -> Option<Comparison> {
+        let header = &self.subject.as_ref()?.trial.header;
+        let run = |entry: &Entry| {
+            let header = &entry.trial.header;
+            let (strategy, machines) = (header.rules.strategy, header.speeds.len());
+            let account = entry.contender.as_ref()?.account.clone();
+            Some(ComparedRun { strategy, changes: entry.changes.clone(), machines, account })
+        };
+        let (title, size) = (header.title().to_owned(), header.size);
+        let runs: Vec<_> = self.entries.iter().filter_map(run).collect();
+        (!runs.is_empty()).then_some(Comparison { title, size, runs })
+    }
+
     /// Takes in what a job has come to.
     pub fn take(&mut self, job: u64, compared: Compared) {
         match compared {
@@ -134,7 +162,10 @@ impl Compare {
             Compared::Run(id, contender) => {
                 if let Some(entry) = self.entries.iter_mut().find(|entry| entry.id == id) {
                     entry.contender = Some(contender);
-                    self.time.set_rate(usual_rate(self.length()));
+                    if !self.is_paced {
+                        self.time.set_rate(usual_rate(self.length()));
+                        self.is_paced = self.entries.iter().all(|entry| entry.contender.is_some());
+                    }
                 }
             }
             Compared::Failed(why) => self.trouble = Some(why),
@@ -176,7 +207,7 @@ impl Compare {
             contender.show(now);
         }
         if let Some(asked) = {
-            let below = self.findings.height();
+            let below = 2.0 * GRID + Findings::height(ui.available_height());
             columns::show(ui, &mut self.entries, now, length, (&mut self.findings.pair, below), look)
         } {
             self.do_with(asked, session);
@@ -225,7 +256,7 @@ impl Compare {
             self.add(changes);
         }
         self.findings.pair = [0, self.entries.len() - 1];
-        self.time = Playback::from_the_beginning();
+        (self.time, self.is_paced) = (Playback::from_the_beginning(), false);
         self.run(session);
     }
 
@@ -275,101 +306,9 @@ impl Compare {
                 changes.push(change);
                 self.add(changes);
                 self.findings.pair = [place, self.entries.len() - 1];
-                self.time.seek(Time::ZERO, false);
                 self.run(session);
             }
         }
-    }
-
-    /// What the page is about, its time, and the way out.
-    fn heading(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
-        ui.horizontal(|ui| {
-            ui.set_height(4.0 * GRID);
-            ui.label(RichText::new(word!("Compare", "Comparar")).font(theme::strong(theme::LARGE)).color(look.text));
-            ui.add_space(GRID);
-            self.play(ui, look);
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let close = word!("Close the comparison", "Fechar a comparação");
-                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
-                    self.close(session);
-                }
-                if self.entries.len() < MOST
-                    && let Some(change) = adding::strategies(ui, &self.strategies(), look)
-                {
-                    self.add(vec![change]);
-                    self.run(session);
-                }
-                let (said, colour) = match &self.trouble {
-                    Some(why) => (why.as_str(), look.trouble),
-                    None => (
-                        word!(
-                            "The same picture, the same machines, in virtual time",
-                            "A mesma imagem, as mesmas máquinas, em tempo virtual"
-                        ),
-                        look.quiet,
-                    ),
-                };
-                if self.trouble.is_none() {
-                    self.progress(ui, look);
-                }
-                let said = RichText::new(said).font(theme::regular(theme::SMALL)).color(colour);
-                let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), egui::Sense::hover());
-                // What went wrong is told in any case.
-                if self.trouble.is_some() || rect.width() > 48.0 * GRID {
-                    let right = UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center));
-                    ui.scope_builder(right, |ui| ui.add(Label::new(said).truncate()));
-                }
-            });
-        });
-    }
-
-    /// How far the picture is, on which all runs wait; it is traced once for all of them.
-    fn progress(&self, ui: &mut Ui, look: Look) {
-        let is_waiting = self.entries.iter().any(|entry| entry.contender.is_none());
-        let Some(subject) = self.subject.as_ref().filter(|_| is_waiting) else { return };
-        let share = match self.pictured {
-            Some(_) => 1.0,
-            None => self.tracing.done() as f32 / subject.trial.header.size.pixels() as f32,
-        };
-        let bar =
-            ui.add(ProgressBar::new(share).desired_width(16.0 * GRID).desired_height(0.75 * GRID).fill(look.accent));
-        bar.widget_info(|| {
-            let words = word!("of the picture is traced", "da imagem estão calculados");
-            WidgetInfo::labeled(Role::ProgressIndicator, true, format!("{} {words}", fraction(share.into())))
-        });
-        ui.ctx().request_repaint_after(Duration::from_millis(100));
-    }
-
-    /// Whether time goes on, and how fast.
-    fn play(&mut self, ui: &mut Ui, look: Look) {
-        let over = self.time.now() >= self.length();
-        let (icon, name) = match self.time.stands() {
-            _ if over => (Icon::Restart, word!("Play again", "Repetir")),
-            true => (Icon::Play, word!("Go on", "Continuar")),
-            false => (Icon::Pause, word!("Pause", "Pausar")),
-        };
-        if button(ui, Some(icon), name, true, Weight::Primary).clicked() {
-            self.obey(Command::Pause);
-        }
-        ui.spacing_mut().item_spacing.x = GRID / 2.0;
-        if let Some(command) = rates::show(ui, self.time.rate()) {
-            self.obey(command);
-        }
-        ui.add_space(GRID);
-        let shown = time_words(self.time.now(), 1.0);
-        ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
-    }
-
-    /// The strategies that no run has without other changes.
-    fn strategies(&self) -> Vec<Strategy> {
-        let plain = |strategy| {
-            let is_it = |entry: &Entry| {
-                entry.trial.header.rules.strategy == strategy
-                    && entry.changes.iter().all(|change| matches!(change, Change::Strategy(_)))
-            };
-            !self.entries.iter().any(is_it)
-        };
-        Strategy::ALL.into_iter().filter(|&strategy| plain(strategy)).collect()
     }
 }
 

@@ -74,6 +74,11 @@ impl Course {
         self.now().ask.as_ref().map(|question| (question, self.answers[self.step]))
     }
 
+    /// What its claims came to, which is told only after an answer.
+    pub fn checked(&self) -> Option<String> {
+        self.now().checked_words(&self.taught.values[self.step])
+    }
+
     /// Whether an answer is waited for.
     pub fn waits(&self) -> bool {
         self.question().is_some_and(|(_, answer)| answer.is_none())

@@ -3,6 +3,7 @@
 mod course;
 mod panel;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -10,7 +11,7 @@ use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, Wi
 use super::icons::Icon;
 use super::keys::Command;
 use super::save_bar::resolve;
-use super::session::{Preparing, Recorded, Session, Taught};
+use super::session::{Preparing, Purpose, Recorded, Session, Taught};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
 use crate::language::word;
@@ -94,6 +95,25 @@ impl Learn {
         match Lesson::open(argument) {
             Ok(lesson) => self.prepare(Arc::new(lesson), session),
             Err(error) => self.trouble = Some(error.to_string()),
+        }
+    }
+
+    /// Takes in what was chosen in the system's dialog.
+    pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
+        match chosen {
+            Some(path) => {
+                self.path = path.display().to_string();
+                self.start(&path.to_string_lossy(), session);
+            }
+            None => {
+                self.trouble = Some(
+                    word!(
+                        "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
+                        "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
+                    )
+                    .into(),
+                )
+            }
         }
     }
 
@@ -219,6 +239,10 @@ impl Learn {
                     Ok(path) => self.start(&path.to_string_lossy(), session),
                     Err(why) => self.trouble = Some(why),
                 }
+            }
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
+                let directory = std::env::current_dir().unwrap_or_default();
+                session.jobs().choose(Purpose::Learn, directory.join("lesson"));
             }
         });
         if let Some(why) = &self.trouble {

@@ -43,6 +43,7 @@ pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
         all += GRID / 2.0 + high(question.question.spoken(), theme::strong(theme::BODY));
         if is_high || answer.is_some() {
             all += high(question.because.spoken(), theme::regular(theme::BODY));
+            all += checked(ui, course).map_or(0.0, |checked| high(&checked, theme::regular(theme::SMALL)));
         }
         all += rows(ui, width, question).len() as f32 * (4.0 * GRID + GAP.y) + gap;
     }
@@ -86,6 +87,11 @@ fn marked(answer: &str, is_right: bool) -> String {
     if is_right { say!("Right: {answer}", "Certo: {answer}") } else { say!("Not so: {answer}", "Não: {answer}") }
 }
 
+/// What the step's claims came to, unless the picture needs the room more.
+fn checked(ui: &Ui, course: &Course) -> Option<String> {
+    course.checked().filter(|_| ui.ctx().content_rect().height() > 560.0)
+}
+
 /// What leads on.
 fn next(course: &Course) -> &'static str {
     if course.is_over() { word!("Other lessons", "Outras lições") } else { word!("Next", "Avançar") }
@@ -115,6 +121,10 @@ pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
             if answer.is_some() {
                 let because = RichText::new(question.because.spoken());
                 ui.add(Label::new(because.font(theme::regular(theme::BODY)).color(look.text)).wrap());
+                if let Some(checked) = checked(ui, course) {
+                    let checked = RichText::new(checked).font(theme::regular(theme::SMALL)).color(look.quiet);
+                    ui.add(Label::new(checked).wrap());
+                }
             }
         }
     });
@@ -125,13 +135,13 @@ pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
                 asked = Some(Asked::Leave);
             }
             ui.add_enabled_ui(!course.waits(), |ui| {
-                let next = button(ui, Some(Icon::StepOn), next(course), true, Weight::Primary);
+                let next = button(ui, Some(Icon::Next), next(course), true, Weight::Primary);
                 if next.on_hover_text("Page ↓").clicked() {
                     asked = Some(Asked::Next);
                 }
             });
             ui.add_enabled_ui(course.step() > 0, |ui| {
-                let back = button(ui, Some(Icon::StepBack), word!("Back", "Voltar"), false, Weight::Quiet);
+                let back = button(ui, Some(Icon::Back), word!("Back", "Voltar"), false, Weight::Quiet);
                 if back.on_hover_text(word!("Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
                     asked = Some(Asked::Back);
                 }

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Duration;
 
 use super::super::settings::Settings;
 use super::Session;
-use super::jobs::{Done, Jobs, Prepared};
+use super::jobs::{Done, Jobs};
 use crate::balance::Strategy;
 use crate::driver::Whole;
 use crate::palette::Rgb;
@@ -29,6 +30,8 @@ pub struct Subject {
     tracer: Arc<Tracer>,
     /// The run on the stage, in virtual time.
     pub trial: Trial,
+    /// What is set, if the run's own pace is that of this computer's threads.
+    settings: Option<Settings>,
 }
 
 impl Subject {
@@ -40,6 +43,14 @@ impl Subject {
     /// Whether what was traced for this subject serves the other, too.
     pub fn has_picture_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.tracer, &other.tracer)
+    }
+
+    /// A trial of it, at the pace at which all lasts in virtual time as long as is set.
+    fn paced(&self, mut trial: Trial, costs: &PixelCosts) -> Trial {
+        if let Some(settings) = &self.settings {
+            trial.header.pace = settings.header("", "", costs.whole(), 1).pace;
+        }
+        trial
     }
 }
 
@@ -64,8 +75,10 @@ impl Tracing {
 
 /// How well strategies do with more and more machines.
 pub struct Growth {
-    /// By strategy: machines, the power of all beside one at full speed, and the makespan in seconds.
+    /// By strategy: what comes of more and more machines.
     pub of: Vec<(Strategy, Vec<Grown>)>,
+    /// How long one machine at full speed takes.
+    pub alone: Duration,
     /// The last machine is a slow one.
     pub slow: Option<f64>,
 }
@@ -111,42 +124,35 @@ impl Session {
         let recorded = self.recorded.as_ref().map(|recorded| Arc::clone(&recorded.tracer));
         let tracer = recorded.or_else(|| self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.tracer)))?;
         let mut trial = Trial::of(&self.stage.log);
-        if let (Some(prepared), None) = (&self.prepared, &self.recorded) {
-            trial.header.pace = self.virtual_pace(prepared);
-        }
+        let has_own_pace = self.recorded.is_some() || self.header().driver == Driver::Sim;
+        let settings = (!has_own_pace).then(|| Settings { driver: Driver::Sim, ..self.settings.clone() });
         // rayon shares by no rules of ours.
         if self.header().driver == Driver::WorkStealing {
             trial = trial.with(Change::Strategy(Strategy::Ring));
         }
-        (tracer.size() == trial.header.size).then_some(Subject { tracer, trial })
+        (tracer.size() == trial.header.size).then_some(Subject { tracer, trial, settings })
     }
 
     /// Traces the picture, if it is not known, and runs trials of it; returns the job's number.
     pub fn compare(&mut self, subject: &Subject, known: Known, entries: Vec<Entry>) -> u64 {
-        self.jobs.compare(Arc::clone(&subject.tracer), known, entries, self.ground)
+        self.jobs.compare(subject.clone(), known, entries, self.ground)
     }
 
     /// Runs the subject by each strategy with more and more machines; returns the job's number.
     pub fn grow(&mut self, subject: &Subject, pictured: Arc<Pictured>) -> u64 {
-        self.jobs.grow(subject.trial.clone(), pictured)
-    }
-
-    /// Virtual time has a pace of its own, in which the whole lasts as long as is set.
-    fn virtual_pace(&self, prepared: &Prepared) -> f64 {
-        let settings = Settings { driver: Driver::Sim, ..self.settings.clone() };
-        settings.header("", "", prepared.work(Driver::Sim), 1).pace
+        self.jobs.grow(subject.clone(), pictured)
     }
 }
 
 impl Jobs {
-    fn compare(&mut self, tracer: Arc<Tracer>, known: Known, entries: Vec<Entry>, ground: Rgb) -> u64 {
+    fn compare(&mut self, subject: Subject, known: Known, entries: Vec<Entry>, ground: Rgb) -> u64 {
         let number = self.number();
         let failed = move |why| Done::Compared(number, Compared::Failed(why));
         self.start_many("compare", failed, move |tell| {
             let tell = |compared| tell(Done::Compared(number, compared));
             let pictured = match known {
                 Known::Picture(pictured) => pictured,
-                Known::Nothing(tracing) => match pictured(&tracer, &tracing) {
+                Known::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
                     Ok(None) => return,
                     Ok(Some(pictured)) => pictured,
                     Err(why) => return tell(Compared::Failed(why)),
@@ -154,17 +160,18 @@ impl Jobs {
             };
             tell(Compared::Picture(Arc::clone(&pictured)));
             for (id, name, trial) in entries {
-                let log = Arc::new(trial.run(&pictured.costs));
+                let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
                 tell(Compared::Run(id, Box::new(Contender::new(name, log, &pictured.pixels, ground))));
             }
         });
         number
     }
 
-    fn grow(&mut self, trial: Trial, pictured: Arc<Pictured>) -> u64 {
+    fn grow(&mut self, subject: Subject, pictured: Arc<Pictured>) -> u64 {
         let number = self.number();
         let failed = move |why| Done::Compared(number, Compared::Failed(why));
         self.start_many("grow", failed, move |tell| {
+            let trial = subject.paced(subject.trial.clone(), &pictured.costs);
             tell(Done::Compared(number, Compared::Growth(grown(&trial, &pictured.costs))));
         });
         number
@@ -201,5 +208,5 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
         };
         (strategy, (1..=MOST).filter_map(run).collect())
     };
-    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), slow }
+    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), alone, slow }
 }

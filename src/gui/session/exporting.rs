@@ -11,7 +11,7 @@ use crossbeam_channel::{Sender, TryRecvError, bounded};
 use super::Session;
 use super::jobs::{Done, told};
 use crate::driver::{Whole, trace_strips};
-use crate::export::{Drawing, Film, write_chrome, write_csv};
+use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::{Language, say};
 use crate::output::{OutputError, write_whole};
 use crate::picture::{Frame, Quality, Size, write_png};
@@ -20,7 +20,7 @@ use crate::scene::Scene;
 use crate::tracer::Tracer;
 
 /// What is made of what is shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Export {
     /// The picture, traced anew.
     Picture(Size, Quality),
@@ -32,6 +32,10 @@ pub enum Export {
     Table,
     /// The records for Perfetto.
     Chrome,
+    /// Where the time of compared runs went: as PNG if the file is named so, else as SVG.
+    Bars(Comparison),
+    /// Compared runs as CSV.
+    Rows(Comparison),
 }
 
 /// What is being made.
@@ -68,6 +72,8 @@ impl Session {
         let is_known = !self.is_recorded() || self.stage.performer.has_ended();
         let source = Source { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
         let (job, (stop, stopped), language) = (self.jobs.number(), bounded::<()>(0), Language::spoken());
+        // What was said of the file before would cover how far this one is.
+        self.notice = None;
         self.making = Some(Making { job, name, since: self.clock, part: 0.0, _stop: stop });
         let failed = move |why| Done::Made(job, Err(why));
         self.jobs.start_many("export", failed, move |tell| {
@@ -121,6 +127,7 @@ impl Source {
     /// A sentence, if it cannot be made; within it what writing came to.
     fn make(&self, path: &Path, export: Export, tell: Tell<'_>) -> Result<Result<(), OutputError>, String> {
         let log = &self.log;
+        let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
         Ok(match export {
             Export::Picture(size, quality) => {
@@ -128,10 +135,9 @@ impl Source {
                 let rgb = trace_strips(&tracer, &|part| _ = tell(part), &|| !tell(0.0))?;
                 write_png(path, size, &rgb.ok_or("it was stopped")?)
             }
-            Export::Drawing(drawing) => {
-                let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-                write(&|file| drawing.write(file, log, is_png))
-            }
+            Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
+            Export::Bars(comparison) => write(&|file| comparison.write_bars(file, is_png)),
+            Export::Rows(comparison) => write(&|file| comparison.write_csv(file)),
             Export::Film(film) => {
                 let frame = match &self.frame {
                     Some(frame) => frame.clone(),

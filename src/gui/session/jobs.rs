@@ -61,6 +61,8 @@ pub enum Done {
 pub enum Purpose {
     /// To be opened.
     Open,
+    /// A lesson, to be taken.
+    Learn,
     /// To be written.
     Save,
 }
@@ -219,7 +221,8 @@ impl Jobs {
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
     pub fn choose(&self, purpose: Purpose, at: PathBuf) {
-        let [scenes, all] = word!(["Scenes and runs", "All"], ["Cenas e execuções", "Todos"]);
+        let [scenes, lessons, all] =
+            word!(["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
         self.start("file dialog", move || {
             let mut dialog = rfd::FileDialog::new();
             if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
@@ -228,6 +231,7 @@ impl Jobs {
             let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let chosen = match purpose {
                 Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
+                Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
                 Purpose::Save => dialog.set_file_name(name).save_file(),
             };
             Done::Chosen(purpose, chosen)

@@ -310,6 +310,11 @@ impl Session {
         self.notice = None;
     }
 
+    /// Closes it, unless it asks something that goes for the next run as well.
+    pub fn end_notice(&mut self) {
+        self.notice.take_if(|notice| notice.is_of_the_run());
+    }
+
     /// Something was done.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notice = Some(Notice::note(text, self.clock));

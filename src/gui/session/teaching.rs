@@ -15,6 +15,8 @@ pub struct Taught {
     pub lesson: Arc<Lesson>,
     /// Its runs, by name.
     runs: Vec<(String, Recorded)>,
+    /// By step: what its claims came to.
+    pub values: Vec<Vec<Option<f64>>>,
 }
 
 /// A lesson that is being prepared.
@@ -80,13 +82,16 @@ impl Jobs {
             let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
             // A lesson's pictures are small, and soon traced.
             let performed = lesson.perform(&done, &|| false);
-            let taught = performed.map(|performed| {
-                let recorded = performed.unwrap_or_default().into_iter().map(|(name, run)| {
+            let taught = performed.and_then(|performed| {
+                let performed = performed.unwrap_or_default();
+                lesson.has_moments(&performed)?;
+                let values = lesson.values(&performed);
+                let recorded = performed.into_iter().map(|(name, run)| {
                     let known = Arc::new(Known::of(&run.log));
                     let preview = guess(&run.tracer);
                     (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
                 });
-                Taught { runs: recorded.collect(), lesson }
+                Ok(Taught { runs: recorded.collect(), lesson, values })
             });
             let unshown = |why| say!("The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
             Done::Lesson(number, taught.map_err(unshown))

@@ -1,9 +1,19 @@
 //! The run's time in the user's hand.
 
-use super::{Phase, Session};
+use super::{Phase, Session, Stage};
 use crate::language::{say, word};
 use crate::time::Time;
 use crate::view::Step;
+
+impl Stage {
+    /// How long a run is told to be: so far, or while what comes later is hidden, as far as it was shown, but not so short
+    /// that nothing of it could be seen.
+    pub fn told_length(&self) -> Time {
+        const LEAST: f64 = 1.0;
+        let told = self.time.reached().max(Time::from_secs(LEAST));
+        if self.hides_later { told.min(self.length()) } else { self.length() }
+    }
+}
 
 impl Session {
     /// Lets what is seen go on or stand still: the run itself while it is followed, else the shown time. From the end it

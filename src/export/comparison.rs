@@ -1,0 +1,162 @@
+//! Runs beside each other as files: a row a run, and bars of where their time went.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::drawing::write_drawing;
+use super::to_svg;
+use crate::balance::Strategy;
+use crate::picture::Size;
+use crate::sim::Change;
+use crate::view::{Account, Paper, trial_name};
+
+/// Runs of one scene that are compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// What they are of.
+    pub title: String,
+    /// The size of its picture.
+    pub size: Size,
+    /// In the order in which they stand beside each other.
+    pub runs: Vec<ComparedRun>,
+}
+
+/// One of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparedRun {
+    /// How it shares the atoms.
+    pub strategy: Strategy,
+    /// What is changed of it.
+    pub changes: Vec<Change>,
+    /// How many machines it has.
+    pub machines: usize,
+    /// What it amounts to; `None` if it never ends.
+    pub account: Option<Account>,
+}
+
+/// What is known of a run; of one that never ends most is empty.
+#[derive(Serialize)]
+struct Row {
+    run: String,
+    strategy: &'static str,
+    machines: usize,
+    time_s: Option<f64>,
+    ideal_s: Option<f64>,
+    efficiency: Option<f64>,
+    tracing_s: Option<f64>,
+    starting_s: Option<f64>,
+    asking_s: Option<f64>,
+    stopped_s: Option<f64>,
+    waiting_s: Option<f64>,
+    alone_s: Option<f64>,
+    sharing_messages: Option<u64>,
+    results_messages: Option<u64>,
+    transfers: Option<u64>,
+    atoms_moved: Option<u64>,
+}
+
+impl Comparison {
+    /// Writes them as CSV, with a line of names above.
+    ///
+    /// # Errors
+    /// What `to` says.
+    pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
+        let mut table = csv::Writer::from_writer(to);
+        self.runs.iter().try_for_each(|run| table.serialize(run.row()))?;
+        table.flush()
+    }
+
+    /// Writes bars of where the time went of those that end: as PNG if it `is_png`, else as SVG.
+    ///
+    /// # Errors
+    /// What `to` says.
+    pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<()> {
+        let names: Vec<String> = self.runs.iter().map(ComparedRun::name).collect();
+        let accounts = self.runs.iter().map(|run| run.account.as_ref());
+        let runs: Vec<(&str, &Account)> =
+            names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
+        let title = format!("{}, {}, in virtual time", self.title, self.size);
+        let Paper { marks, size } = Paper::comparison(&title, &runs);
+        write_drawing(to, &to_svg(&marks, size, 1), is_png)
+    }
+}
+
+impl ComparedRun {
+    fn name(&self) -> String {
+        trial_name(self.strategy, &self.changes)
+    }
+
+    fn row(&self) -> Row {
+        let known = self.account.as_ref();
+        let of = |figure: fn(&Account) -> f64| known.map(figure);
+        let counted = |figure: fn(&Account) -> u64| known.map(figure);
+        Row {
+            run: self.name(),
+            strategy: self.strategy.name(),
+            machines: self.machines,
+            time_s: of(|account| account.makespan.as_secs_f64()),
+            ideal_s: of(|account| account.ideal.as_secs_f64()),
+            efficiency: of(Account::efficiency),
+            tracing_s: of(|account| account.spent.tracing),
+            starting_s: of(|account| account.spent.starting),
+            asking_s: of(|account| account.spent.asking),
+            stopped_s: of(|account| account.spent.standing),
+            waiting_s: of(|account| account.spent.waiting),
+            alone_s: of(|account| account.last.alone.as_secs_f64()),
+            sharing_messages: counted(|account| account.messages.sharing()),
+            results_messages: counted(|account| account.messages.results),
+            transfers: counted(|account| account.messages.transfers),
+            atoms_moved: counted(|account| account.messages.atoms_moved),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::runlog::examples::header;
+    use crate::sim::{PixelCosts, Trial};
+
+    fn comparison() -> Comparison {
+        let ring = Trial::new(header(&[1.0, 1.0, 0.1]), Vec::new());
+        let costs = vec![Duration::from_micros(50); ring.header.size.pixels() as usize];
+        let costs = PixelCosts::new(ring.header.size, &costs);
+        let run = |strategy, changes: Vec<Change>| {
+            let trial = changes.iter().fold(ring.clone(), |trial, change| trial.with(*change));
+            let account = Account::of(&trial.run(&costs));
+            ComparedRun { strategy, changes, machines: 3, account }
+        };
+        let bands = run(Strategy::Static, vec![Change::Strategy(Strategy::Static)]);
+        let endless = run(Strategy::Static, vec![Change::Strategy(Strategy::Static), Change::Speed(2, 0.0)]);
+        Comparison {
+            title: "three, of which one is slow".into(),
+            size: ring.header.size,
+            runs: vec![run(Strategy::Ring, vec![]), bands, endless],
+        }
+    }
+
+    #[test]
+    fn each_run_is_a_row_and_one_that_never_ends_has_no_time() {
+        let (comparison, mut file) = (comparison(), Vec::new());
+        comparison.write_csv(&mut file).expect("it is written");
+        let mut read = csv::Reader::from_reader(&*file);
+        let rows: Vec<csv::StringRecord> = read.records().map(|row| row.expect("a row")).collect();
+        assert_eq!([&rows[0][0], &rows[1][0], &rows[2][0]], ["Ring", "Equal bands", "Equal bands, 3 at 0 %"]);
+        let seconds: Vec<Option<f64>> = rows.iter().map(|row| row[3].parse().ok()).collect();
+        assert!(seconds[1] > seconds[0] && seconds[0] > Some(0.0) && seconds[2].is_none(), "{seconds:?}");
+    }
+
+    #[test]
+    fn bars_name_the_runs_that_end() {
+        let (comparison, mut file) = (comparison(), Vec::new());
+        comparison.write_bars(&mut file, false).expect("it is written");
+        let svg = String::from_utf8(file).expect("a text");
+        for said in ["three, of which one is slow", ">Ring<", ">Equal bands<", "waiting at the end"] {
+            assert!(svg.contains(said), "{said}: {svg}");
+        }
+        assert!(!svg.contains("3 at 0 %"));
+    }
+}
