@@ -18,7 +18,7 @@ const MS: Duration = Duration::from_millis(1);
 
 /// The ring's, with transfers of at least so many atoms.
 fn rules(part: u32) -> Rules {
-    Rules { strategy: Strategy::Ring, part, batch: Some(Rules::BATCH) }
+    Rules { part, ..Rules::usual(Strategy::Ring, Division::new(100, 1), 4) }
 }
 
 fn started(nodes: NodeId, division: Division) -> (Parent, Vec<Range<Atom>>) {
@@ -54,7 +54,7 @@ impl Told {
     }
 
     fn offer(&mut self, who: NodeId, done: u32) -> Vec<Action> {
-        self.message(Message::Offer { who, done })
+        self.message(Message::offer(who, done))
     }
 
     /// The worker is done with these atoms; what the node did about the last.
@@ -68,7 +68,7 @@ fn send(to: NodeId, message: Message) -> Action {
 }
 
 fn send_offer(to: NodeId, who: NodeId, done: u32) -> Action {
-    send(to, Message::Offer { who, done })
+    send(to, Message::offer(who, done))
 }
 
 fn results(ranges: &[Range<Atom>]) -> Action {

@@ -17,7 +17,7 @@ use proptest::prelude::*;
 const MS: Duration = Duration::from_millis(1);
 
 fn rules(strategy: Strategy, part: u32) -> Rules {
-    Rules { strategy, part, batch: None }
+    Rules { part, batch: None, ..Rules::usual(strategy, Division::new(100, 1), 4) }
 }
 
 /// A parent that is told things.

@@ -40,15 +40,21 @@ struct Entry {
     gone: bool,
     /// When one that is gone was asked back last.
     asked: Time,
+    /// One that was never there is not asked back.
+    spare: bool,
 }
 
 impl Ledger {
-    /// A ledger of so many nodes and atoms, all of which are with their nodes at the start.
-    pub fn new(beat: Duration, nodes: NodeId, atoms: Atom) -> Self {
-        let entry = Entry { heard: None, idle: false, gone: false, asked: Time::ZERO };
+    /// A ledger of so many nodes, of which the last are spares that are not there yet, and so many atoms, all of which are with
+    /// their nodes at the start.
+    pub fn new(beat: Duration, (nodes, spares): (NodeId, NodeId), atoms: Atom) -> Self {
+        let entry = |node| {
+            let spare = node + spares >= nodes;
+            Entry { heard: None, idle: false, gone: spare, asked: Time::ZERO, spare }
+        };
         Self {
             beat,
-            nodes: vec![entry; usize::from(nodes)],
+            nodes: (0..nodes).map(entry).collect(),
             held: vec![None; atoms as usize],
             pool: Vec::new(),
             next_lost: Time::ZERO,
@@ -63,14 +69,18 @@ impl Ledger {
     }
 
     /// The bands leave now.
-    pub fn start(&mut self, now: Time) {
+    pub fn start(&mut self, now: Time, actions: &mut Vec<Action>) {
         self.held.fill(Some(now));
+        if self.nodes.iter().any(|entry| entry.spare) {
+            self.tell_who_is_gone(actions);
+        }
     }
 
     /// A node has been heard of; if it was gone, it is back, and all are told.
     pub fn hear(&mut self, now: Time, node: NodeId, actions: &mut Vec<Action>) {
         let entry = &mut self.nodes[usize::from(node)];
         entry.heard = Some(now);
+        entry.spare = false;
         if std::mem::take(&mut entry.gone) {
             self.tell_who_is_gone(actions);
         }
@@ -140,7 +150,7 @@ impl Ledger {
         // What made them gone may be over, and whoever begins anew may not have been heard.
         for node in 0..self.nodes.len() {
             let entry = &mut self.nodes[node];
-            if entry.gone && now.since(entry.asked) > lease {
+            if entry.gone && !entry.spare && now.since(entry.asked) > lease {
                 entry.asked = now;
                 self.ask_in(node as NodeId, actions);
             }
@@ -217,6 +227,8 @@ impl Ledger {
     fn tell_who_is_gone(&self, actions: &mut Vec<Action>) {
         let gone = self.gone();
         let there = (0..).zip(&self.nodes).filter(|(_, entry)| !entry.gone);
-        actions.extend(there.map(|(node, _)| Action::Send { to: Party::Node(node), message: Message::Gone(gone.clone()) }));
+        actions.extend(
+            there.map(|(node, _)| Action::Send { to: Party::Node(node), message: Message::Gone(gone.clone()) }),
+        );
     }
 }

@@ -94,6 +94,11 @@ impl Help {
 }
 
 impl Message {
+    /// The offer of the article's ring.
+    pub fn offer(who: NodeId, done: u32) -> Self {
+        Self::Offer { who, done, help: None }
+    }
+
     /// The atoms that it is about: to be traced, or traced.
     pub fn ranges(&self) -> &[Range<Atom>] {
         match self {

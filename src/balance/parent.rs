@@ -18,6 +18,7 @@ pub struct Parent {
     sharing: Sharing,
     division: Division,
     nodes: NodeId,
+    spares: NodeId,
     /// By atom: whether its pixels are in the picture.
     placed: Vec<bool>,
     missing: u32,
@@ -41,7 +42,12 @@ enum Sharing {
 impl Parent {
     /// The parent of `nodes` nodes (at least one), which are to trace the atoms of `division`.
     pub fn new(rules: &Rules, division: Division, nodes: NodeId) -> Self {
-        assert!(nodes > 0, "a run needs a node");
+        Self::with_spares(rules, division, nodes, 0)
+    }
+
+    /// The same where the last `spares` of the nodes are off at first: they are given no band, and may join.
+    pub fn with_spares(rules: &Rules, division: Division, nodes: NodeId, spares: NodeId) -> Self {
+        assert!(nodes > spares, "a run needs a node");
         let missing = division.atoms();
         let farm = |by_speed| Sharing::Farm(Parts::new(missing, nodes, rules.part, by_speed));
         let sharing = match rules.strategy {
@@ -51,11 +57,11 @@ impl Parent {
             Strategy::Farm => farm(false),
             Strategy::FarmBySpeed => farm(true),
             Strategy::Adaptive => {
-                let ledger = || Ledger::new(rules.beat, nodes, missing);
+                let ledger = || Ledger::new(rules.beat, (nodes, spares), missing);
                 Sharing::Adaptive(rules.remedies.has(Remedy::Leases).then(ledger))
             }
         };
-        Self { sharing, division, nodes, placed: vec![false; missing as usize], missing }
+        Self { sharing, division, nodes, spares, placed: vec![false; missing as usize], missing }
     }
 
     /// Answers `event`, which happens at `now`, by appending to `actions`; the time matters only in the ring that adapts.
@@ -64,13 +70,14 @@ impl Parent {
     /// If the event is impossible: an atom that has been placed before (but in the ring that adapts), or a message that no
     /// node sends here.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
-        if let (Sharing::Adaptive(Some(ledger)), Event::Message { from: Party::Node(node), .. }) = (&mut self.sharing, &event)
+        if let (Sharing::Adaptive(Some(ledger)), Event::Message { from: Party::Node(node), .. }) =
+            (&mut self.sharing, &event)
         {
             ledger.hear(now, *node, actions);
         }
         match event {
             Event::Started => {
-                let nodes = usize::from(self.nodes);
+                let nodes = usize::from(self.nodes - self.spares);
                 match &mut self.sharing {
                     Sharing::Serial => {
                         let all = self.division.atoms();
@@ -82,7 +89,7 @@ impl Parent {
                     Sharing::Adaptive(ledger) => {
                         hand_out(self.division.bands(nodes), actions);
                         if let Some(ledger) = ledger {
-                            ledger.start(now);
+                            ledger.start(now, actions);
                             actions.push(Action::SetTimer(ledger.next_look(now)));
                         }
                     }

@@ -60,15 +60,8 @@ fn usual_beat() -> Duration {
 
 impl Strategy {
     /// Every strategy, in the order in which they are named to the user.
-    pub const ALL: [Self; 7] = [
-        Self::Serial,
-        Self::Static,
-        Self::StaticEstimate,
-        Self::Farm,
-        Self::FarmBySpeed,
-        Self::Ring,
-        Self::Adaptive,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring, Self::Adaptive];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {

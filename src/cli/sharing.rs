@@ -88,6 +88,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         rules,
         pace,
         speeds,
+        spares: 0,
         link: Link { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
         handling: args.handling,
         cores,

@@ -51,7 +51,8 @@ impl Placed {
 impl ParentThread {
     /// The parent of the run that `header` describes.
     pub fn new(header: &Header, port: Port, trace: Arc<TracePixels>) -> Self {
-        let parent = Parent::new(&header.rules, header.division, header.speeds.len() as NodeId);
+        let nodes = header.speeds.len() as NodeId;
+        let parent = Parent::with_spares(&header.rules, header.division, nodes, header.spares);
         let machine = Machine::new(1.0, header.pace);
         let (division, placed) = (header.division, Placed::default());
         Self { parent, port, trace, division, machine, placed, estimate: false, finished: false }

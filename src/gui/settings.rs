@@ -180,6 +180,7 @@ impl Settings {
                 remedies: Remedies::ALL,
             },
             speeds: self.speeds.clone(),
+            spares: 0,
             pace: self.pace(work, cores),
             link: Link {
                 latency: self.latency_time(),

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::Header;
-use crate::balance::{Message, NodeId, Party, estimate};
+use crate::balance::{Message, NodeId, Party, Strategy, estimate};
 use crate::picture::{Atom, Division, Size};
 use crate::record::{Record, What};
 use crate::time::Time;
@@ -28,6 +28,8 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
     ensure(header.division.atoms() <= Division::MAX_ATOMS, "there are more atoms than a run can have")?;
     header.quality.check()?;
     ensure((1..=1024).contains(&header.speeds.len()), "there must be 1 to 1024 speeds")?;
+    ensure(usize::from(header.spares) < header.speeds.len(), "all machines are spares")?;
+    ensure(header.spares == 0 || header.rules.strategy == Strategy::Adaptive, "only a ring that adapts has spares")?;
     ensure(header.link.latency <= HOUR && header.handling <= HOUR, "a message takes longer than an hour")?;
     ensure(header.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)), "a speed is not between 0 and 1")?;
     ensure(header.pace > 0.0 && header.pace <= 1.0, "the pace is not above 0 and at most 1")?;
@@ -153,7 +155,6 @@ mod tests {
     use super::super::examples;
     use super::super::examples::{at, done, sent};
     use super::*;
-    use crate::balance::Strategy;
 
     /// What is said of the first record that is refused.
     fn complaint(records: &[Record]) -> Result<(), String> {

@@ -155,7 +155,7 @@ mod tests {
     use super::super::examples::{done, header};
     use super::super::{Driver, Link};
     use super::*;
-    use crate::balance::{Message, Party, Rules, Strategy as Sharing};
+    use crate::balance::{Condition, Help, Message, Party, Rules, Strategy as Sharing};
     use crate::record::What;
     use crate::time::Time;
     use proptest::prelude::*;
@@ -176,11 +176,32 @@ mod tests {
             range().prop_map(Message::Band),
             Just(Message::Request),
             range().prop_map(Message::Part),
-            (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::Offer { who, done }),
+            (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::offer(who, done)),
+            (0..NODES, any::<u32>(), help()).prop_map(|(who, done, help)| Message::Offer {
+                who,
+                done,
+                help: Some(help)
+            }),
+            prop::collection::vec(range(), 0..4).prop_map(Message::Again),
+            Just(Message::Wake),
+            (prop::collection::vec(range(), 0..4), any::<bool>(), any::<u64>())
+                .prop_map(|(holds, idle, sent)| Message::Beat { holds, idle, sent: Time(sent) }),
+            prop::collection::vec(0..NODES, 0..4).prop_map(Message::Gone),
+            prop::collection::vec(range(), 0..4).prop_map(Message::Placed),
+            (0..ATOMS).prop_map(Message::Failed),
             prop::collection::vec(range(), 0..4).prop_map(Message::Transfer),
             prop::collection::vec(range(), 0..4).prop_map(Message::Results),
             Just(Message::Shutdown),
         ]
+    }
+
+    fn help() -> impl Strategy<Value = Help> {
+        let numbers = (any::<u32>(), any::<u64>(), any::<u16>(), prop::option::of(any::<u16>()));
+        numbers.prop_map(|(speed, sent, stop, left)| Help { speed, sent: Time(sent), stop, left })
+    }
+
+    fn conditions() -> impl Strategy<Value = Condition> {
+        prop::sample::select(vec![Condition::Well, Condition::Hung, Condition::CutOff, Condition::Off])
     }
 
     fn happenings() -> impl Strategy<Value = What> {
@@ -198,6 +219,11 @@ mod tests {
             (0..NODES).prop_map(|node| What::Resumed { node }),
             (0..=3_600_000u64).prop_map(|ms| What::LatencySet { latency: Duration::from_millis(ms) }),
             (0..NODES).prop_map(|node| What::Retired { node }),
+            (0..NODES, conditions()).prop_map(|(node, condition)| What::Condition { node, condition }),
+            (parties(), parties(), any::<bool>()).prop_map(|(one, other, cut)| What::Link { one, other, cut }),
+            any::<u64>().prop_map(|id| What::Lost { id }),
+            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomFailed { node, atom }),
+            (0..ATOMS).prop_map(|atom| What::GivenUp { atom }),
             Just(What::Estimating),
             cost().prop_map(|cost| What::Estimated { costs: vec![cost] }),
             Just(What::Finished),
@@ -216,7 +242,7 @@ mod tests {
             |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, shared)| Header {
                 scene,
                 driver: Driver::Sim,
-                rules: Rules { strategy: Sharing::FarmBySpeed, part, batch },
+                rules: Rules { strategy: Sharing::FarmBySpeed, part, batch, ..header(&speeds).rules },
                 pace,
                 link: Link { latency, bandwidth, shared },
                 handling,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::Caption;
-use crate::balance::{Rules, Strategy};
+use crate::balance::{NodeId, Rules, Strategy};
 use crate::picture::{Division, Quality, Size};
 
 /// What a run was asked to do.
@@ -28,6 +28,9 @@ pub struct Header {
     pub rules: Rules,
     /// A node a speed, as fractions of the reference machine (1 = 100 %).
     pub speeds: Vec<f64>,
+    /// So many of the nodes, the last ones, are off at first, and may join the run: only a ring that adapts needs them for nothing.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub spares: NodeId,
     /// What fraction of one real core the reference machine gets, above 0 and at most 1. At pace 1 a node of
     /// speed 1 never waits.
     pub pace: f64,
@@ -87,6 +90,7 @@ impl Header {
             handling: Duration::ZERO,
             cores: speeds.len(),
             speeds,
+            spares: 0,
             caption: Caption::default(),
         }
     }
@@ -101,10 +105,19 @@ impl Header {
         if self.caption.title.is_empty() { &self.scene } else { &self.caption.title }
     }
 
+    /// Whether this node is off at first.
+    pub fn is_spare(&self, node: NodeId) -> bool {
+        usize::from(node) + usize::from(self.spares) >= self.speeds.len()
+    }
+
     /// Whether no machine is slower than this computer, and so none has to wait.
     pub fn is_full_speed(&self) -> bool {
         self.pace >= 1.0 && self.speeds.iter().all(|&speed| speed >= 1.0)
     }
+}
+
+fn is_zero(count: &NodeId) -> bool {
+    *count == 0
 }
 
 /// Latency and bandwidth between any two parties, the parent included.

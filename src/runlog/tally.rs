@@ -79,7 +79,10 @@ impl Tally {
             traced: vec![false; header.division.atoms() as usize],
             twice: Duration::ZERO,
             nodes: vec![(0, Time::ZERO); header.speeds.len()],
-            changes: Vec::new(),
+            changes: (0..header.speeds.len() as NodeId)
+                .filter(|&node| header.is_spare(node))
+                .map(|node| (Time::ZERO, node, Change::Condition(Condition::Off)))
+                .collect(),
             messages: Messages::default(),
         }
     }
@@ -286,11 +289,11 @@ mod tests {
             sent(1, PARENT, node(0), Message::Band(0..10)),
             sent(1, PARENT, node(1), Message::Band(10..20)),
             done(6, 0, 0, 5),
-            sent(6, node(0), node(1), Message::Offer { who: 0, done: 1 }),
+            sent(6, node(0), node(1), Message::offer(0, 1)),
             sent(7, node(1), node(0), Message::Transfer(vec![15..17, 18..20])),
             done(9, 1, 10, 7),
-            sent(9, node(1), node(0), Message::Offer { who: 1, done: 1 }),
-            sent(10, node(0), node(1), Message::Offer { who: 1, done: 1 }),
+            sent(9, node(1), node(0), Message::offer(1, 1)),
+            sent(10, node(0), node(1), Message::offer(1, 1)),
             done(12, 0, 15, 8),
             sent(12, node(0), PARENT, Message::Results(vec![0..1, 15..16])),
             at(13, What::Finished),

@@ -41,7 +41,7 @@ impl Party {
             in_hand: false,
             plan: 0,
             timer: None,
-            condition: Condition::Well,
+            condition: if header.is_spare(id) { Condition::Off } else { Condition::Well },
             mailbox: Vec::new(),
             paused: false,
             finished: false,

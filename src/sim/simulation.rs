@@ -70,7 +70,7 @@ impl Sim {
         let mut sim = Self {
             now: Time::ZERO,
             future,
-            parent: Parent::new(&header.rules, header.division, nodes as NodeId),
+            parent: Parent::with_spares(&header.rules, header.division, nodes as NodeId, header.spares),
             parent_links: BTreeMap::new(),
             parent_busy: Time::ZERO,
             finished: false,

@@ -154,7 +154,9 @@ impl Cargo {
     const fn fade(&self) -> Duration {
         match self {
             Self::Offer { .. } => Duration::from_millis(700),
-            Self::Band(_) | Self::Part(_) | Self::Transfer(_) | Self::Again(_) | Self::Wake => Duration::from_millis(300),
+            Self::Band(_) | Self::Part(_) | Self::Transfer(_) | Self::Again(_) | Self::Wake => {
+                Duration::from_millis(300)
+            }
             Self::Results(_) | Self::Request | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
         }
     }
@@ -180,7 +182,7 @@ mod tests {
 
     #[test]
     fn an_offer_keeps_its_time_and_leaves_a_trail() {
-        let message = Message::Offer { who: 3, done: 9 };
+        let message = Message::offer(3, 9);
         let offer =
             Flight::new(7, (Party::Node(3), Party::Node(2)), &message, Time::from_secs(1.0), Time::from_secs(1.04));
         assert_eq!(offer.shown().end, Time::from_secs(1.04));

@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn those_that_are_gone_are_swept_out_and_others_stay() {
         let mut flights = Flights::default();
-        let offer = Message::Offer { who: 0, done: 0 };
+        let offer = Message::offer(0, 0);
         for second in 0..1000 {
             let at = Time::from_secs(f64::from(second));
             let arrives = if second % 100 == 0 { Time(u64::MAX) } else { at };

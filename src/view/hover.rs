@@ -216,7 +216,10 @@ pub fn flight_words(flight: &Flight) -> String {
         Cargo::Results(_) => {
             say!("{atoms} that {from} has traced, for {to}", "{atoms} que {from} calculou, para {to}")
         }
-        Cargo::Again(_) => say!("{atoms} from {from} to {to}, to be traced once more", "{atoms} de {from} para {to}, para calcular de novo"),
+        Cargo::Again(_) => say!(
+            "{atoms} from {from} to {to}, to be traced once more",
+            "{atoms} de {from} para {to}, para calcular de novo"
+        ),
         Cargo::Wake => say!("{from} wakes {to}", "{from} acorda {to}"),
         Cargo::Beat => say!("{from} tells {to} what it has", "{from} diz ao pai o que tem"),
         Cargo::Notice => say!("{from} tells {to} what is lost", "{from} diz a {to} o que se perdeu"),

@@ -165,8 +165,10 @@ fn runs() -> Vec<RunLog> {
                 let header = Header { rules, driver, handling: Duration::from_millis(handling), ..plain };
                 let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
                 let fits = |(_, command): &&(Time, Command)| match command {
-                    Command::Speed { node, .. } | Command::Pause { node, .. } => usize::from(*node) < speeds.len(),
-                    Command::Latency(_) => true,
+                    Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
+                        usize::from(*node) < speeds.len()
+                    }
+                    Command::Latency(_) | Command::Link { .. } => true,
                 };
                 let script: Vec<_> = script.iter().filter(fits).copied().collect();
                 let mut records = Vec::new();

@@ -272,7 +272,10 @@ mod tests {
             | What::SpeedSet { node, .. }
             | What::Paused { node }
             | What::Resumed { node }
+            | What::Condition { node, .. }
+            | What::AtomFailed { node, .. }
             | What::Retired { node } => Party::Node(*node),
+            What::Link { .. } | What::Lost { .. } | What::GivenUp { .. } => Party::Parent,
             What::LatencySet { .. } | What::Estimating | What::Estimated { .. } | What::Finished => Party::Parent,
         }
     }
@@ -340,7 +343,7 @@ mod tests {
     #[test]
     fn strangers_are_left_out() {
         let mut state = RunState::new(&sample::header(&[1.0], 2));
-        let offer = Message::Offer { who: 9, done: 0 };
+        let offer = Message::offer(9, 0);
         let (from, to, at) = (Party::Node(9), Party::Node(8), Time::ZERO);
         state.apply(&Record { at, what: What::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
         state.apply(&Record { at, what: What::Received { id: 0, by: to } });

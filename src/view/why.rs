@@ -76,7 +76,10 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
         }
         What::GivenUp { atom } => {
             let atom = count(atom.saturating_add(1));
-            say!("Atom {atom} cannot be traced: the run has failed", "O átomo {atom} não pode ser calculado: a execução falhou")
+            say!(
+                "Atom {atom} cannot be traced: the run has failed",
+                "O átomo {atom} não pode ser calculado: a execução falhou"
+            )
         }
         What::Retired { node } => sentences::retired(state, &[*node]),
         What::Finished => sentences::complete().into(),

@@ -33,6 +33,10 @@ impl Node {
                 _ => {}
             }
         }
+        if is_due(self.asks) {
+            self.asks = Some(now + self.lease());
+            send(Party::Parent, Message::Request, actions);
+        }
         self.offer_early(now, actions);
         if is_due(self.next_beat) {
             self.next_beat = Some(now + self.beat);
@@ -40,7 +44,7 @@ impl Node {
             let holds = if self.is_stuck(now) { Vec::new() } else { self.work.held() };
             send(Party::Parent, Message::Beat { holds, idle, sent: now }, actions);
         }
-        let next = [self.work.due(), self.next_beat, self.offer_due(), self.late_at(now), self.early_at()];
+        let next = [self.work.due(), self.next_beat, self.offer_due(), self.late_at(now), self.early_at(), self.asks];
         let next = next.into_iter().flatten().min();
         if let Some(next) = next.filter(|&next| self.timer.is_none_or(|timer| next < timer)) {
             self.timer = Some(next);

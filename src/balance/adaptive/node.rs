@@ -39,6 +39,8 @@ pub struct Node {
     pub(super) refused: Option<u32>,
     /// The atoms in the pipe of which a copy was given away.
     pub(super) copied: Vec<Atom>,
+    /// When it will ask the parent to be let in (again), having begun anew and not heard of it.
+    pub(super) asks: Option<Time>,
     /// When the parent is to hear what the node has; `None` before the band, and without leases.
     pub(super) next_beat: Option<Time>,
     /// The timer that is set.
@@ -92,6 +94,7 @@ impl Node {
             offered_during: None,
             refused: None,
             copied: Vec::new(),
+            asks: None,
             next_beat: None,
             timer: None,
         }
@@ -103,7 +106,7 @@ impl Node {
     /// If the event is impossible: something that no parent or node of the same ring can have sent.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
-            Event::Started => send(Party::Parent, Message::Request, actions),
+            Event::Started => self.asks = Some(now),
             Event::Message { from, message } => self.receive(now, from, message, actions),
             Event::AtomDone { atom, cost } => {
                 self.gauge.done(now, cost);
@@ -155,6 +158,7 @@ impl Node {
                     return;
                 }
                 let State::Waiting { early } = std::mem::replace(&mut self.state, State::Busy) else { return };
+                self.asks = None;
                 self.next_beat = self.has(Remedy::Leases).then_some(now);
                 self.add(now, [band], actions);
                 if self.work.is_idle() {

@@ -42,7 +42,8 @@ impl Ring {
     /// `who` itself if nobody is left.
     pub fn stop(&self, who: NodeId, stop: u16) -> NodeId {
         let far = if self.shortcuts { distance(stop) } else { stop + 1 };
-        let left = |by: NodeId| ((u32::from(who) + u32::from(self.nodes) - u32::from(by)) % u32::from(self.nodes)) as NodeId;
+        let left =
+            |by: NodeId| ((u32::from(who) + u32::from(self.nodes) - u32::from(by)) % u32::from(self.nodes)) as NodeId;
         (far..self.nodes).map(left).find(|node| !self.is_gone(*node)).unwrap_or(who)
     }
 }

@@ -115,6 +115,6 @@ impl Node {
     }
 
     fn send_left(&self, Offer { who, done }: Offer, actions: &mut Vec<Action>) {
-        actions.push(Action::Send { to: Party::Node(self.left), message: Message::Offer { who, done, help: None } });
+        actions.push(Action::Send { to: Party::Node(self.left), message: Message::offer(who, done) });
     }
 }

@@ -47,6 +47,9 @@ impl Plan {
             header.handling = Duration::from_micros(rng.u64(0..500));
         }
         header.rules.beat = Rules::beat_for(header.handling, nodes);
+        if rng.u32(0..4) == 0 && nodes > 1 {
+            header.spares = rng.u16(0..nodes as NodeId / 2 + 1);
+        }
         let mut plan = Self { header, script: Vec::new(), costs, calm };
         if !calm {
             plan.befall(&mut rng);
