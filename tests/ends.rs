@@ -6,11 +6,12 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use anel::balance::{Message, NodeId, Party, Strategy};
+use anel::balance::{Condition, Message, NodeId, Party, Strategy};
 use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Colour, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Driver, Header, Link, RunLog};
+use anel::scenario::Command;
 use anel::time::Time;
 use anel::tracer::Scratch;
 
@@ -36,7 +37,8 @@ fn header(number: u32) -> Header {
     let size = Size::new(1000, 100).expect("a size");
     // Every third node stands still from the start.
     let speeds = (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect();
-    let plain = Header::plain(size, [10, 50_000][number as usize % 2], Strategy::Ring, speeds);
+    let strategy = [Strategy::Ring, Strategy::Adaptive][number as usize / 6 % 2];
+    let plain = Header::plain(size, [10, 50_000][number as usize % 2], strategy, speeds);
     let driver = [Driver::Threads, Driver::WorkStealing, Driver::Pairs][number as usize / 2 % 3];
     Header { driver, link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link }, ..plain }
 }
@@ -51,10 +53,14 @@ fn trace(pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>) {
 fn begin_and_stop(number: u32) -> Run {
     let run = Run::start_with(trace, &header(number));
     std::thread::sleep(number % 5 * MS);
-    match number % 4 {
+    let put_all = |condition| (0..NODES).for_each(|node| run.command(Command::Condition { node, condition }));
+    match number % 7 {
         0 => run.pause(),
         1 => (0..NODES).for_each(|node| run.set_paused(node, true)),
         2 => (0..NODES).for_each(|node| run.set_speed(node, 0.0)),
+        3 => put_all(Condition::Hung),
+        4 => put_all(Condition::CutOff),
+        5 => put_all(Condition::Off),
         _ => {}
     }
     run.stop();

@@ -41,15 +41,21 @@ fn whatever_befalls_machines_and_links_the_picture_is_the_same() {
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut plain);
     let mut seen = Seen::default();
     for seed in 0..200 {
-        let frame = live(&tracer, &mut Rng::with_seed(seed), &mut seen).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+        let frame =
+            live(&tracer, &mut Rng::with_seed(seed), &mut seen).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         assert!(bits(frame.pixels()).eq(bits(&plain)), "seed {seed}: another picture");
     }
     let Seen { hung, cut_off, off, begun_anew, links_cut, lost, again, unheard } = seen;
     let all = [hung, cut_off, off, begun_anew, links_cut, lost, again, unheard];
     assert!(all.iter().all(|&times| times > 0), "{seen:?}");
     // The system may still be clearing away what has ended.
-    let is_quiet = || (0..3000).any(|_| threads() <= before || (std::thread::sleep(10 * MS), false).1);
-    assert!(is_quiet(), "{before} threads before, {} after", threads());
+    for _ in 0..3000 {
+        if threads() <= before {
+            return;
+        }
+        std::thread::sleep(10 * MS);
+    }
+    panic!("{before} threads before, {} after", threads());
 }
 
 /// A run to which things happen; its first node stays well.

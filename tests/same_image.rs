@@ -22,6 +22,21 @@ fn the_ring_of_wildly_different_machines() {
 }
 
 #[test]
+fn the_ring_that_adapts_of_equal_machines() {
+    compare(Driver::Threads, Strategy::Adaptive, |_| 1.0);
+}
+
+#[test]
+fn the_ring_that_adapts_of_wildly_different_machines() {
+    compare(Driver::Threads, Strategy::Adaptive, wildly_different);
+}
+
+#[test]
+fn the_ring_that_adapts_with_two_threads_a_node() {
+    compare(Driver::Pairs, Strategy::Adaptive, |_| 1.0);
+}
+
+#[test]
 fn one_node_that_traces_all() {
     compare(Driver::Threads, Strategy::Serial, |_| 1.0);
 }

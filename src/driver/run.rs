@@ -177,6 +177,7 @@ fn supervise(setting: Setting<'_>, inboxes: Inboxes) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::Condition;
     use crate::record::What;
     use crate::runlog::examples::header;
 
@@ -203,6 +204,44 @@ mod tests {
                     let rate = header.speeds[usize::from(node)] * header.pace;
                     let took = record.at.since(started[usize::from(node)]);
                     assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
+                    atoms += 1;
+                }
+                _ => {}
+            }
+        }
+        assert_eq!(atoms, header.division.atoms());
+    }
+
+    /// A machine that hangs goes on where it was.
+    #[test]
+    fn an_atom_takes_longer_by_as_long_as_its_machine_hangs() {
+        let header = Header { pace: 0.02, ..header(&[0.5]) };
+        let trace = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+            let spin = |pixel| (0..1000).fold(pixel as f32, |x: f32, _| (x + 1.3).sin());
+            out.extend(pixels.map(|pixel| [spin(pixel); 3]));
+        };
+        let run = Run::start_with(trace, &header);
+        for condition in [Condition::Hung, Condition::Well].into_iter().cycle().take(8) {
+            thread::sleep(Duration::from_millis(3));
+            run.command(Command::Condition { node: 0, condition });
+        }
+        let updates = run.updates().iter().take_while(|update| !matches!(update, Update::Finished));
+        let records: Vec<_> = updates
+            .flat_map(|update| if let Update::Records(records) = update { records } else { Vec::new() })
+            .collect();
+        let (mut since, mut hung, mut atoms) = (Time::ZERO, None, 0);
+        for record in records.iter() {
+            match record.what {
+                What::AtomStarted { .. } => since = record.at,
+                What::Condition { condition: Condition::Hung, .. } => hung = Some(record.at),
+                // What of it fell into an atom does not count for that.
+                What::Condition { condition: Condition::Well, .. } => {
+                    since += record.at.since(hung.take().expect("it hung").max(since));
+                }
+                What::AtomDone { cost, .. } => {
+                    assert_eq!(hung, None, "a machine that hangs is done with an atom");
+                    let (took, takes) = (record.at.since(since), cost.div_f64(0.01));
+                    assert!(took.abs_diff(takes) <= Duration::from_nanos(10), "{took:?} for {cost:?}");
                     atoms += 1;
                 }
                 _ => {}

@@ -209,7 +209,9 @@ impl Worker {
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
             Command::Condition { condition, .. } => return self.put(condition, duties),
-            Command::Link { .. } | Command::Latency(_) => unreachable!("the parent notes down what is done to the network"),
+            Command::Link { .. } | Command::Latency(_) => {
+                unreachable!("the parent notes down what is done to the network")
+            }
         };
         self.port.record(what);
         self.measure_anew();
