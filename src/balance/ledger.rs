@@ -113,11 +113,15 @@ impl Ledger {
 
     /// A worker has failed to trace an atom: it is tried elsewhere, unless it has failed too often.
     pub fn failed(&mut self, now: Time, atom: Atom, placed: &[bool], actions: &mut Vec<Action>) {
+        // A copy of it may have been traced all the same.
+        if placed[atom as usize] {
+            return;
+        }
         let failures = self.failures.entry(atom).or_default();
         *failures += 1;
         if *failures >= MOST_FAILURES {
             actions.push(Action::Fail(atom));
-        } else if !placed[atom as usize] {
+        } else {
             self.held[atom as usize] = None;
             self.pool.push(atom..atom + 1);
             self.give_out(now, placed, actions);

@@ -11,10 +11,15 @@
 //! Two kinds of runs are there to be compared with this one: that with two threads a node, as the article has it, and
 //! that in which rayon shares the atoms by work stealing. Their workers, their parent and their ports are the same.
 //!
+//! Machines and links may fail, as they do in virtual time (`sim`): a node's thread goes on while its machine hangs or is
+//! off, since it is the machine. A node that cannot hear that the run is over ends with it all the same.
+//!
 //! A recorded run has no parties any more: its records are known, and threads trace its picture again.
 
 mod clock;
+mod guarded;
 mod jobs;
+mod losses;
 mod measured;
 mod meter;
 mod node_thread;

@@ -11,7 +11,7 @@ use super::setting::Setting;
 use super::shared::Inboxes;
 use super::supervisor::Threads;
 use super::worker::{Duties, Worker, take_pixels};
-use crate::balance::{Action, Event, Message, Node, NodeId};
+use crate::balance::{Action, Event, Message, Node, NodeId, Rules};
 use crate::picture::{Atom, Colour, Division};
 use crate::record::What;
 use crate::runlog::Header;
@@ -38,6 +38,8 @@ fn run(header: &Header, mut worker: Worker) {
 /// A node's handler: it hands the node what happens, and carries out what that asks for.
 pub(super) struct Handler {
     id: NodeId,
+    nodes: NodeId,
+    rules: Rules,
     node: Node,
     division: Division,
     actions: Vec<Action>,
@@ -47,8 +49,9 @@ pub(super) struct Handler {
 impl Handler {
     /// The handler of node `id`.
     pub fn new(header: &Header, id: NodeId) -> Self {
-        let node = Node::new(&header.rules, id, header.speeds.len() as NodeId);
-        Self { id, node, division: header.division, actions: Vec::new(), finished: false }
+        let (nodes, rules) = (header.speeds.len() as NodeId, header.rules);
+        let node = Node::new(&rules, id, nodes);
+        Self { id, nodes, rules, node, division: header.division, actions: Vec::new(), finished: false }
     }
 
     /// Hands the node an event. `pixels` are those of the atoms that are traced and not sent; the atoms that are to be
@@ -89,6 +92,14 @@ impl Duties for Handler {
 
     fn traced(&mut self, atom: Atom, cost: Duration, worker: &mut Worker) {
         self.event(Event::AtomDone { atom, cost }, worker);
+    }
+
+    fn failed(&mut self, atom: Atom, worker: &mut Worker) {
+        self.event(Event::AtomFailed { atom }, worker);
+    }
+
+    fn lose_all(&mut self) {
+        self.node = Node::new(&self.rules, self.id, self.nodes);
     }
 
     fn is_over(&self) -> bool {

@@ -87,12 +87,21 @@ impl Duties for Piped {
     }
 
     fn traced(&mut self, atom: Atom, cost: Duration, worker: &mut Worker) {
-        let pixels = mem::take(&mut worker.pixels);
-        let node = worker.port.shared.index(Party::Node(worker.id));
-        worker.port.shared.deliver(node, worker.port.time(), Content::Traced { atom, cost, pixels });
+        tell(Event::AtomDone { atom, cost }, worker);
+    }
+
+    fn failed(&mut self, atom: Atom, worker: &mut Worker) {
+        tell(Event::AtomFailed { atom }, worker);
     }
 
     fn is_over(&self) -> bool {
         self.ended
     }
+}
+
+/// Tells the worker's node what has become of an atom, and hands over the pixels.
+fn tell(event: Event, worker: &mut Worker) {
+    let pixels = mem::take(&mut worker.pixels);
+    let node = worker.port.shared.index(Party::Node(worker.id));
+    worker.port.shared.deliver(node, worker.port.time(), Content::Worked { event, pixels });
 }

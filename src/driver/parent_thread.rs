@@ -9,7 +9,7 @@ use super::meter::Meter;
 use super::port::{Incoming, Port, Stopped};
 use super::{TracePixels, Update};
 use crate::balance::{Action, Event, Message, NodeId, Parent, estimate};
-use crate::picture::{Atom, Colour, Division};
+use crate::picture::{Atom, Colour, Division, Size};
 use crate::record::What;
 use crate::runlog::Header;
 use crate::scenario::Command;
@@ -21,6 +21,7 @@ pub(super) struct ParentThread {
     parent: Parent,
     port: Port,
     trace: Arc<TracePixels>,
+    size: Size,
     division: Division,
     /// Traces for an estimate, as fast as the reference machine.
     machine: Machine,
@@ -55,7 +56,8 @@ impl ParentThread {
         let parent = Parent::with_spares(&header.rules, header.division, nodes, header.spares);
         let machine = Machine::new(1.0, header.pace);
         let (division, placed) = (header.division, Placed::default());
-        Self { parent, port, trace, division, machine, placed, estimate: false, finished: false }
+        let size = header.size;
+        Self { parent, port, trace, size, division, machine, placed, estimate: false, finished: false }
     }
 
     /// Runs the parent until the picture is complete, or until the run is stopped.
@@ -83,6 +85,9 @@ impl ParentThread {
                 }
                 Some(Incoming::Command(Command::Latency(latency))) => {
                     self.port.record(What::LatencySet { latency });
+                }
+                Some(Incoming::Command(Command::Link { one, other, cut })) => {
+                    self.port.record(What::Link { one, other, cut });
                 }
                 Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
                 Some(Incoming::Order(_)) => unreachable!("the parent is no worker"),
@@ -123,6 +128,10 @@ impl ParentThread {
     fn hand_over(&mut self, event: Event) {
         let mut actions = Vec::new();
         self.parent.handle(self.port.time(), event, &mut actions);
+        // Before its last message leaves, so that whoever is not told knows that it will not be.
+        if actions.contains(&Action::Finish) {
+            self.port.shared.finish();
+        }
         for action in actions {
             match action {
                 Action::Send { to, message } => self.port.send(to, message, Vec::new()),
@@ -131,9 +140,21 @@ impl ParentThread {
                     self.finished = true;
                 }
                 Action::Estimate => self.estimate = true,
+                Action::SetTimer(at) => self.port.set_timer(at),
+                Action::Fail(atom) => {
+                    self.port.record(What::GivenUp { atom });
+                    self.finished = true;
+                    self.port.shared.fail(self.no_way_to_trace(atom));
+                }
                 other => unreachable!("a parent never asks for {other:?}"),
             }
         }
+    }
+
+    fn no_way_to_trace(&self, atom: Atom) -> String {
+        let (first, width) = (self.division.pixels(atom).start, self.size.width());
+        let (column, row) = (first % width, first / width);
+        format!("no worker could trace atom {atom}, whose first pixel is at {column},{row}")
     }
 }
 

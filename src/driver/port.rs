@@ -1,7 +1,8 @@
 //! A party's end of everything: the messages that it sends and gets, its time, and its records.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
+use std::mem;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -9,7 +10,7 @@ use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
 use super::shared::{Content, Order, Parcel, Shared};
-use crate::balance::{Event, Message, Party};
+use crate::balance::{Condition, Event, Message, Party};
 use crate::picture::Colour;
 use crate::record::{Record, What};
 use crate::runlog::Header;
@@ -23,7 +24,7 @@ pub(super) const FLUSH: Duration = Duration::from_millis(15);
 /// What a message that goes no way takes: every cause lies before its effects.
 const LEAST: Duration = Duration::from_nanos(1);
 
-/// The run was stopped from outside, or another party's thread has panicked.
+/// The run was stopped from outside, or another party's thread has panicked; or it is over, and the party cannot hear of it.
 #[derive(Debug)]
 pub(super) struct Stopped;
 
@@ -44,6 +45,10 @@ pub(super) struct Port {
     inbox: Receiver<Parcel>,
     /// What has come but is not due yet, the earliest on top.
     held: BinaryHeap<Reverse<Parcel>>,
+    /// How the party's machine is.
+    condition: Condition,
+    /// Messages that have arrived while the machine hangs.
+    waiting: VecDeque<Parcel>,
     /// By party, as [`Shared::index`] has them.
     links: Vec<Link>,
     timer: Option<Time>,
@@ -70,6 +75,11 @@ impl Port {
             me,
             inbox,
             held: BinaryHeap::new(),
+            condition: match me {
+                Party::Node(node) if shared.can_fail && header.is_spare(node) => Condition::Off,
+                _ => Condition::Well,
+            },
+            waiting: VecDeque::new(),
             links: vec![Link::default(); shared.parties()],
             timer: None,
             handling: if me == Party::Parent { header.handling } else { Duration::ZERO },
@@ -108,7 +118,9 @@ impl Port {
         let bytes = self.shared.bytes(&message);
         let receiver = self.shared.index(to);
         let arrives = self.shared.arrival(&mut self.links[receiver], self.time, bytes);
-        let content = Content::Message { from: self.me, message: message.clone(), pixels };
+        let is_lost = self.shared.losses.is_cut(self.me, to);
+        let sent = || Content::Message { from: self.me, message: message.clone(), pixels };
+        let content = if is_lost { Content::Lost } else { sent() };
         let id = self.shared.deliver(receiver, arrives, content);
         self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
     }
@@ -126,29 +138,52 @@ impl Port {
         self.timer = Some(at);
     }
 
+    /// How the party's machine is.
+    pub fn condition(&self) -> Condition {
+        self.condition
+    }
+
+    /// Something becomes of the party's machine: notes it down, and what has arrived there and is lost with it. Whether
+    /// anything has changed; nothing does once the run is over.
+    pub fn put(&mut self, condition: Condition) -> bool {
+        let Party::Node(node) = self.me else { return false };
+        if condition == self.condition || !self.shared.losses.cut_off(node, condition == Condition::CutOff) {
+            return false;
+        }
+        self.condition = condition;
+        self.record(What::Condition { node, condition });
+        if condition == Condition::Off {
+            self.timer = None;
+            mem::take(&mut self.waiting).into_iter().for_each(|Parcel { id, .. }| _ = self.record(What::Lost { id }));
+        }
+        true
+    }
+
     /// What happens next, if it happens until `horizon`; the party's time is then when it does.
     pub fn next(&mut self, horizon: Time) -> Option<Incoming> {
         while let Ok(parcel) = self.inbox.try_recv() {
             self.hold(parcel);
         }
-        let (timer, handled) = (self.timer, self.handled());
-        if let Some(timer) = timer.filter(|&timer| timer <= horizon && handled.is_none_or(|other| timer <= other)) {
-            self.timer = None;
-            self.advance(timer);
-            return Some(Incoming::Event(Event::Timer, Vec::new()));
+        if self.condition != Condition::Hung
+            && let Some(parcel) = self.waiting.pop_front()
+        {
+            return self.open(parcel);
         }
-        let at = handled.filter(|&at| at <= horizon)?;
-        self.advance(if self.backdates { at } else { horizon });
-        let Reverse(Parcel { id, content, .. }) = self.held.pop()?;
-        match content {
-            Content::Message { from, message, pixels } => {
-                self.record(What::Received { id, by: self.me });
-                Some(Incoming::Event(Event::Message { from, message }, pixels))
+        loop {
+            let (timer, handled) = (self.timer(), self.handled());
+            if let Some(timer) = timer.filter(|&timer| timer <= horizon && handled.is_none_or(|other| timer <= other)) {
+                self.timer = None;
+                self.advance(timer);
+                return Some(Incoming::Event(Event::Timer, Vec::new()));
             }
-            Content::Traced { atom, cost, pixels } => Some(Incoming::Event(Event::AtomDone { atom, cost }, pixels)),
-            Content::Command(command) => Some(Incoming::Command(command)),
-            Content::Order(order) => Some(Incoming::Order(order)),
-            Content::Wake => None,
+            let at = handled.filter(|&at| at <= horizon)?;
+            self.advance(if self.backdates { at } else { horizon });
+            let Reverse(parcel) = self.held.pop()?;
+            match &parcel.content {
+                content if self.is_lost(content) => _ = self.record(What::Lost { id: parcel.id }),
+                Content::Message { .. } if self.condition == Condition::Hung => self.waiting.push_back(parcel),
+                _ => return self.open(parcel),
+            }
         }
     }
 
@@ -165,17 +200,17 @@ impl Port {
             self.shared.clock.wait_until_resumed();
             now = self.shared.clock.now();
         }
-        if self.shared.is_stopped() { Err(Stopped) } else { Ok(now) }
+        if self.is_stopped() { Err(Stopped) } else { Ok(now) }
     }
 
     /// Blocks until something comes in or is due, or until `until`, or until it is time to flush.
     pub fn wait(&mut self, until: Option<Time>) {
         // What was sent to say so may be out of the inbox already.
-        if self.shared.is_stopped() {
+        if self.is_stopped() {
             return;
         }
         let flush = (!self.records.is_empty()).then_some(self.flushed + FLUSH);
-        let wake = [until, self.timer, self.handled(), flush].into_iter().flatten().min();
+        let wake = [until, self.timer(), self.handled(), flush].into_iter().flatten().min();
         let came = match wake {
             Some(wake) => self.inbox.recv_timeout(wake.since(self.shared.clock.now())).ok(),
             // Every thread of the run holds senders of all inboxes, so that none is ever disconnected.
@@ -187,7 +222,7 @@ impl Port {
     /// Hands the records to whoever started the run.
     pub fn flush(&mut self) {
         if !self.records.is_empty() {
-            let records = std::mem::take(&mut self.records);
+            let records = mem::take(&mut self.records);
             self.update(Update::Records(records));
         }
     }
@@ -201,6 +236,44 @@ impl Port {
         if !matches!(parcel.content, Content::Wake) {
             self.held.push(Reverse(parcel));
         }
+    }
+
+    /// Whether what arrives now is lost, or would arrive had it not been lost on its way.
+    fn is_lost(&self, content: &Content) -> bool {
+        match content {
+            Content::Lost => true,
+            Content::Message { from, .. } => {
+                self.condition == Condition::Off || self.shared.losses.is_cut(*from, self.me)
+            }
+            _ => false,
+        }
+    }
+
+    fn open(&mut self, Parcel { id, content, .. }: Parcel) -> Option<Incoming> {
+        match content {
+            Content::Message { from, message, pixels } => {
+                self.record(What::Received { id, by: self.me });
+                Some(Incoming::Event(Event::Message { from, message }, pixels))
+            }
+            Content::Worked { event, pixels } => Some(Incoming::Event(event, pixels)),
+            Content::Command(command) => Some(Incoming::Command(command)),
+            Content::Order(order) => Some(Incoming::Order(order)),
+            Content::Lost | Content::Wake => None,
+        }
+    }
+
+    /// Whether the party is to end: the run was stopped, or is over and the party cannot hear of it.
+    fn is_stopped(&self) -> bool {
+        let is_deaf = || {
+            matches!(self.condition, Condition::Hung | Condition::Off)
+                || self.shared.losses.is_cut(Party::Parent, self.me)
+        };
+        self.shared.is_stopped() || self.shared.losses.is_over() && is_deaf()
+    }
+
+    /// A machine that hangs looks at its timer later.
+    fn timer(&self) -> Option<Time> {
+        self.timer.filter(|_| self.condition != Condition::Hung)
     }
 
     /// When the party will have handled the next parcel held: it begins with a message as soon as that is due and the

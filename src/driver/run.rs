@@ -168,6 +168,9 @@ fn supervise(setting: Setting<'_>, inboxes: Inboxes) -> Result<(), String> {
         }
         threads.join()
     })?;
+    if let Some(why) = setting.shared.failure() {
+        return Err(why.into());
+    }
     if setting.shared.is_stopped() { Err("the run was stopped".into()) } else { Ok(()) }
 }
 

@@ -2,13 +2,14 @@
 
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicU64};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use crate::balance::{Message, NodeId, Party};
+use super::losses::Losses;
+use crate::balance::{Event, Message, NodeId, Party};
 use crate::picture::{Atom, Colour, Division};
 use crate::runlog::{Driver, Header};
 use crate::scenario::Command;
@@ -29,6 +30,11 @@ pub(super) struct Shared {
     bandwidth: Option<f64>,
     /// What all links share, if they do.
     wire: Option<Mutex<Wire>>,
+    /// Whether machines and links can fail: only where a node is one thread.
+    pub can_fail: bool,
+    pub losses: Losses,
+    /// Why the run has failed, if it has.
+    failure: OnceLock<String>,
     pub division: Division,
     pub scene_bytes: u64,
 }
@@ -48,16 +54,17 @@ pub(super) enum Content {
         /// Of the atoms of [`Message::Results`], in their order.
         pixels: Vec<Colour>,
     },
-    /// From a worker with a thread of its own to its node.
-    Traced {
-        atom: Atom,
-        cost: Duration,
+    /// A message that would arrive, had its link not been cut when it was sent.
+    Lost,
+    /// From a worker with a thread of its own to its node: it has traced an atom, or failed to.
+    Worked {
+        event: Event,
         pixels: Vec<Colour>,
     },
     /// From a node to such a worker.
     Order(Order),
     Command(Command),
-    /// Nothing but a reason to look whether the run was stopped.
+    /// Nothing but a reason to look whether the run is over or was stopped.
     Wake,
 }
 
@@ -92,6 +99,9 @@ impl Shared {
             latency: AtomicU64::new(nanoseconds(header.link.latency)),
             bandwidth: header.link.bandwidth,
             wire: header.link.shared.then(Mutex::default),
+            can_fail: header.driver == Driver::Threads,
+            losses: Losses::default(),
+            failure: OnceLock::new(),
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,
         };
@@ -134,11 +144,12 @@ impl Shared {
     }
 
     /// Gives a command now: a node's to its worker (one that has ended, or never was, does not mind), and a change of
-    /// the latency to the parent, to be noted down.
+    /// the latency or of a link to the parent, to be noted down.
     pub fn command(&self, command: Command) {
         match command {
             Command::Latency(latency) => self.set_latency(latency),
-            Command::Link { .. } => {}
+            Command::Link { one, other, cut } => self.cut(one, other, cut),
+            Command::Condition { .. } if !self.can_fail => {}
             Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
                 if usize::from(node) < self.nodes {
                     self.deliver(self.worker(node), self.clock.now(), Content::Command(command));
@@ -156,6 +167,15 @@ impl Shared {
         }
     }
 
+    /// Cuts a link for the messages that leave or arrive from now on, or mends it, and tells the parent of a change.
+    fn cut(&self, one: Party, other: Party, cut: bool) {
+        let exists = |party| matches!(party, Party::Parent) || self.index(party) < self.nodes;
+        if self.can_fail && exists(one) && exists(other) && self.losses.cut_link(one, other, cut) {
+            let command = Content::Command(Command::Link { one, other, cut });
+            self.deliver(self.index(Party::Parent), self.clock.now(), command);
+        }
+    }
+
     /// The next thing's id.
     pub fn new_id(&self) -> u64 {
         self.next_id.fetch_add(1, atomic::Ordering::Relaxed)
@@ -169,15 +189,37 @@ impl Shared {
         id
     }
 
+    /// The parent has nothing more to do, and is about to say so: whom that cannot reach wakes to end.
+    pub fn finish(&self) {
+        self.losses.end();
+        self.wake_all();
+    }
+
     /// Ends all threads: the paused ones go on and the waiting ones wake to see it.
     pub fn stop(&self) {
         self.clock.end();
-        (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
+        self.wake_all();
+    }
+
+    /// Ends all threads, since the run has failed.
+    pub fn fail(&self, why: String) {
+        // The first reason counts.
+        let _ = self.failure.set(why);
+        self.stop();
+    }
+
+    /// Why the run has failed, if it has.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.get().map(String::as_str)
     }
 
     /// Whether [`Shared::stop`] was called.
     pub fn is_stopped(&self) -> bool {
         self.clock.has_ended()
+    }
+
+    fn wake_all(&self) {
+        (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
     }
 }
 

@@ -34,6 +34,7 @@ pub(super) fn header(header: &Header) -> Header {
         rules: Rules { strategy: Strategy::Serial, ..header.rules },
         link: Link { latency: Duration::ZERO, bandwidth: None, shared: false },
         handling: Duration::ZERO,
+        spares: 0,
         ..header.clone()
     }
 }

@@ -7,11 +7,12 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::guarded::Guarded;
 use super::meter::{Batch, Meter};
 use super::port::{Incoming, Port, Stopped};
 use super::shared::Order;
 use super::{TracePixels, Update};
-use crate::balance::{Event, NodeId};
+use crate::balance::{Condition, Event, NodeId, Strategy};
 use crate::picture::{Atom, Colour, Division};
 use crate::record::What;
 use crate::runlog::Header;
@@ -40,6 +41,15 @@ pub(super) trait Duties {
     /// Takes over a traced atom, whose pixels are the worker's last. At full speed its `cost` is only an estimate.
     fn traced(&mut self, atom: Atom, cost: Duration, worker: &mut Worker);
 
+    /// The worker has failed to trace an atom.
+    fn failed(&mut self, atom: Atom, worker: &mut Worker) {
+        let _ = worker;
+        unreachable!("only a worker of the ring that adapts fails at atom {atom} and goes on")
+    }
+
+    /// The machine is switched off.
+    fn lose_all(&mut self) {}
+
     /// Whether there is nothing to wait for.
     fn is_over(&self) -> bool;
 }
@@ -52,11 +62,12 @@ pub(super) struct Worker {
     pub pipe: VecDeque<(Atom, Time)>,
     /// Pixels of the atoms that are traced and not sent, and after them those of the atom in hand.
     pub pixels: Vec<Colour>,
-    trace: Arc<TracePixels>,
+    tracer: Guarded,
     division: Division,
     machine: Machine,
+    /// Whether the user has paused the worker; a machine that hangs stands still too.
+    paused: bool,
     hand: Option<Hand>,
-    scratch: Scratch,
     meter: Meter,
     /// Atoms by the index of their record.
     batch: Batch,
@@ -71,6 +82,8 @@ struct Hand {
     cost: Duration,
     /// Wall time of its other pieces, whose cost is known only when the batch is split.
     wall: Duration,
+    /// Whether it cannot be traced.
+    failed: bool,
 }
 
 impl Worker {
@@ -81,11 +94,11 @@ impl Worker {
             port,
             pipe: VecDeque::new(),
             pixels: Vec::new(),
-            trace,
+            tracer: Guarded::new(trace, header.rules.strategy == Strategy::Adaptive),
             division: header.division,
             machine: Machine::new(header.speeds[usize::from(id)], header.pace),
+            paused: false,
             hand: None,
-            scratch: Scratch::default(),
             meter: Meter::new(),
             batch: Batch::default(),
         }
@@ -133,7 +146,7 @@ impl Worker {
     /// The last that is heard of the worker.
     pub fn end(mut self) {
         self.flush();
-        self.port.update(Update::Rays(self.scratch.rays));
+        self.port.update(Update::Rays(self.tracer.rays()));
     }
 
     /// Handles what has come, then traces one piece, or waits.
@@ -176,29 +189,60 @@ impl Worker {
         while let Some(incoming) = self.port.next(horizon(self)) {
             match incoming {
                 Incoming::Event(event, _) => duties.event(event, self),
-                Incoming::Command(command) => self.obey(command),
+                Incoming::Command(command) => self.obey(command, duties),
                 Incoming::Order(order) => duties.order(order, self),
             }
         }
     }
 
-    fn obey(&mut self, command: Command) {
+    fn obey(&mut self, command: Command, duties: &mut impl Duties) {
         let (node, at) = (self.id, self.port.time());
         let what = match command {
             Command::Speed { speed, .. } => {
                 self.machine.set_speed(speed, at);
                 What::SpeedSet { node, speed }
             }
-            Command::Pause { paused, .. } if paused == self.machine.is_paused() => return,
+            Command::Pause { paused, .. } if paused == self.paused => return,
             Command::Pause { paused, .. } => {
-                self.machine.set_paused(paused, at);
+                self.paused = paused;
+                self.stand_still(at);
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
-            Command::Condition { .. } | Command::Link { .. } => return,
-            Command::Latency(_) => unreachable!("the parent notes down the latency"),
+            Command::Condition { condition, .. } => return self.put(condition, duties),
+            Command::Link { .. } | Command::Latency(_) => unreachable!("the parent notes down what is done to the network"),
         };
         self.port.record(what);
-        // At another speed costs are measured otherwise.
+        self.measure_anew();
+    }
+
+    /// Something becomes of the machine.
+    fn put(&mut self, condition: Condition, duties: &mut impl Duties) {
+        let (before, at) = (self.port.condition(), self.port.time());
+        if !self.port.put(condition) {
+            return;
+        }
+        self.stand_still(at);
+        self.measure_anew();
+        match (before, condition) {
+            (_, Condition::Off) => {
+                self.pipe.clear();
+                self.pixels.clear();
+                self.hand = None;
+                self.machine.finish(at.max(self.machine.time()));
+                duties.lose_all();
+            }
+            (Condition::Off, _) => duties.event(Event::Started, self),
+            _ => {}
+        }
+    }
+
+    /// Lets the machine stand still, if it is to, or go on.
+    fn stand_still(&mut self, at: Time) {
+        self.machine.set_paused(self.paused || self.port.condition() == Condition::Hung, at);
+    }
+
+    /// At another speed costs are measured otherwise.
+    fn measure_anew(&mut self) {
         self.split_batch();
         self.meter.lap();
         if let Some(hand) = &mut self.hand {
@@ -214,28 +258,42 @@ impl Worker {
         {
             self.port.advance(start);
             self.port.record(What::AtomStarted { node: self.id, atom });
-            self.hand =
-                Some(Hand { atom, rest: self.division.pixels(atom), cost: Duration::ZERO, wall: Duration::ZERO });
+            let (rest, cost, wall) = (self.division.pixels(atom), Duration::ZERO, Duration::ZERO);
+            self.hand = Some(Hand { atom, rest, cost, wall, failed: false });
         }
         let Some(hand) = &mut self.hand else { return Ok(()) };
         let cut = hand.rest.end.min(hand.rest.start + PIECE);
         let piece = mem::replace(&mut hand.rest.start, cut)..cut;
-        if self.machine.is_full() {
-            (self.trace)(piece, &mut self.scratch, &mut self.pixels);
+        let is_full = self.machine.is_full();
+        if !is_full {
+            self.meter.lap();
+        }
+        if !self.tracer.trace(piece.clone(), &mut self.pixels) {
+            // What there is of the atom is dropped.
+            let traced = piece.start - self.division.pixels(hand.atom).start;
+            self.pixels.truncate(self.pixels.len() - traced as usize);
+            hand.rest.start = hand.rest.end;
+            hand.failed = true;
+        }
+        if is_full {
             let end = self.port.shared.clock.now();
             // A full machine starts when the clock says so.
             hand.wall += end.since(start);
             self.machine.finish(end);
         } else {
-            self.meter.lap();
-            (self.trace)(piece, &mut self.scratch, &mut self.pixels);
             let cost = self.meter.lap();
             hand.cost += cost;
             self.machine.begin(start, cost);
             self.wait_until_due(duties)?;
         }
-        if let Some(hand) = self.hand.take_if(|hand| hand.rest.is_empty()) {
-            self.finish_atom(hand, duties);
+        match self.hand.take_if(|hand| hand.rest.is_empty()) {
+            Some(Hand { atom, failed: true, .. }) => {
+                self.port.advance(self.machine.time());
+                self.port.record(What::AtomFailed { node: self.id, atom });
+                duties.failed(atom, self);
+            }
+            Some(hand) => self.finish_atom(hand, duties),
+            None => {}
         }
         Ok(())
     }

@@ -1,0 +1,65 @@
+//! A worker's tracer, which may panic: whoever can do something about that goes on.
+
+use std::mem;
+use std::ops::Range;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Arc;
+
+use super::TracePixels;
+use crate::picture::Colour;
+use crate::tracer::{RayCounts, Scratch};
+
+/// A tracer with its scratch.
+pub(super) struct Guarded {
+    trace: Arc<TracePixels>,
+    scratch: Scratch,
+    /// Whether a panic is caught; else it ends the thread.
+    catches: bool,
+}
+
+impl Guarded {
+    /// A tracer that has not traced anything.
+    pub fn new(trace: Arc<TracePixels>, catches: bool) -> Self {
+        Self { trace, scratch: Scratch::default(), catches }
+    }
+
+    /// Appends the colours of `pixels` to `out`. Whether it could; if not, `out` is as before.
+    pub fn trace(&mut self, pixels: Range<u32>, out: &mut Vec<Colour>) -> bool {
+        let before = out.len();
+        let trace = || (self.trace)(pixels, &mut self.scratch, out);
+        if !self.catches {
+            trace();
+        } else if panic::catch_unwind(AssertUnwindSafe(trace)).is_err() {
+            out.truncate(before);
+            // What else is in the scratch may be half done.
+            self.scratch.rays = mem::take(&mut self.scratch).rays;
+            return false;
+        }
+        true
+    }
+
+    /// All rays that it has traced.
+    pub fn rays(&self) -> RayCounts {
+        self.scratch.rays
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_a_panic_all_is_as_before_but_for_the_rays() {
+        let trace = |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| {
+            for pixel in pixels {
+                scratch.rays.primary += 1;
+                assert!(pixel != 13, "it brings bad luck");
+                out.push([pixel as f32; 3]);
+            }
+        };
+        let (mut tracer, mut out) = (Guarded::new(Arc::new(trace), true), Vec::new());
+        assert!(tracer.trace(8..10, &mut out) && !tracer.trace(10..16, &mut out) && tracer.trace(20..21, &mut out));
+        assert_eq!(out, [[8.0; 3], [9.0; 3], [20.0; 3]]);
+        assert_eq!(tracer.rays().primary, 7);
+    }
+}

@@ -1,0 +1,84 @@
+//! A worker that panics while it traces an atom: in the ring that adapts the atom is tried elsewhere, until too many have failed.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use anel::balance::Strategy;
+use anel::driver::{Run, Update};
+use anel::picture::{Colour, Frame, Size};
+use anel::record::{Record, What};
+use anel::runlog::{Driver, Header};
+use anel::tracer::Scratch;
+
+/// Those with workers that trace as the run goes on.
+const DRIVERS: [Driver; 2] = [Driver::Threads, Driver::Pairs];
+
+/// Wide atoms, so that what fails is a later piece of one.
+const ATOM: u32 = 90;
+
+/// In the middle of the sixth atom, which begins at column 50 of row 4.
+const BAD_PIXEL: u32 = 5 * ATOM + 80;
+
+/// A run whose bad pixel fails the first `times`: its picture, or why there is none, and its records.
+fn run(driver: Driver, times: u32) -> (Result<Frame, String>, Vec<Record>) {
+    let size = Size::new(100, 20).expect("a size");
+    let header = Header { driver, ..Header::plain(size, ATOM, Strategy::Adaptive, vec![1.0; 3]) };
+    let failed = AtomicU32::new(0);
+    let trace = move |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
+        for pixel in pixels {
+            let fails = pixel == BAD_PIXEL && failed.fetch_add(1, Ordering::SeqCst) < times;
+            assert!(!fails, "this pixel is bad");
+            out.push(colour(pixel));
+        }
+    };
+    let run = Run::start_with(trace, &header);
+    let (mut frame, mut records) = (Frame::new(size), Vec::new());
+    for update in run.updates() {
+        match update {
+            Update::Placed { atoms, pixels } => {
+                header.division.placed(&atoms, &pixels).for_each(|(place, colours)| frame.place(place, colours));
+            }
+            Update::Records(more) => records.extend(more),
+            Update::Rays(_) => {}
+            Update::Finished => return (Ok(frame), records),
+            Update::Failed(why) => return (Err(why), records),
+        }
+    }
+    panic!("the run ended without saying so");
+}
+
+fn colour(pixel: u32) -> Colour {
+    [pixel as f32, 1.0, 0.0]
+}
+
+fn count(records: &[Record], what: fn(&What) -> bool) -> usize {
+    records.iter().filter(|record| what(&record.what)).count()
+}
+
+fn has_failed(what: &What) -> bool {
+    matches!(what, What::AtomFailed { atom: 5, .. })
+}
+
+#[test]
+fn one_or_two_failures_do_no_harm() {
+    for driver in DRIVERS {
+        for times in [1, 2] {
+            let (frame, records) = run(driver, times);
+            let frame = frame.expect("a picture");
+            assert!((0..2000).map(colour).eq(frame.pixels().iter().copied()), "after {times} failures");
+            assert_eq!(count(&records, has_failed), times as usize);
+        }
+    }
+}
+
+#[test]
+fn three_failures_end_the_run_and_say_where() {
+    for driver in DRIVERS {
+        let (frame, records) = run(driver, u32::MAX);
+        let why = frame.expect_err("a pixel is missing");
+        assert_eq!(why, "no worker could trace atom 5, whose first pixel is at 50,4");
+        assert!(count(&records, has_failed) >= 3);
+        assert_eq!(count(&records, |what| matches!(what, What::GivenUp { atom: 5 })), 1);
+        assert_eq!(count(&records, |what| matches!(what, What::Finished)), 0);
+    }
+}

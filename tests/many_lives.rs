@@ -1,0 +1,134 @@
+//! Two hundred runs on threads whose machines hang, are cut off, are switched off and begin anew, and whose links are cut: the picture
+//! is that of one node that traces all, byte for byte, and no thread is left behind. In a file of its own, so that no
+//! other test's threads are in the process.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use anel::balance::{Condition, Message, NodeId, Party, Rules, Strategy};
+use anel::driver::{Run, Update};
+use anel::picture::{Colour, Frame, Quality, Size};
+use anel::record::{Record, What};
+use anel::runlog::{Header, Link};
+use anel::scenario::Command;
+use anel::scene::{Scene, built_in};
+use anel::tracer::{Scratch, Tracer};
+use fastrand::Rng;
+
+const MS: Duration = Duration::from_millis(1);
+
+/// What must have happened in some of the runs, or they show nothing.
+#[derive(Debug, Default)]
+struct Seen {
+    hung: u32,
+    cut_off: u32,
+    off: u32,
+    begun_anew: u32,
+    links_cut: u32,
+    lost: u32,
+    again: u32,
+    /// Runs that ended while a machine could not hear of it.
+    unheard: u32,
+}
+
+#[test]
+fn whatever_befalls_machines_and_links_the_picture_is_the_same() {
+    let before = threads();
+    let size = Size::new(40, 25).expect("a size");
+    let scene = Scene::parse(built_in("ten-objects").expect("a built-in scene")).expect("a scene");
+    let tracer = Arc::new(Tracer::new(&scene, size, Quality::default()));
+    let mut plain = Vec::new();
+    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut plain);
+    let mut seen = Seen::default();
+    for seed in 0..200 {
+        let frame = live(&tracer, &mut Rng::with_seed(seed), &mut seen).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+        assert!(bits(frame.pixels()).eq(bits(&plain)), "seed {seed}: another picture");
+    }
+    let Seen { hung, cut_off, off, begun_anew, links_cut, lost, again, unheard } = seen;
+    let all = [hung, cut_off, off, begun_anew, links_cut, lost, again, unheard];
+    assert!(all.iter().all(|&times| times > 0), "{seen:?}");
+    // The system may still be clearing away what has ended.
+    let is_quiet = || (0..3000).any(|_| threads() <= before || (std::thread::sleep(10 * MS), false).1);
+    assert!(is_quiet(), "{before} threads before, {} after", threads());
+}
+
+/// A run to which things happen; its first node stays well.
+fn live(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, String> {
+    let nodes: NodeId = rng.u16(2..=6);
+    let speeds = (0..nodes).map(|_| [1.0, 1.0, 0.5, 0.2][rng.usize(0..4)]).collect();
+    let spares = rng.u16(0..=nodes / 3);
+    let plain = Header::plain(tracer.size(), rng.u32(4..=40), Strategy::Adaptive, speeds);
+    let header = Header {
+        // Leases are short, so that what is lost is soon found.
+        rules: Rules { beat: 3 * MS, batch: [None, Some(MS)][rng.usize(0..2)], ..plain.rules },
+        pace: [1.0, 0.3, 0.1][rng.usize(0..3)],
+        link: Link { latency: [0, 0, 200, 1000][rng.usize(0..4)] * Duration::from_micros(1), ..plain.link },
+        spares,
+        ..plain
+    };
+    let run = Run::start(Arc::clone(tracer), &header);
+    for _ in 0..rng.u32(2..10) {
+        std::thread::sleep(rng.u32(0..3000) * Duration::from_micros(1));
+        run.command(befall(rng, nodes));
+    }
+    let (mut frame, mut records) = (Frame::new(header.size), Vec::new());
+    for update in run.updates() {
+        match update {
+            Update::Placed { atoms, pixels } => {
+                header.division.placed(&atoms, &pixels).for_each(|(place, colours)| frame.place(place, colours));
+            }
+            Update::Records(more) => records.extend(more),
+            Update::Rays(_) => {}
+            Update::Finished => break,
+            Update::Failed(why) => return Err(why),
+        }
+    }
+    look_at(&records, nodes, seen);
+    Ok(frame)
+}
+
+fn befall(rng: &mut Rng, nodes: NodeId) -> Command {
+    let node = rng.u16(1..nodes);
+    let conditions = [Condition::Off, Condition::Hung, Condition::CutOff, Condition::Well, Condition::Well];
+    match rng.u32(0..5) {
+        0 => {
+            // The first node always hears of its parent.
+            let other = [Party::Parent, Party::Node(0), Party::Node(rng.u16(0..nodes))][rng.usize(0..3)];
+            Command::Link { one: Party::Node(node), other, cut: rng.u32(0..3) > 0 }
+        }
+        _ => Command::Condition { node, condition: conditions[rng.usize(0..conditions.len())] },
+    }
+}
+
+fn look_at(records: &[Record], nodes: NodeId, seen: &mut Seen) {
+    let mut finally = vec![Condition::Well; usize::from(nodes)];
+    for record in records {
+        match &record.what {
+            What::Condition { node, condition } => {
+                finally[usize::from(*node)] = *condition;
+                match condition {
+                    Condition::Hung => seen.hung += 1,
+                    Condition::CutOff => seen.cut_off += 1,
+                    Condition::Off => seen.off += 1,
+                    Condition::Well => {}
+                }
+            }
+            What::Link { cut: true, .. } => seen.links_cut += 1,
+            What::Lost { .. } => seen.lost += 1,
+            What::Sent { message: Message::Request, .. } => seen.begun_anew += 1,
+            What::Sent { from: Party::Parent, message: Message::Again(_), .. } => seen.again += 1,
+            _ => {}
+        }
+    }
+    seen.unheard += u32::from(finally.iter().any(|&condition| condition != Condition::Well));
+}
+
+/// NaN is not equal to itself, but its bits are.
+fn bits(pixels: &[Colour]) -> impl Iterator<Item = u32> {
+    pixels.iter().flatten().map(|channel| channel.to_bits())
+}
+
+/// The threads of this process, where the system tells.
+fn threads() -> usize {
+    std::fs::read_dir("/proc/self/task").map_or(0, Iterator::count)
+}
