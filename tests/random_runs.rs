@@ -321,12 +321,18 @@ fn take(update: Update, log: &mut RunLog, placed: &mut Vec<Range<Atom>>) -> bool
     false
 }
 
-/// No worker does anything while its machine is paused or has speed 0, and only real changes of a pause are recorded.
+/// No worker does anything while its machine is paused or has speed 0, and only real changes of a pause are recorded. It may
+/// be done with an atom at the very moment.
 fn assert_stands_still(log: &RunLog) {
     let mut speeds = log.header.speeds.clone();
     let mut paused = vec![false; speeds.len()];
+    let mut changed = vec![Time::ZERO; speeds.len()];
     for record in log.records() {
+        if let What::SpeedSet { node, .. } | What::Paused { node } = record.what {
+            changed[usize::from(node)] = record.at;
+        }
         match record.what {
+            What::AtomDone { node, .. } if changed[usize::from(node)] == record.at => {}
             What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
             What::Paused { node } => assert!(!std::mem::replace(&mut paused[usize::from(node)], true)),
             What::Resumed { node } => assert!(std::mem::replace(&mut paused[usize::from(node)], false)),

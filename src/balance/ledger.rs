@@ -145,8 +145,9 @@ impl Ledger {
         for entry in self.nodes.iter_mut().filter(|entry| !entry.gone) {
             // Until its first beat the scene may be on its way to it.
             let patience = if entry.heard.is_some() { lease } else { lease * LEASE };
-            entry.gone = now.since(entry.heard.unwrap_or_default()) > patience;
-            changed |= entry.gone;
+            if now.since(entry.heard.unwrap_or_default()) > patience {
+                (entry.gone, entry.asked, changed) = (true, now, true);
+            }
         }
         if changed {
             self.tell_who_is_gone(actions);

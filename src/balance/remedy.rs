@@ -87,7 +87,7 @@ impl Remedies {
     }
 
     /// These but one.
-    pub fn without(self, remedy: Remedy) -> Self {
+    pub const fn without(self, remedy: Remedy) -> Self {
         Self(self.0 & !(1 << remedy as u8))
     }
 

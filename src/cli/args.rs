@@ -35,13 +35,21 @@ pub(super) enum Command {
     Study {
         /// paper: the article's Figures 5 to 9, and its claims; scale: from 1 to 1,024 machines; rivals: what sharing costs
         /// at full speed; stability: where methods fail; peer: every pixel beside POV-Ray's; needs: what compiling a scene
-        /// keeps, and what that saves; accuracy: what each knob of quality costs, and how far its picture is from the truth
+        /// keeps, and what that saves; accuracy: what each knob of quality costs, and how far its picture is from the truth;
+        /// remedies: the ring that adapts beside the article's, and what each of its remedies gains; chaos: random runs in
+        /// which machines and links are lost
         #[arg(value_enum)]
         kind: StudyKind,
         /// A scene file, or the name of a built-in scene [default: ten-objects; for rivals, peer, needs and accuracy all that
         /// are built in; for stability none]
         #[arg(long)]
         scene: Option<String>,
+        /// chaos: how many runs to try [default: 10000; with --seed 1]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+        seeds: Option<u64>,
+        /// chaos: the first seed; of one that is tried alone the run is kept
+        #[arg(long, value_name = "S")]
+        seed: Option<u64>,
         /// The directory for the files
         #[arg(long, value_name = "DIR", default_value = "study")]
         out: PathBuf,
@@ -117,6 +125,8 @@ pub(super) enum StudyKind {
     Peer,
     Needs,
     Accuracy,
+    Remedies,
+    Chaos,
 }
 
 #[derive(Debug, clap::Args)]

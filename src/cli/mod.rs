@@ -44,7 +44,9 @@ pub fn main() -> ExitCode {
         Some(Command::Render(render)) => render::render(&render),
         Some(Command::Inspect(inspect)) => inspect::inspect(&inspect),
         Some(Command::Export(args)) => export::export(&args),
-        Some(Command::Study { kind, scene, out, json }) => study::study(kind, scene.as_deref(), &out, json),
+        Some(Command::Study { kind, scene, seeds, seed, out, json }) => {
+            study::study(kind, scene.as_deref(), (seed, seeds), &out, json)
+        }
         Some(Command::Lesson { lesson }) => lesson::lesson(lesson.as_deref()),
         Some(Command::Replay { log }) => replay(&log),
         None => window(args.scene.as_deref(), args.log),

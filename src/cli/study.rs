@@ -10,10 +10,23 @@ use super::{Failure, open, print, progress, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
-use crate::study::{Study, accuracy, needs, paper, peer, rivals, scale, stability};
+use crate::study::{Study, accuracy, chaos, needs, paper, peer, remedies, rivals, scale, stability};
 
 /// Does a study and writes its files into the directory `out`, which is made if it does not exist.
-pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: bool) -> Result<(), Failure> {
+///
+/// `chaos` tries the seeds from the first of `seeds` on, as many as the second says.
+pub(super) fn study(
+    kind: StudyKind,
+    scene: Option<&str>,
+    seeds: (Option<u64>, Option<u64>),
+    out: &Path,
+    as_json: bool,
+) -> Result<(), Failure> {
+    if !matches!(kind, StudyKind::Chaos) && seeds != (None, None) {
+        return Err(Failure::Refused("only chaos is made of seeds: leave out --seeds and --seed".into()));
+    }
+    let first = seeds.0.unwrap_or(0);
+    let count = seeds.1.unwrap_or(if seeds.0.is_some() { 1 } else { 10_000 });
     let scenes: Vec<&str> = match (scene, kind) {
         (Some(_), StudyKind::Stability) => {
             return Err(Failure::Refused("stability makes its own cases and takes no scene: leave out --scene".into()));
@@ -43,9 +56,12 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         StudyKind::Needs => needs(&scenes, &mut told),
         StudyKind::Stability => stability(&mut told),
         StudyKind::Accuracy => Size::new(320, 240).and_then(|size| accuracy(&scenes, size, &mut told)),
+        StudyKind::Remedies => remedies(&scenes[0], &mut told),
+        StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut told),
     };
+    let took = bar.elapsed();
     bar.finish_and_clear();
-    let Study { name, rows, files } = study.map_err(Failure::Failed)?;
+    let Study { name, rows, summary, files } = study.map_err(Failure::Failed)?;
     let mut written = Vec::new();
     for (file, bytes) in files {
         let path = out.join(file);
@@ -53,9 +69,19 @@ pub(super) fn study(kind: StudyKind, scene: Option<&str>, out: &Path, as_json: b
         written.push(path.display().to_string());
     }
     if as_json {
-        return print(&json!({ "study": name, "rows": rows, "files": written }).to_string());
+        let mut said = json!({ "study": name, "files": written });
+        if summary.is_empty() {
+            said["rows"] = rows.into();
+        }
+        summary.into_iter().for_each(|(name, value)| said[name] = value);
+        return print(&said.to_string());
+    }
+    if let Some(seeds) = summary.get("seeds") {
+        let a_minute = count as f64 / took.as_secs_f64() * 60.0;
+        tell(&format!("{seeds} seeds, {} failures; {a_minute:.0} seeds a minute", summary["failures"]));
     }
     let report = written.iter().find(|path| path.ends_with(".md"));
-    tell(&format!("{} runs, {} files; read {} first", rows.len(), written.len(), report.map_or("", String::as_str)));
+    let rows = if summary.is_empty() { rows.len() as u64 } else { count };
+    tell(&format!("{rows} runs, {} files; read {} first", written.len(), report.map_or("", String::as_str)));
     print(&written.join("\n"))
 }

@@ -64,10 +64,16 @@ impl RunLog {
     /// # Errors
     /// Those of [`write_whole`].
     pub fn save(&self, path: &Path) -> Result<(), OutputError> {
-        write_whole(path, |file| {
-            write_line(file, &FirstLine { anel_run: VERSION, header: &self.header })?;
-            self.records().iter().try_for_each(|record| write_line(file, record))
-        })
+        write_whole(path, |file| self.write(file))
+    }
+
+    /// Writes the log to wherever it is to be.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
+        write_line(to, &FirstLine { anel_run: VERSION, header: &self.header })?;
+        self.records().iter().try_for_each(|record| write_line(to, record))
     }
 
     /// Reads a log that [`RunLog::save`] has written.

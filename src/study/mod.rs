@@ -1,11 +1,13 @@
 //! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
 
 pub mod accuracy;
+mod chaos;
 mod looks;
 mod needs;
 mod paper;
 mod peer;
 mod progress;
+mod remedies;
 mod rivals;
 mod scale;
 mod scale_report;
@@ -13,16 +15,18 @@ mod stability;
 mod workbench;
 
 pub use accuracy::accuracy;
+pub use chaos::chaos;
 pub use needs::needs;
 pub use paper::{article_over_ideal, paper};
 pub use peer::peer;
 pub use progress::Tell;
+pub use remedies::remedies;
 pub use rivals::rivals;
 pub use scale_report::scale;
 pub use stability::stability;
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::export::to_svg;
 use crate::view::{CHART_SIZE, Mark};
@@ -34,13 +38,15 @@ pub struct Study {
     pub name: &'static str,
     /// A JSON object for each run, with the columns of the CSV.
     pub rows: Vec<Value>,
+    /// What there is to say of all runs together, where they are too many to have a row each.
+    pub summary: Map<String, Value>,
     /// Files by name: CSV, SVG charts, PNG pictures, and a Markdown report.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Study {
     fn new(name: &'static str) -> Self {
-        Self { name, rows: Vec::new(), files: Vec::new() }
+        Self { name, rows: Vec::new(), summary: Map::new(), files: Vec::new() }
     }
 
     /// Adds rows, as JSON and as a CSV file of the study's name.

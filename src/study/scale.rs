@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::progress::{Progress, Tell};
 use super::workbench::{Costs, STRATEGIES, Workbench, simulate};
+use crate::balance::Rules;
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, Link};
 use crate::scene::Opened;
@@ -97,6 +98,7 @@ fn row(plain: Header, network: (f64, f64), weak: bool, costs: &Costs) -> Row {
     let (latency, handling) = (Duration::from_secs_f64(network.0 * 1e-3), Duration::from_secs_f64(network.1 * 1e-3));
     let mut header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, handling, ..plain };
     let nodes = header.speeds.len();
+    header.rules.beat = Rules::beat_for(handling, nodes);
     header.rules.part = header.rules.strategy.usual_part(header.division, nodes);
     let tally = simulate(&header, &[], costs);
     let (messages, atoms) = (tally.messages(), header.division.atoms());

@@ -17,8 +17,14 @@ use crate::tracer::Tracer;
 pub(super) type Costs = Arc<[Duration]>;
 
 /// What studies compare.
-pub(super) const STRATEGIES: [Strategy; 5] =
-    [Strategy::Static, Strategy::StaticEstimate, Strategy::Farm, Strategy::FarmBySpeed, Strategy::Ring];
+pub(super) const STRATEGIES: [Strategy; 6] = [
+    Strategy::Static,
+    Strategy::StaticEstimate,
+    Strategy::Farm,
+    Strategy::FarmBySpeed,
+    Strategy::Ring,
+    Strategy::Adaptive,
+];
 
 /// Costs are known for so many pixels together; atoms are multiples of it.
 pub(super) const GRAIN: u32 = 5;

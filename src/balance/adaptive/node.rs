@@ -134,11 +134,11 @@ impl Node {
     /// An atom has left the pipe: the node goes on, or offers help.
     fn left_pipe(&mut self, now: Time, atom: Atom, actions: &mut Vec<Action>) {
         self.copied.retain(|&copied| copied != atom);
-        if self.work.waiting() == 0 {
-            // Near the end the picture may wait for nothing but these.
-            self.work.send_results(actions);
-        }
         if !self.work.is_idle() {
+            // Where the first result counts, the picture may wait for nothing but these.
+            if self.has(Remedy::Copies) && self.work.waiting() == 0 {
+                self.work.send_results(actions);
+            }
             self.call_for_help(now, actions);
             return;
         }
@@ -147,6 +147,7 @@ impl Node {
             State::Offering { .. } => {}
             _ => self.offer(now, None, actions),
         }
+        self.work.send_results(actions);
     }
 
     fn receive(&mut self, now: Time, from: Party, message: Message, actions: &mut Vec<Action>) {

@@ -36,14 +36,16 @@ impl Plan {
         // Where nothing is lost, no machine may seem to be stuck.
         let calm = rng.u32(0..8) == 0;
         let mean = 10f64.powf(between(&mut rng, -5.0, if calm { -3.0 } else { -2.3 }));
-        let costs = (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(between(&mut rng, -1.0, 1.0)))).collect();
+        let costs =
+            (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(between(&mut rng, -1.0, 1.0)))).collect();
         let speeds: Vec<f64> = (0..nodes).map(|_| speed(&mut rng, if calm { 0.2 } else { SLOWEST })).collect();
         let mut header = plain(atoms, speeds);
         let batches = [None, Some(Duration::ZERO), Some(Rules::BATCH), Some(5 * Rules::BATCH)];
         header.rules.batch = *pick(&mut rng, &batches);
         header.link.latency = latency(&mut rng, calm);
         if rng.u32(0..4) == 0 {
-            header.link = Link { bandwidth: Some(10f64.powf(between(&mut rng, 5.0, 8.0))), shared: rng.bool(), ..header.link };
+            header.link =
+                Link { bandwidth: Some(10f64.powf(between(&mut rng, 5.0, 8.0))), shared: rng.bool(), ..header.link };
             header.handling = Duration::from_micros(rng.u64(0..500));
         }
         header.rules.beat = Rules::beat_for(header.handling, nodes);

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::balance::Strategy;
+use crate::balance::{Rules, Strategy};
 use crate::runlog::{Header, Link, Tally};
 
 /// What one machine needs for the picture (Figure 6).
@@ -64,6 +64,10 @@ impl Network {
                 latency: Duration::from_secs_f64(self.latency * scale),
                 bandwidth: Some(self.bandwidth / scale),
                 shared: true,
+            },
+            rules: Rules {
+                beat: Rules::beat_for(Duration::from_secs_f64(self.handling * scale), header.speeds.len()),
+                ..header.rules
             },
             handling: Duration::from_secs_f64(self.handling * scale),
             ..header

@@ -1,0 +1,91 @@
+//! What befalls a ring, in each of the cases that are measured.
+
+use std::time::Duration;
+
+use crate::balance::{Condition, NodeId};
+use crate::scenario::{Command, Script, square_wave};
+use crate::time::Time;
+
+/// The speed of the slow machine: about the article's.
+const SLOW: f64 = 0.14;
+/// What a machine is throttled to.
+const THROTTLED: f64 = 0.01;
+/// The machine that things happen to.
+const VICTIM: NodeId = 1;
+
+/// One case.
+pub(super) struct Case {
+    pub name: String,
+    /// What befalls whom, for the report.
+    pub about: String,
+    pub speeds: Vec<f64>,
+    /// Machines that are off at first.
+    pub spares: NodeId,
+    /// Whether nearly all the work is in one corner of the picture.
+    pub corner: bool,
+    /// What is done, if all machines together would take so long.
+    pub script: Box<dyn Fn(Duration) -> Script>,
+    /// The most that the time over the bound should be.
+    pub aim: f64,
+}
+
+/// All of them.
+pub(super) fn cases() -> Vec<Case> {
+    let equal = || vec![1.0; 4];
+    let plain = |name: &str, about: &str, aim| Case {
+        name: name.into(),
+        about: about.into(),
+        speeds: equal(),
+        spares: 0,
+        corner: false,
+        script: Box::new(|_| Script::new()),
+        aim,
+    };
+    let with =
+        |name: &str, about: &str, script: Box<dyn Fn(Duration) -> Script>| Case { script, ..plain(name, about, 1.05) };
+    let at =
+        |part: f64, command: Command| Box::new(move |run: Duration| vec![(Time::ZERO + run.mul_f64(part), command)]);
+    let speed = |speed| Command::Speed { node: VICTIM, speed };
+    let put = |condition| Command::Condition { node: VICTIM, condition };
+    let mut cases = vec![plain("equal", "four equal machines", 1.01)];
+    cases.extend((0..5).map(|place| {
+        let mut speeds = equal();
+        speeds.insert(place, SLOW);
+        let name = format!("slow fifth, place {}", place + 1);
+        Case { name, speeds, ..plain("", "a fifth machine at 14 % of the speed of four equal ones", 1.02) }
+    }));
+    cases.extend([
+        with("1 % at 30 %", "one of four falls to 1 % of its speed at 30 % of the run", at(0.3, speed(THROTTLED))),
+        with("1 % at 90 %", "the same at 90 %", at(0.9, speed(THROTTLED))),
+        with("1 % at the end", "the same when others have nothing to do any more", at(0.998, speed(THROTTLED))),
+        with("0 % at 30 %", "one of four stands still from 30 % of the run on", at(0.3, speed(0.0))),
+        with("0 % at 90 %", "the same at 90 %", at(0.9, speed(0.0))),
+        with("killed at 50 %", "one of four is switched off at half of the run", at(0.5, put(Condition::Off))),
+        with("hung at 50 %", "it hangs instead, for good", at(0.5, put(Condition::Hung))),
+        with("cut off at 50 %", "it is cut off instead", at(0.5, put(Condition::CutOff))),
+        with(
+            "killed and back",
+            "one of four is switched off at 30 % and begins anew at 60 %",
+            Box::new(move |run| {
+                [(0.3, Condition::Off), (0.6, Condition::Well)]
+                    .map(|(part, condition)| (Time::ZERO + run.mul_f64(part), put(condition)))
+                    .to_vec()
+            }),
+        ),
+        Case {
+            speeds: vec![1.0; 5],
+            spares: 1,
+            script: Box::new(|run| {
+                vec![(Time::ZERO + run.mul_f64(0.3), Command::Condition { node: 4, condition: Condition::Well })]
+            }),
+            ..plain("joined at 30 %", "a fifth equal machine joins four at 30 % of the run", 1.05)
+        },
+        Case { corner: true, ..plain("corner", "nearly all the work in one corner of the picture", 1.05) },
+        with(
+            "square wave",
+            "one of four swings between full speed and a twentieth, ten times in the run",
+            Box::new(|run| square_wave(VICTIM, 1.0, 0.05, run / 10, Time::ZERO + run * 20)),
+        ),
+    ]);
+    cases
+}

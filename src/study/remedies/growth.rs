@@ -1,0 +1,162 @@
+//! From four machines to a thousand: efficiency, and how messages grow.
+
+use std::fmt::Write;
+use std::sync::Arc;
+use std::time::Duration;
+
+use fastrand::Rng;
+use serde::Serialize;
+
+use super::super::progress::Progress;
+use super::super::say;
+use super::super::workbench::{Costs, simulate};
+use crate::balance::{Remedies, Remedy, Rules, Strategy};
+use crate::picture::Size;
+use crate::runlog::{Driver, Header, Link};
+use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+
+/// How many machines.
+const NODES: [usize; 5] = [4, 16, 64, 256, 1024];
+/// Atoms a machine, and what one costs on the average.
+const ATOMS: u32 = 512;
+const COST: Duration = Duration::from_millis(2);
+/// What a message takes.
+const LATENCY: Duration = Duration::from_millis(1);
+/// Where the work is uneven, nine tenths of it are in this part of the picture.
+const PART: usize = 16;
+/// What is compared.
+const RIVALS: [(&str, Strategy, Remedies); 3] = [
+    ("ring", Strategy::Ring, Remedies::ALL),
+    ("adaptive", Strategy::Adaptive, Remedies::ALL),
+    ("without shortcuts", Strategy::Adaptive, Remedies::ALL.without(Remedy::Shortcuts)),
+];
+
+/// One run.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Row {
+    pub nodes: usize,
+    pub uneven: bool,
+    pub rival: &'static str,
+    pub efficiency: f64,
+    pub makespan_s: f64,
+    pub messages_per_node: f64,
+    /// Offers, hops and those that are woken, a machine.
+    pub asking_per_node: f64,
+    pub transfers_per_node: f64,
+}
+
+/// How many steps [`measure`] takes.
+pub(super) const STEPS: usize = 2 * NODES.len();
+
+/// Runs all of it in virtual time.
+pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for uneven in [false, true] {
+        for nodes in NODES {
+            progress.next(&format!("{nodes} machines"));
+            let costs = costs(nodes, uneven);
+            rows.extend(
+                RIVALS.map(|(name, strategy, remedies)| row(nodes, uneven, &costs, name, (strategy, remedies))),
+            );
+        }
+    }
+    rows
+}
+
+/// What atoms cost: within a tenfold range at random, and nine tenths of it in one part of the picture if it is uneven.
+fn costs(nodes: usize, uneven: bool) -> Costs {
+    let mut rng = Rng::with_seed(nodes as u64);
+    let atoms = ATOMS as usize * nodes;
+    let dear = if uneven { 0.9 * PART as f64 } else { 1.0 };
+    let cheap = if uneven { 0.1 * PART as f64 / (PART as f64 - 1.0) } else { 1.0 };
+    let weight = |atom| 10f64.powf(rng.f64()) * if atom < atoms / PART { dear } else { cheap };
+    let weights: Vec<f64> = (0..atoms).map(weight).collect();
+    let unit = COST.as_secs_f64() * atoms as f64 / weights.iter().sum::<f64>();
+    weights.into_iter().map(|weight| Duration::from_secs_f64(weight * unit)).collect::<Arc<[_]>>()
+}
+
+fn row(
+    nodes: usize,
+    uneven: bool,
+    costs: &Costs,
+    rival: &'static str,
+    (strategy, remedies): (Strategy, Remedies),
+) -> Row {
+    // No picture of so many atoms is too large.
+    let size = Size::new(50, costs.len() as u32).unwrap_or_else(|why| unreachable!("{why}"));
+    let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
+    let header = Header {
+        driver: Driver::Sim,
+        rules: Rules { batch: None, remedies, ..plain.rules },
+        link: Link { latency: LATENCY, ..plain.link },
+        ..plain
+    };
+    let tally = simulate(&header, &[], costs);
+    let messages = tally.messages();
+    let a_node = |count: u64| count as f64 / nodes as f64;
+    Row {
+        nodes,
+        uneven,
+        rival,
+        efficiency: tally.efficiency().unwrap_or_default(),
+        makespan_s: tally.makespan().unwrap_or_default().as_secs_f64(),
+        messages_per_node: a_node(messages.total),
+        asking_per_node: a_node(messages.offers + messages.hops + messages.wakes),
+        transfers_per_node: a_node(messages.transfers),
+    }
+}
+
+/// Efficiency, and messages a machine, over the number of machines.
+pub(super) fn charts(rows: &[Row]) -> Vec<(String, Chart)> {
+    let mut charts = Vec::new();
+    for uneven in [false, true] {
+        let kind = if uneven { "uneven" } else { "even" };
+        let words = if uneven { "nine tenths of the work in a sixteenth of the picture" } else { "work spread evenly" };
+        let efficiency = chart(rows, uneven, "efficiency", Scale::Linear, |row| row.efficiency);
+        charts
+            .push((format!("growth-{kind}"), Chart { title: format!("A picture that grows: {words}"), ..efficiency }));
+        let asking = chart(rows, uneven, "offers, hops and wakes a machine", Scale::Log10, |row| row.asking_per_node);
+        charts.push((format!("asking-{kind}"), Chart { title: format!("How asking grows: {words}"), ..asking }));
+    }
+    charts
+}
+
+fn chart(rows: &[Row], uneven: bool, label: &str, scale: Scale, value: impl Fn(&Row) -> f64) -> Chart {
+    let line = |(place, (name, ..)): (usize, (&str, Strategy, Remedies))| {
+        let of = rows.iter().filter(|row| row.uneven == uneven && row.rival == name);
+        let points = of.map(|row| (row.nodes as f64, value(row))).collect();
+        Series { name: name.into(), hue: series_hue(place), points, style: Style::Line }
+    };
+    let range = (scale == Scale::Linear).then_some((0.0, 1.0));
+    Chart {
+        note: format!("{} ms a message, {ATOMS} atoms a machine", LATENCY.as_millis()),
+        x: Axis { label: "machines".into(), scale: Scale::Log2, range: None },
+        y: Axis { label: label.into(), scale, range },
+        series: RIVALS.into_iter().enumerate().map(line).collect(),
+        ..Chart::default()
+    }
+}
+
+/// Both as a table.
+pub(super) fn report(text: &mut String, rows: &[Row]) {
+    say!(text, "\n## From four machines to a thousand\n");
+    say!(
+        text,
+        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, hops and wakes a machine.\n",
+        LATENCY.as_millis(),
+        COST.as_millis()
+    );
+    for uneven in [false, true] {
+        let kind = if uneven { "Nine tenths of the work in a sixteenth of the picture" } else { "Work spread evenly" };
+        say!(text, "### {kind}\n");
+        say!(text, "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|", RIVALS.map(|(name, ..)| name).join(" | "));
+        for nodes in NODES {
+            let cell = |name| {
+                let row = rows.iter().find(|row| row.uneven == uneven && row.nodes == nodes && row.rival == name);
+                row.map_or(String::new(), |row| format!("{:.3} ({:.0})", row.efficiency, row.asking_per_node))
+            };
+            say!(text, "| {nodes} | {} | {} |", nodes.ilog2(), RIVALS.map(|(name, ..)| cell(name)).join(" | "));
+        }
+        say!(text, "");
+    }
+}

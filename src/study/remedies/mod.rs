@@ -1,0 +1,30 @@
+//! The ring that adapts beside the article's, and what each of its remedies gains, alone.
+
+mod cases;
+mod growth;
+mod measure;
+mod report;
+
+use super::progress::Progress;
+use super::{Study, Tell};
+use crate::scene::Opened;
+
+/// Measures all cases with this scene's picture.
+///
+/// # Errors
+/// A sentence, if a run failed.
+pub fn remedies(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+    let mut progress = Progress::new(measure::steps() + growth::STEPS, tell);
+    let growth = growth::measure(&mut progress);
+    let rows = measure::measure(scene, &mut progress)?;
+    let mut study = Study::new("remedies");
+    study.add_rows(&rows)?;
+    study.add_table("growth", &growth)?;
+    for (name, chart) in report::charts(&rows).into_iter().chain(growth::charts(&growth)) {
+        study.add_chart(&name, &chart.marks(crate::view::CHART_SIZE));
+    }
+    let mut text = report::report(&rows);
+    growth::report(&mut text, &growth);
+    study.add_report(text);
+    Ok(study)
+}
