@@ -84,6 +84,7 @@ impl Run {
     }
 
     /// Does something to the run at once; what it does to a node that has ended, or to a parent that has, is void.
+    /// Machines and links fail only where a node is one thread, and in virtual time.
     pub fn command(&self, command: Command) {
         let command = command.possible();
         match &self.control {

@@ -20,7 +20,11 @@ impl Sim {
         self.note(What::Condition { node, condition }, tell);
         let party = &mut self.nodes[index];
         match (before, condition) {
-            (_, Condition::Off) => party.lose_all(&self.rules, node, nodes, self.now),
+            (_, Condition::Off) => {
+                let unheard = mem::take(&mut party.mailbox);
+                party.lose_all(&self.rules, node, nodes, self.now);
+                unheard.into_iter().for_each(|mail| self.note(What::Lost { id: mail.id }, tell));
+            }
             (Condition::Off, _) => self.hand_over(Party::Node(node), Event::Started, tell),
             (Condition::Hung, _) => {
                 let mailbox = mem::take(&mut party.mailbox);
