@@ -150,8 +150,7 @@ impl Tally {
     /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
     /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Tally::work`].
     /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is cut
-    /// off has done reaches nobody. `None` if the machines stand still before
-    /// the work is done.
+    /// off has done reaches nobody. `None` if the machines stand still before the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
         let machine = |&speed| Machine { speed, paused: false, condition: Condition::Well };
@@ -392,12 +391,9 @@ mod tests {
             transfers: 1,
             atoms_moved: 4,
             results: 1,
-            beats: 0,
-            wakes: 0,
-            agains: 0,
-            atoms_again: 0,
             total: 10,
             bytes: 100,
+            ..Messages::default()
         };
         assert_eq!(tally(&header(&[1.0, 1.0]), &run).messages(), expected);
     }
