@@ -63,6 +63,11 @@ impl Future {
         self.events.peek().map(|Reverse(planned)| planned.at)
     }
 
+    /// Whether anything of this kind is planned.
+    pub fn has(&self, kind: impl Fn(&Happening) -> bool) -> bool {
+        self.events.iter().any(|Reverse(planned)| kind(&planned.happening))
+    }
+
     /// Takes out what happens next, if that is until `horizon`.
     pub fn pop(&mut self, horizon: Time) -> Option<(Time, Happening)> {
         self.next().filter(|&at| at <= horizon)?;

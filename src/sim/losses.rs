@@ -2,11 +2,39 @@
 
 use std::mem;
 
+use super::event::Happening;
 use super::simulation::{Sim, Tell};
 use crate::balance::{Condition, Event, NodeId, Party};
-use crate::record::What;
+use crate::record::{Record, What};
+
+/// After so many beats in which nobody has worked nobody will, unless something is planned that may change it.
+const STANDSTILL: u32 = 400;
 
 impl Sim {
+    /// Lets everything happen. A run in which the last node that has atoms stands still then is not finished, even where
+    /// others go on telling each other so.
+    pub fn run(&mut self, tell: &mut dyn FnMut(Record)) {
+        let mut worked = self.now;
+        while let Some(next) = self.next() {
+            let mut works = false;
+            self.advance(next, &mut |record| {
+                works |= matches!(record.what, What::AtomStarted { .. } | What::AtomDone { .. });
+                tell(record);
+            });
+            if works {
+                worked = self.now;
+            } else if self.now.since(worked) > self.rules.beat * STANDSTILL {
+                let may_change = |happening: &Happening| {
+                    matches!(happening, Happening::Command(_) | Happening::AtomDone { .. } | Happening::Estimated(_))
+                };
+                if !self.future.has(may_change) {
+                    return;
+                }
+                worked = self.now;
+            }
+        }
+    }
+
     /// Something becomes of a node's machine.
     pub(super) fn put(&mut self, node: NodeId, condition: Condition, tell: Tell<'_>) {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
@@ -57,6 +85,31 @@ impl Sim {
                 party.pipe.clear();
                 party.plan = party.plan.wrapping_add(1);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::balance::Strategy;
+    use crate::runlog::{Driver, Header, examples};
+    use crate::scenario::Command;
+    use crate::time::Time;
+
+    #[test]
+    fn a_run_in_which_nobody_will_ever_work_comes_to_its_end() {
+        let plain = examples::header(&[1.0, 1.0]);
+        let mut header = Header { driver: Driver::Sim, ..plain };
+        header.rules.strategy = Strategy::Adaptive;
+        let off = |node| (Time(2_000), Command::Condition { node, condition: Condition::Off });
+        let back = (Time::from_secs(100.0), Command::Condition { node: 1, condition: Condition::Well });
+        for (script, ends) in [(vec![off(0), off(1)], false), (vec![off(0), off(1), back], true)] {
+            let mut sim = Sim::new(&header, &script, |_| Duration::from_micros(100));
+            sim.run(&mut |_| {});
+            assert_eq!(sim.is_finished(), ends, "{script:?}");
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::time::Time;
 /// A run in virtual time. It happens as far as it is asked to, and tells its records in the order of time.
 pub struct Sim {
     pub(super) now: Time,
-    future: Future,
+    pub(super) future: Future,
     parent: Parent,
     parent_links: BTreeMap<usize, Link>,
     /// Until when the parent is busy with what has arrived so far.
@@ -162,11 +162,6 @@ impl Sim {
         if until < Time(u64::MAX) {
             self.now = self.now.max(until);
         }
-    }
-
-    /// Lets everything happen. A run in which the last node that has atoms stands still then is not finished.
-    pub fn run(&mut self, tell: &mut dyn FnMut(Record)) {
-        self.advance(Time(u64::MAX), tell);
     }
 
     /// Does something to the run now.

@@ -13,8 +13,8 @@ use crate::balance::work::{PIPE, Work};
 use crate::picture::Atom;
 use crate::time::Time;
 
-/// A node of the ring that adapts. Its files: this one says what it does about what happens, [`offering`](super::offering) what it
-/// does without atoms, [`helping`](super::helping) whom it gives some, and [`duties`](super::duties) what it does when it is time.
+/// A node of the ring that adapts. Its files: this one says what it does about what happens, `offering` what it does without
+/// atoms, `helping` whom it gives some, and `duties` what it does when it is time.
 #[derive(Debug)]
 pub struct Node {
     pub(super) id: NodeId,
