@@ -57,7 +57,6 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&
             (Weight::Quiet, false) => (look.raised, look.text),
             (Weight::On, _) | (Weight::Quiet, true) => (look.hairline, look.text),
         };
-        let fade = if ui.is_enabled() { 1.0 } else { 0.45 };
         ui.painter().rect_filled(rect, 6.0, fill);
         if weight == Weight::On {
             let line = Stroke::new(1.5, look.accent);
@@ -67,12 +66,12 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&
         let mut left = rect.center().x - (icon_width + gap + text_width) / 2.0;
         if let Some(icon) = icon {
             let place = Rect::from_center_size(pos2(left + icon_side / 2.0, rect.center().y), Vec2::splat(icon_side));
-            icons::paint(ui.painter(), icon, place, text.gamma_multiply(fade));
+            icons::paint(ui.painter(), icon, place, text);
             left = place.right() + GRID;
         }
         if let Some(galley) = galley {
             let place = pos2(left, rect.center().y - galley.size().y / 2.0);
-            ui.painter().galley(place, galley, text.gamma_multiply(fade));
+            ui.painter().galley(place, galley, text);
         }
     }
     response

@@ -99,7 +99,7 @@ impl Labels {
     }
 
     /// From the rail to the labels: offers need room there.
-    fn gap(&self) -> f32 {
+    pub(super) fn gap(&self) -> f32 {
         match self.form {
             Form::TwoLines => 18.0 * self.text,
             Form::OneLine | Form::Number => 12.0,

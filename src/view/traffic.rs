@@ -66,8 +66,11 @@ fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
         let flight = last(lane)?;
         let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { return None };
         let angle = plan.angle(from) - plan.step() * flight.progress(now);
-        let centre = plan.at(angle, plan.rail + lane_offset(plan, lane));
-        Some(Token { flight, who: *who, centre, radius: (plan.node * 0.42).clamp(7.0, 13.0) })
+        let radius = (plan.node * 0.42).clamp(7.0, 13.0);
+        // Further out it would lie on what is said of a node.
+        let most = plan.labels.gap() - radius - BORDER;
+        let centre = plan.at(angle, plan.rail + lane_offset(plan, lane).min(most));
+        Some(Token { flight, who: *who, centre, radius })
     };
     (0..FOLLOWED).filter_map(token).collect()
 }
@@ -91,7 +94,7 @@ impl Token<'_> {
     fn draw(&self, state: &RunState, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
         let &Token { flight, who, centre, radius } = self;
         let alpha = seen_at(state, flight, now);
-        let (wide, border) = if is_lit { (3.0, Hue::Text) } else { (2.0, Hue::Ground) };
+        let (wide, border) = if is_lit { (BORDER, Hue::Text) } else { (2.0, Hue::Ground) };
         marks.push(Mark::Disc { centre, radius: radius + wide, ink: border.faint(alpha) });
         marks.push(Mark::Disc { centre, radius, ink: Hue::Node(who).faint(alpha) });
         marks.push(Mark::Label {
@@ -208,7 +211,7 @@ impl Parcel<'_> {
             return marks.push(Mark::Box { centre, half, round: 0.5 * half[0], ink: hue.faint(alpha) });
         }
         let round = 6.0;
-        let (wide, border) = if is_lit { (3.0, Hue::Text) } else { (2.0, Hue::Ground) };
+        let (wide, border) = if is_lit { (BORDER, Hue::Text) } else { (2.0, Hue::Ground) };
         marks.push(Mark::Box { centre, half: half.map(|side| side + wide), round, ink: border.faint(alpha) });
         marks.push(Mark::Box { centre, half, round, ink: hue.faint(alpha) });
         let ink = Hue::OnNode(self.node).faint(alpha);
@@ -219,5 +222,33 @@ impl Parcel<'_> {
 /// People follow four to six things at a time: more of a kind are only hinted at.
 const FOLLOWED: usize = 6;
 const HINT: f32 = 0.3;
+/// How broad the border of what stands out is.
+const BORDER: f32 = 3.0;
 /// How far bands are on their way when they have left each other.
 const CLEAR: f32 = 0.45;
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample;
+    use super::*;
+
+    #[test]
+    fn no_offer_lies_on_what_is_said_of_a_node() {
+        let header = sample::header(&[1.0, 1.0, 1.0, 1.0, 1.0, 0.1], 600);
+        let mut state = RunState::new(&header);
+        let mut most = 0;
+        for record in sample::records(&header) {
+            state.apply(&record);
+            for size in [[560.0, 250.0], [330.0, 300.0], [640.0, 490.0], [1200.0, 900.0]] {
+                let plan = Plan::new(header.speeds.len(), size);
+                let tokens = tokens(&plan, &state, record.at);
+                most = most.max(tokens.len());
+                for Token { centre: [x, y], radius, .. } in tokens {
+                    let out = (x - plan.centre[0]).hypot(y - plan.centre[1]) + radius + BORDER;
+                    assert!(out <= plan.rail + plan.labels.gap() + 0.01, "{out} in {size:?}");
+                }
+            }
+        }
+        assert!(most > 1, "several offers at once");
+    }
+}

@@ -147,19 +147,22 @@ fn heading(ui: &mut Ui, words: &str, look: Look) {
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, look.quiet);
 }
 
-/// Changes of one thing, in a line.
+/// Changes of one thing, in a line, or in two.
 fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Change> {
     let mut chosen = None;
     if !changes.is_empty() {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal_top(|ui| {
             if !group.is_empty() {
                 heading(ui, group, look);
             }
-            for (change, is_so) in changes {
-                if item(ui, change, is_so, look).clicked() {
-                    chosen = Some(change);
+            // Whatever needs a second line stands below the first, not below the heading.
+            ui.horizontal_wrapped(|ui| {
+                for (change, is_so) in changes {
+                    if item(ui, change, is_so, look).clicked() {
+                        chosen = Some(change);
+                    }
                 }
-            }
+            });
         });
     }
     chosen

@@ -50,9 +50,10 @@ pub fn show(
         let size = entry.trial.header.size;
         size.height() as f32 / size.width() as f32
     });
-    // What explains them needs its room below.
+    // What explains them needs its room below; where that makes pictures small, they stand in the middle of columns that
+    // are not much wider.
     let high = (wide * aspect).min(area.height() - ABOVE - BELOW - below).max(8.0 * GRID);
-    let wide = wide.min((high / aspect).max(30.0 * GRID));
+    let wide = wide.min((1.4 * high / aspect).max(30.0 * GRID));
     let (mut asked, many) = (None, entries.len() > 2);
     let is_full = entries.len() >= MOST;
     for (place, entry) in entries.iter_mut().enumerate() {

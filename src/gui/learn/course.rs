@@ -93,6 +93,8 @@ impl Course {
     pub fn answer(&mut self, place: usize, session: &mut Session) {
         if self.question().is_some_and(|(question, answer)| answer.is_none() && place < question.answers.len()) {
             self.answers[self.step] = Some(place);
+            // That an answer was waited for, for instance.
+            session.end_notice();
             self.go(session);
         }
     }
