@@ -4,8 +4,9 @@ use std::mem;
 
 use super::event::Happening;
 use super::simulation::{Sim, Tell};
-use crate::balance::{Condition, Event, NodeId, Party};
+use crate::balance::{Condition, Event, NodeId, Party, Strategy};
 use crate::record::{Record, What};
+use crate::time::Time;
 
 /// After so many beats in which nobody has worked nobody will, unless something is planned that may change it.
 const STANDSTILL: u32 = 400;
@@ -14,6 +15,10 @@ impl Sim {
     /// Lets everything happen. A run in which the last node that has atoms stands still then is not finished, even where
     /// others go on telling each other so.
     pub fn run(&mut self, tell: &mut dyn FnMut(Record)) {
+        // In all other strategies nobody says anything then.
+        if self.rules.strategy != Strategy::Adaptive {
+            return self.advance(Time(u64::MAX), tell);
+        }
         let mut worked = self.now;
         while let Some(next) = self.next() {
             let mut works = false;
@@ -24,8 +29,10 @@ impl Sim {
             if works {
                 worked = self.now;
             } else if self.now.since(worked) > self.rules.beat * STANDSTILL {
-                let may_change = |happening: &Happening| {
-                    matches!(happening, Happening::Command(_) | Happening::AtomDone { .. } | Happening::Estimated(_))
+                let may_change = |happening: &Happening| match happening {
+                    Happening::Command(_) | Happening::AtomDone { .. } => true,
+                    Happening::Arrival { mail, .. } | Happening::Handled(mail) => !mail.message.ranges().is_empty(),
+                    _ => false,
                 };
                 if !self.future.has(may_change) {
                     return;
@@ -94,10 +101,8 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::balance::Strategy;
     use crate::runlog::{Driver, Header, examples};
     use crate::scenario::Command;
-    use crate::time::Time;
 
     #[test]
     fn a_run_in_which_nobody_will_ever_work_comes_to_its_end() {

@@ -153,14 +153,17 @@ impl Node {
     fn receive(&mut self, now: Time, from: Party, message: Message, actions: &mut Vec<Action>) {
         match message {
             Message::Band(band) => {
+                // It is let in, even if it was given atoms before it heard so.
+                self.asks = None;
+                if self.has(Remedy::Leases) && self.next_beat.is_none() {
+                    self.next_beat = Some(now);
+                }
                 if !matches!(self.state, State::Waiting { .. }) {
                     // The parent asks those back that it thinks gone.
                     assert!(band.is_empty(), "node {} was given a second band", self.id);
                     return;
                 }
                 let State::Waiting { early } = std::mem::replace(&mut self.state, State::Busy) else { return };
-                self.asks = None;
-                self.next_beat = self.has(Remedy::Leases).then_some(now);
                 self.add(now, [band], actions);
                 if self.work.is_idle() {
                     self.offer(now, None, actions);
