@@ -1,10 +1,12 @@
 //! A worker that panics while it traces an atom: in the ring that adapts the atom is tried elsewhere, until too many have failed.
 
+mod watched;
+
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use anel::balance::Strategy;
-use anel::driver::{Run, Update};
+use anel::driver::Run;
 use anel::picture::{Colour, Frame, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Driver, Header};
@@ -32,19 +34,7 @@ fn run(driver: Driver, times: u32) -> (Result<Frame, String>, Vec<Record>) {
         }
     };
     let run = Run::start_with(trace, &header);
-    let (mut frame, mut records) = (Frame::new(size), Vec::new());
-    for update in run.updates() {
-        match update {
-            Update::Placed { atoms, pixels } => {
-                header.division.placed(&atoms, &pixels).for_each(|(place, colours)| frame.place(place, colours));
-            }
-            Update::Records(more) => records.extend(more),
-            Update::Rays(_) => {}
-            Update::Finished => return (Ok(frame), records),
-            Update::Failed(why) => return (Err(why), records),
-        }
-    }
-    panic!("the run ended without saying so");
+    watched::picture(&run, &header)
 }
 
 fn colour(pixel: u32) -> Colour {

@@ -2,11 +2,13 @@
 //! is that of one node that traces all, byte for byte, and no thread is left behind. In a file of its own, so that no
 //! other test's threads are in the process.
 
+mod watched;
+
 use std::sync::Arc;
 use std::time::Duration;
 
 use anel::balance::{Condition, Message, NodeId, Party, Rules, Strategy};
-use anel::driver::{Run, Update};
+use anel::driver::Run;
 use anel::picture::{Colour, Frame, Quality, Size};
 use anel::record::{Record, What};
 use anel::runlog::{Header, Link};
@@ -77,18 +79,8 @@ fn live(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, S
         std::thread::sleep(rng.u32(0..3000) * Duration::from_micros(1));
         run.command(befall(rng, nodes));
     }
-    let (mut frame, mut records) = (Frame::new(header.size), Vec::new());
-    for update in run.updates() {
-        match update {
-            Update::Placed { atoms, pixels } => {
-                header.division.placed(&atoms, &pixels).for_each(|(place, colours)| frame.place(place, colours));
-            }
-            Update::Records(more) => records.extend(more),
-            Update::Rays(_) => {}
-            Update::Finished => break,
-            Update::Failed(why) => return Err(why),
-        }
-    }
+    let (frame, records) = watched::picture(&run, &header);
+    let frame = frame?;
     look_at(&records, nodes, seen);
     Ok(frame)
 }

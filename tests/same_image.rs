@@ -1,9 +1,11 @@
 //! However the work is shared, the picture is that of a plain loop over all pixels, byte for byte.
 
+mod watched;
+
 use std::sync::Arc;
 
 use anel::balance::Strategy;
-use anel::driver::{Run, Update};
+use anel::driver::Run;
 use anel::picture::{Colour, Frame, Quality, Size};
 use anel::runlog::{Driver, Header};
 use anel::scene::{Scene, built_in};
@@ -83,21 +85,8 @@ fn bits(pixels: &[Colour]) -> impl Iterator<Item = u32> {
 }
 
 fn picture(tracer: &Arc<Tracer>, header: &Header) -> Frame {
-    let mut frame = Frame::new(header.size);
     let run = Run::start(tracer.clone(), header);
-    for update in run.updates() {
-        match update {
-            Update::Placed { atoms, pixels } => {
-                let placed = header.division.placed(&atoms, &pixels);
-                let count: usize = placed.map(|(place, colours)| (frame.place(place, colours), colours.len()).1).sum();
-                assert_eq!(count, pixels.len());
-            }
-            Update::Records(_) | Update::Rays(_) => {}
-            Update::Finished => return frame,
-            Update::Failed(why) => panic!("{why}"),
-        }
-    }
-    panic!("the run ended without saying so");
+    watched::picture(&run, header).0.unwrap_or_else(|why| panic!("{why}"))
 }
 
 fn header(driver: Driver, strategy: Strategy, size: Size, atom_pixels: u32, speeds: Vec<f64>) -> Header {

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use super::message::{Action, Message, NodeId, Party};
 use super::strategy::LEASE;
-use crate::picture::{Atom, push_atom};
+use crate::picture::{Atom, atoms_in, push_atom};
 use crate::time::Time;
 
 /// An atom that so many workers failed to trace makes the run fail.
@@ -186,8 +186,8 @@ impl Ledger {
         self.beat * LEASE + self.delay * 2
     }
 
-    /// Gives each idle node a part of the pool: as large as if all nodes asked for one (guided self-scheduling: Polychronopoulos
-    /// and Kuck 1987); the ring shares it on.
+    /// Gives each idle node a part of what is left of the pool, as large as if all who are idle still were to get one; the ring
+    /// shares it on.
     fn give_out(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
         let idle = self.nodes.iter().filter(|entry| entry.idle && !entry.gone).count().max(1) as u32;
         for node in 0..self.nodes.len() {
@@ -195,7 +195,7 @@ impl Ledger {
                 return;
             }
             let Entry { idle: true, gone: false, .. } = self.nodes[node] else { continue };
-            let count = self.pool.iter().map(|range| range.len() as u32).sum::<u32>().div_ceil(idle);
+            let count = atoms_in(&self.pool).div_ceil(idle);
             let again = self.take(now, count, placed);
             if !again.is_empty() {
                 self.nodes[node].idle = false;

@@ -145,7 +145,8 @@ pub(super) struct RenderArgs {
     /// Nodes [default: as many as speeds, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
-    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, or rayon
+    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, adaptive, or
+    /// rayon
     #[arg(long, default_value = "ring")]
     pub strategy: Sharing,
     /// Who executes it: threads (real time), pairs (two threads a node, at full speed), or sim (virtual time)

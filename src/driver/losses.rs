@@ -1,56 +1,40 @@
 //! What fails in a run on threads, as far as all parties have to know of it: links that are cut, and machines that are cut off.
 
-use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::balance::{NodeId, Party};
+use crate::sim::Cuts;
 
 /// What is cut, until the run is over: nothing fails after that, or is mended.
 #[derive(Debug, Default)]
 pub(super) struct Losses {
-    cut: Mutex<Cut>,
+    cuts: Mutex<Cuts>,
     over: AtomicBool,
-}
-
-#[derive(Debug, Default)]
-struct Cut {
-    /// The lesser party first.
-    links: BTreeSet<(Party, Party)>,
-    nodes: BTreeSet<NodeId>,
 }
 
 impl Losses {
     /// Cuts the link between two parties, or mends it. Whether that changes anything.
     pub fn cut_link(&self, one: Party, other: Party, is_cut: bool) -> bool {
-        self.change(|cut| {
-            let link = (one.min(other), one.max(other));
-            if is_cut { cut.links.insert(link) } else { cut.links.remove(&link) }
-        })
+        self.change(|cuts| cuts.cut_link(one, other, is_cut))
     }
 
     /// Cuts a node off from all others, or no longer. Whether that is still possible.
     pub fn cut_off(&self, node: NodeId, is_cut_off: bool) -> bool {
-        self.change(|cut| {
-            if is_cut_off {
-                cut.nodes.insert(node)
-            } else {
-                cut.nodes.remove(&node)
-            };
+        self.change(|cuts| {
+            cuts.cut_off(node, is_cut_off);
             true
         })
     }
 
     /// Whether nothing travels between the two. What a party sends to itself goes no way.
     pub fn is_cut(&self, one: Party, other: Party) -> bool {
-        let cut = self.lock();
-        let is_cut_off = |party| matches!(party, Party::Node(node) if cut.nodes.contains(&node));
-        one != other && (cut.links.contains(&(one.min(other), one.max(other))) || is_cut_off(one) || is_cut_off(other))
+        self.lock().is_cut(one, other)
     }
 
     /// The parent has nothing more to do: what it says last reaches whoever it reaches now.
     pub fn end(&self) {
-        let _cut = self.lock();
+        let _cuts = self.lock();
         self.over.store(true, Ordering::SeqCst);
     }
 
@@ -59,14 +43,14 @@ impl Losses {
         self.over.load(Ordering::SeqCst)
     }
 
-    fn change(&self, change: impl FnOnce(&mut Cut) -> bool) -> bool {
-        let mut cut = self.lock();
-        !self.is_over() && change(&mut cut)
+    fn change(&self, change: impl FnOnce(&mut Cuts) -> bool) -> bool {
+        let mut cuts = self.lock();
+        !self.is_over() && change(&mut cuts)
     }
 
     /// No panic leaves it half changed.
-    fn lock(&self) -> MutexGuard<'_, Cut> {
-        self.cut.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Cuts> {
+        self.cuts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::{Header, RunLog};
 use crate::balance::{Condition, Message, NodeId, Party};
+use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -233,7 +234,7 @@ impl Messages {
             Message::Offer { .. } => self.hops += 1,
             Message::Transfer(ranges) => {
                 self.transfers += 1;
-                self.atoms_moved += ranges.iter().map(|range| range.len() as u64).sum::<u64>();
+                self.atoms_moved += u64::from(atoms_in(ranges));
             }
             Message::Results(_) => self.results += 1,
             Message::Request => self.requests += 1,
@@ -242,7 +243,7 @@ impl Messages {
             Message::Wake => self.wakes += 1,
             Message::Again(ranges) => {
                 self.agains += 1;
-                self.atoms_again += ranges.iter().map(|range| range.len() as u64).sum::<u64>();
+                self.atoms_again += u64::from(atoms_in(ranges));
             }
             Message::Gone(_) | Message::Placed(_) | Message::Failed(_) | Message::Band(_) | Message::Shutdown => {}
         }

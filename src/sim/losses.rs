@@ -52,6 +52,7 @@ impl Sim {
             return;
         }
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
+        self.cuts.cut_off(node, condition == Condition::CutOff);
         self.note(What::Condition { node, condition }, tell);
         let party = &mut self.nodes[index];
         match (before, condition) {
@@ -71,21 +72,12 @@ impl Sim {
         }
     }
 
-    /// Whether nothing travels between the two.
-    pub(super) fn is_cut(&self, one: Party, other: Party) -> bool {
-        let is_cut_off = |party| match party {
-            Party::Parent => false,
-            Party::Node(node) => self.nodes[usize::from(node)].condition == Condition::CutOff,
-        };
-        self.cut.contains(&(one.min(other), one.max(other))) || is_cut_off(one) || is_cut_off(other)
-    }
-
     /// The parent has nothing more to do. Nodes that its last message cannot reach are abandoned: whoever owns their machines
     /// has to look after them.
     pub(super) fn end(&mut self) {
         self.finished = true;
         for node in 0..self.nodes.len() as NodeId {
-            let unheard = self.is_cut(Party::Parent, Party::Node(node));
+            let unheard = self.cuts.is_cut(Party::Parent, Party::Node(node));
             let party = &mut self.nodes[usize::from(node)];
             if unheard || matches!(party.condition, Condition::Hung | Condition::Off) {
                 party.finished = true;

@@ -57,6 +57,5 @@ impl Party {
         self.in_hand = false;
         self.plan = self.plan.wrapping_add(1);
         self.timer = None;
-        self.mailbox.clear();
     }
 }

@@ -1,9 +1,10 @@
 //! A run in virtual time.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::mem;
 use std::time::Duration;
 
+use super::cuts::Cuts;
 use super::event::{Future, Happening, Mail};
 use super::link::{Link, Wire};
 use super::party::Party as Machinery;
@@ -26,8 +27,7 @@ pub struct Sim {
     pub(super) nodes: Vec<Machinery>,
     /// What all share, if they do.
     wire: Option<Wire>,
-    /// Links that are cut, the lesser party first.
-    pub(super) cut: BTreeSet<(Party, Party)>,
+    pub(super) cuts: Cuts,
     parent_timer: Option<Time>,
     pub(super) rules: Rules,
     latency: Duration,
@@ -76,7 +76,7 @@ impl Sim {
             finished: false,
             nodes: (0..nodes as NodeId).map(|id| Machinery::new(header, id)).collect(),
             wire: header.link.shared.then(Wire::default),
-            cut: BTreeSet::new(),
+            cuts: Cuts::default(),
             parent_timer: None,
             rules: header.rules,
             latency: header.link.latency,
@@ -185,8 +185,7 @@ impl Sim {
             }
             Command::Condition { node, condition } => self.put(node, condition, tell),
             Command::Link { one, other, cut } => {
-                let link = (one.min(other), one.max(other));
-                if !self.finished && if cut { self.cut.insert(link) } else { self.cut.remove(&link) } {
+                if !self.finished && self.cuts.cut_link(one, other, cut) {
                     self.note(What::Link { one, other, cut }, tell);
                 }
             }
@@ -339,7 +338,7 @@ impl Sim {
         let id = self.sent;
         self.sent += 1;
         self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
-        let cut = from != to && self.is_cut(from, to);
+        let cut = self.cuts.is_cut(from, to);
         let arrival = Happening::Arrival { to, mail: Mail { id, from, message } };
         self.future.plan(arrives, if cut { Happening::Lost(id) } else { arrival });
     }

@@ -7,6 +7,7 @@ mod needs;
 mod paper;
 mod peer;
 mod progress;
+mod random;
 mod remedies;
 mod rivals;
 mod scale;

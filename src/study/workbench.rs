@@ -72,6 +72,13 @@ impl Workbench {
     }
 }
 
+/// Costs of atoms in proportion to these numbers, `mean` on average.
+pub(super) fn weighted(weights: Vec<f64>, mean: Duration) -> Costs {
+    let all: f64 = weights.iter().sum();
+    let each = mean.as_secs_f64() * weights.len() as f64 / all;
+    Costs::from_iter(weights.into_iter().map(|weight| Duration::from_secs_f64(each * weight)))
+}
+
 /// The CPU time of a scene's picture on one thread, by a sample of it.
 pub(super) fn cost_of(scene: &Opened, size: Size, samples: u32) -> Duration {
     let tracer = Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() });

@@ -21,7 +21,8 @@ impl Node {
             self.call_for_help(now, actions);
             return;
         }
-        let count = self.share_for(now, helper);
+        let expected = self.sleepers.expected(now, self.lease());
+        let count = self.share_for(now, helper, expected);
         if count > 0 {
             let message = Message::Transfer(self.work.give(count));
             send(Party::Node(offer.who), message, actions);
@@ -41,7 +42,9 @@ impl Node {
     pub(super) fn call_for_help(&mut self, now: Time, actions: &mut Vec<Action>) {
         while let Some((node, helper)) = self.sleepers.fastest().filter(|_| self.refused != Some(self.work.traced())) {
             let expected = self.sleepers.expected(now, self.lease());
-            if self.share_for(now, helper) == 0 && (expected > 0.0 || self.late_atom(now, helper.speed).is_none()) {
+            if self.share_for(now, helper, expected) == 0
+                && (expected > 0.0 || self.late_atom(now, helper.speed).is_none())
+            {
                 return;
             }
             self.sleepers.wake(node, now);
@@ -69,12 +72,11 @@ impl Node {
         Some(if at > now { at } else { now + now.since(self.gauge.since()).max(Duration::from_micros(1)) })
     }
 
-    /// How many atoms go to an offerer.
-    fn share_for(&mut self, now: Time, Helper { speed, done }: Helper) -> u32 {
+    /// How many atoms go to an offerer, if others who are so fast together are expected to offer too.
+    fn share_for(&self, now: Time, Helper { speed, done }: Helper, expected: f64) -> u32 {
         if !self.has(Remedy::Speed) {
             return share(self.work.waiting(), self.work.traced(), done, self.part);
         }
-        let expected = self.sleepers.expected(now, self.lease());
         // Of whom nothing is known is taken to be as fast as the other.
         let (own, usual, cost) = match (self.gauge.speed(now), self.gauge.known()) {
             (Some(own), Some((usual, cost))) => (own, usual, cost),

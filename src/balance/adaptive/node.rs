@@ -158,12 +158,13 @@ impl Node {
                 if self.has(Remedy::Leases) && self.next_beat.is_none() {
                     self.next_beat = Some(now);
                 }
-                if !matches!(self.state, State::Waiting { .. }) {
+                let State::Waiting { early } = &mut self.state else {
                     // The parent asks those back that it thinks gone.
                     assert!(band.is_empty(), "node {} was given a second band", self.id);
                     return;
-                }
-                let State::Waiting { early } = std::mem::replace(&mut self.state, State::Busy) else { return };
+                };
+                let early = std::mem::take(early);
+                self.state = State::Busy;
                 self.add(now, [band], actions);
                 if self.work.is_idle() {
                     self.offer(now, None, actions);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::plan::Plan;
 use crate::balance::adaptive::Ring;
 use crate::balance::{Action, Condition, Help, Message, NodeId, Party, Remedy};
-use crate::picture::Atom;
+use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, What};
 use crate::sim::Sim;
 use crate::time::Time;
@@ -132,7 +132,7 @@ impl<'a> Check<'a> {
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
-                self.outcome.again += ranges.iter().map(|range| range.len() as u64).sum::<u64>();
+                self.outcome.again += u64::from(atoms_in(ranges));
                 if self.plan.calm {
                     self.fail(format!("{ranges:?} are given out again, and nothing was lost"));
                 }

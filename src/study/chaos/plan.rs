@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use fastrand::Rng;
 
+use super::super::random::between;
 use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Link};
@@ -130,10 +131,6 @@ fn latency(rng: &mut Rng, calm: bool) -> Duration {
 
 fn speed(rng: &mut Rng, slowest: f64) -> f64 {
     if rng.bool() { 1.0 } else { slowest.powf(rng.f64()) }
-}
-
-fn between(rng: &mut Rng, from: f64, to: f64) -> f64 {
-    from + (to - from) * rng.f64()
 }
 
 fn pick<'a, T>(rng: &mut Rng, choices: &'a [T]) -> &'a T {

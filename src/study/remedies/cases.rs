@@ -29,27 +29,33 @@ pub(super) struct Case {
     pub aim: f64,
 }
 
+/// Unequal machines, of which one is throttled in mid-run: for rayon, which knows no losses.
+pub(super) fn throttled() -> Case {
+    let about = "machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % of the run";
+    let script = at(0.3, Command::Speed { node: VICTIM, speed: THROTTLED });
+    Case { speeds: vec![1.0, 0.7, 0.4, 1.0], script, ..plain("unequal, throttled", about, 1.05) }
+}
+
+/// Four equal machines to which nothing happens.
+fn plain(name: &str, about: &str, aim: f64) -> Case {
+    let script = Box::new(|_| Script::new());
+    Case { name: name.into(), about: about.into(), speeds: vec![1.0; 4], spares: 0, corner: false, script, aim }
+}
+
+/// One thing that is done when so much of the run is over.
+fn at(part: f64, command: Command) -> Box<dyn Fn(Duration) -> Script> {
+    Box::new(move |run| vec![(Time::ZERO + run.mul_f64(part), command)])
+}
+
 /// All of them.
 pub(super) fn cases() -> Vec<Case> {
-    let equal = || vec![1.0; 4];
-    let plain = |name: &str, about: &str, aim| Case {
-        name: name.into(),
-        about: about.into(),
-        speeds: equal(),
-        spares: 0,
-        corner: false,
-        script: Box::new(|_| Script::new()),
-        aim,
-    };
     let with =
         |name: &str, about: &str, script: Box<dyn Fn(Duration) -> Script>| Case { script, ..plain(name, about, 1.05) };
-    let at =
-        |part: f64, command: Command| Box::new(move |run: Duration| vec![(Time::ZERO + run.mul_f64(part), command)]);
     let speed = |speed| Command::Speed { node: VICTIM, speed };
     let put = |condition| Command::Condition { node: VICTIM, condition };
     let mut cases = vec![plain("equal", "four equal machines", 1.01)];
     cases.extend((0..5).map(|place| {
-        let mut speeds = equal();
+        let mut speeds = vec![1.0; 4];
         speeds.insert(place, SLOW);
         let name = format!("slow fifth, place {}", place + 1);
         Case { name, speeds, ..plain("", "a fifth machine at 14 % of the speed of four equal ones", 1.02) }
@@ -75,9 +81,7 @@ pub(super) fn cases() -> Vec<Case> {
         Case {
             speeds: vec![1.0; 5],
             spares: 1,
-            script: Box::new(|run| {
-                vec![(Time::ZERO + run.mul_f64(0.3), Command::Condition { node: 4, condition: Condition::Well })]
-            }),
+            script: at(0.3, Command::Condition { node: 4, condition: Condition::Well }),
             ..plain("joined at 30 %", "a fifth equal machine joins four at 30 % of the run", 1.05)
         },
         Case { corner: true, ..plain("corner", "nearly all the work in one corner of the picture", 1.05) },

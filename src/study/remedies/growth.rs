@@ -1,7 +1,6 @@
 //! From four machines to a thousand: efficiency, and how messages grow.
 
 use std::fmt::Write;
-use std::sync::Arc;
 use std::time::Duration;
 
 use fastrand::Rng;
@@ -9,7 +8,7 @@ use serde::Serialize;
 
 use super::super::progress::Progress;
 use super::super::say;
-use super::super::workbench::{Costs, simulate};
+use super::super::workbench::{Costs, simulate, weighted};
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Link};
@@ -70,9 +69,7 @@ fn costs(nodes: usize, uneven: bool) -> Costs {
     let dear = if uneven { 0.9 * PART as f64 } else { 1.0 };
     let cheap = if uneven { 0.1 * PART as f64 / (PART as f64 - 1.0) } else { 1.0 };
     let weight = |atom| 10f64.powf(rng.f64()) * if atom < atoms / PART { dear } else { cheap };
-    let weights: Vec<f64> = (0..atoms).map(weight).collect();
-    let unit = COST.as_secs_f64() * atoms as f64 / weights.iter().sum::<f64>();
-    weights.into_iter().map(|weight| Duration::from_secs_f64(weight * unit)).collect::<Arc<[_]>>()
+    weighted((0..atoms).map(weight).collect(), COST)
 }
 
 fn row(

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::super::median;
 use super::super::progress::Progress;
 use super::super::workbench::{Workbench, cost_of, simulate};
-use super::cases::{Case, cases};
+use super::cases::{Case, cases, throttled};
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::driver::{cores, perform};
 use crate::picture::Size;
@@ -106,17 +106,8 @@ pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec
         rows.extend(measured);
     }
     // Rayon knows no losses, but a machine that becomes slow.
-    let unequal = throttled();
-    rows.extend(on_threads(scene, &unequal, &[Rival::Adaptive(Remedies::ALL), Rival::Rayon], progress)?);
+    rows.extend(on_threads(scene, &throttled(), &[Rival::Adaptive(Remedies::ALL), Rival::Rayon], progress)?);
     Ok(rows)
-}
-
-/// Unequal machines, of which one is throttled in mid-run.
-fn throttled() -> Case {
-    let mut cases = cases();
-    let place = cases.iter().position(|case| case.name == "1 % at 30 %").unwrap_or_default();
-    let about = "machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % of the run".into();
-    Case { name: "unequal, throttled".into(), about, speeds: vec![1.0, 0.7, 0.4, 1.0], ..cases.swap_remove(place) }
 }
 
 fn header(bench: &Workbench, case: &Case, atom: u32, rival: Rival) -> Header {

@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::random::{aside, between, turn, unit};
+use super::super::random::{aside, between, turn, unit};
 use super::{Case, Count, Outcome, tens};
 use crate::csg::{Primitive, Solid, Stack, Tree};
 use crate::geometry::{Ray, rotation};

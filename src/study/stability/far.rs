@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::random::{aside, between, unit};
+use super::super::random::{aside, between, unit};
 use super::subject::Subject;
 use super::{Case, Count, Outcome, tens};
 use crate::csg::Primitive;

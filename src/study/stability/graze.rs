@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::random::{aside, between, placing, sign, turn, unit};
+use super::super::random::{aside, between, placing, sign, turn, unit};
 use super::subject::{Subject, is_broken};
 use super::{Case, Count, Outcome, tens};
 use crate::csg::Primitive;

@@ -8,7 +8,6 @@ mod far;
 mod graze;
 mod normals;
 mod protocol;
-mod random;
 mod refraction;
 mod report;
 mod scaled;

@@ -3,8 +3,8 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::super::random::{turn, unit};
 use super::exact::{cross, dot, vector};
-use super::random::{turn, unit};
 use super::subject::Subject;
 use super::{Case, Count, Outcome, tens};
 use crate::csg::{Primitive, Surface};

@@ -1,11 +1,10 @@
 //! The protocol where machines and networks misbehave, in virtual time.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use fastrand::Rng;
 
-use super::random::between;
+use super::super::random::between;
 use super::{Case, Outcome, twos};
 use crate::balance::{Message, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
@@ -13,7 +12,7 @@ use crate::record::What;
 use crate::runlog::{Driver, Header, Link, Tally};
 use crate::scenario::{Command, Script, square_wave};
 use crate::sim::Sim;
-use crate::study::workbench::Costs;
+use crate::study::workbench::{Costs, weighted};
 use crate::time::Time;
 use crate::view::Scale;
 
@@ -147,14 +146,7 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &Costs) -> Outc
 
 /// Costs of so many atoms, [`COST`] on average: the dearest costs ten times what the cheapest does.
 fn uneven(atoms: u32, rng: &mut Rng) -> Costs {
-    weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect())
-}
-
-/// Costs in proportion to these numbers, [`COST`] on average.
-fn weighted(weights: Vec<f64>) -> Costs {
-    let all: f64 = weights.iter().sum();
-    let each = COST.as_secs_f64() * weights.len() as f64 / all;
-    Arc::from_iter(weights.into_iter().map(|weight| Duration::from_secs_f64(each * weight)))
+    weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect(), COST)
 }
 
 fn after(duration: Duration) -> Time {
@@ -197,7 +189,7 @@ fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
         let first = rng.u32(0..=ATOMS - dear);
         let cheap = if dear < ATOMS { 0.001 / f64::from(ATOMS - dear) } else { 0.0 };
         let weight = |atom| if (first..first + dear).contains(&atom) { 0.999 / f64::from(dear) } else { cheap };
-        (weighted((0..ATOMS).map(weight).collect()), NODES, Script::new())
+        (weighted((0..ATOMS).map(weight).collect(), COST), NODES, Script::new())
     })
 }
 

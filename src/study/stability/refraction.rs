@@ -3,8 +3,8 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::super::random::{aside, between, sign, turn, unit};
 use super::exact::{Exact, dot, vector};
-use super::random::{aside, between, sign, turn, unit};
 use super::{Case, Count, Outcome, tens, twos};
 use crate::csg::{Primitive, Solid};
 use crate::picture::{Quality, Size};

@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use glam::DVec3;
 
-use super::random::{aside, between, placing, sign, unit};
+use super::super::random::{aside, between, placing, sign, unit};
 use super::subject::Subject;
 use super::{Case, Count, Outcome, tens};
 use crate::csg::Primitive;

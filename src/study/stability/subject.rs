@@ -204,7 +204,7 @@ fn radius(primitive: Primitive) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::random::{between, placing, unit};
+    use super::super::super::random::{between, placing, unit};
     use super::*;
 
     /// On lines that are no hard cases, all three say the same.

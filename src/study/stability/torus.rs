@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
+use super::super::random::{aside, between, unit};
 use super::exact::{Exact, dot, vector};
-use super::random::{aside, between, unit};
 use super::subject::Subject;
 use super::{Case, Count, Outcome, tens};
 use crate::csg::Primitive;

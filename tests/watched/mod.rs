@@ -1,0 +1,25 @@
+//! A run watched to its end.
+
+use anel::driver::{Run, Update};
+use anel::picture::Frame;
+use anel::record::Record;
+use anel::runlog::Header;
+
+/// The picture of the run that `header` describes, or why there is none, and its records.
+pub fn picture(run: &Run, header: &Header) -> (Result<Frame, String>, Vec<Record>) {
+    let (mut frame, mut records) = (Frame::new(header.size), Vec::new());
+    for update in run.updates() {
+        match update {
+            Update::Placed { atoms, pixels } => {
+                let placed = header.division.placed(&atoms, &pixels);
+                let count: usize = placed.map(|(place, colours)| (frame.place(place, colours), colours.len()).1).sum();
+                assert_eq!(count, pixels.len());
+            }
+            Update::Records(more) => records.extend(more),
+            Update::Rays(_) => {}
+            Update::Finished => return (Ok(frame), records),
+            Update::Failed(why) => return (Err(why), records),
+        }
+    }
+    panic!("the run ended without saying so");
+}
