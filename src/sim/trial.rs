@@ -91,6 +91,9 @@ impl Trial {
             let Rules { strategy, .. } = header.rules;
             header.rules.part = strategy.usual_part(header.division, header.speeds.len());
         }
+        if matches!(change, Change::Nodes(_) | Change::Handling(_)) {
+            header.rules.beat = Rules::beat_for(header.handling, header.speeds.len());
+        }
         header.cores = header.speeds.len();
         trial
     }
@@ -185,6 +188,8 @@ mod tests {
         assert!(makespan(&equal) < makespan(&trial));
         assert_eq!(trial.with(Change::Nodes(6)).header.speeds, [1.0, 1.0, 1.0, 0.1, 1.0, 1.0]);
         assert_eq!(trial.with(Change::Nodes(6)).header.cores, 6);
+        let busy = trial.with(Change::Handling(Duration::from_millis(20)));
+        assert!(busy.header.rules.beat > trial.header.rules.beat, "a busy parent hears of its nodes less often");
         let later = trial.with(Change::Latency(Duration::from_millis(300)));
         assert!(makespan(&later) > makespan(&trial));
     }
