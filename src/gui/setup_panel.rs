@@ -13,7 +13,6 @@ use super::settings::Settings;
 use super::tempo::Tempo;
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, choice, number, popup_frame, slider};
-use crate::balance::Strategy;
 use crate::language::{comma, decimal, say, word};
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -197,7 +196,7 @@ fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
         });
     });
     let is_farm = !stealing && draft.strategy.is_farm();
-    let has_part = is_farm || !stealing && draft.strategy == Strategy::Ring;
+    let has_part = is_farm || !stealing && draft.strategy.is_ring();
     let (what, name) = if is_farm {
         word!(("A part is", "Atoms in a part"), ("Uma parte tem", "Átomos numa parte"))
     } else {

@@ -7,10 +7,12 @@ pub(crate) mod examples;
 mod file;
 mod header;
 mod log;
+mod messages;
 mod tally;
 
 pub use caption::Caption;
 pub use file::{LogError, is_run_file};
 pub use header::{Driver, Header, Link};
 pub use log::RunLog;
-pub use tally::{Messages, Tally};
+pub use messages::Messages;
+pub use tally::Tally;

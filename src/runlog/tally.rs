@@ -2,11 +2,8 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
-
-use super::{Header, RunLog};
-use crate::balance::{Condition, Message, NodeId, Party};
-use crate::picture::atoms_in;
+use super::{Header, Messages, RunLog};
+use crate::balance::{Condition, Message, NodeId};
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -27,37 +24,6 @@ pub struct Tally {
     nodes: Vec<(u32, Time)>,
     changes: Vec<(Time, NodeId, Change)>,
     messages: Messages,
-}
-
-/// How much was said.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Messages {
-    /// Requests for work to the parent: only a farm makes any.
-    pub requests: u64,
-    /// The parent's answers.
-    pub parts: u64,
-    /// Offers that a node made.
-    pub offers: u64,
-    /// Offers passed on.
-    pub hops: u64,
-    /// Offers taken.
-    pub transfers: u64,
-    /// Atoms in the transfers.
-    pub atoms_moved: u64,
-    /// Batches of results.
-    pub results: u64,
-    /// What nodes told the parent of what they had.
-    pub beats: u64,
-    /// Those that sleep, woken.
-    pub wakes: u64,
-    /// Atoms sent to be traced once more.
-    pub agains: u64,
-    /// Atoms in those.
-    pub atoms_again: u64,
-    /// Messages of every kind.
-    pub total: u64,
-    /// Their weight ([`Message::bytes`]).
-    pub bytes: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -220,36 +186,6 @@ impl Tally {
     }
 }
 
-impl Messages {
-    /// All that was said for the atoms' sake, and not to bring results.
-    pub fn sharing(&self) -> u64 {
-        self.total - self.results
-    }
-
-    fn add(&mut self, from: Party, message: &Message, bytes: u64) {
-        self.total += 1;
-        self.bytes += bytes;
-        match message {
-            Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
-            Message::Offer { .. } => self.hops += 1,
-            Message::Transfer(ranges) => {
-                self.transfers += 1;
-                self.atoms_moved += u64::from(atoms_in(ranges));
-            }
-            Message::Results(_) => self.results += 1,
-            Message::Request => self.requests += 1,
-            Message::Part(_) => self.parts += 1,
-            Message::Beat { .. } => self.beats += 1,
-            Message::Wake => self.wakes += 1,
-            Message::Again(ranges) => {
-                self.agains += 1;
-                self.atoms_again += u64::from(atoms_in(ranges));
-            }
-            Message::Gone(_) | Message::Placed(_) | Message::Failed(_) | Message::Band(_) | Message::Shutdown => {}
-        }
-    }
-}
-
 struct Machine {
     speed: f64,
     paused: bool,
@@ -266,6 +202,7 @@ impl Machine {
 mod tests {
     use super::super::examples::{at, done, header, sent};
     use super::*;
+    use crate::balance::Party;
 
     fn tally(header: &Header, records: &[Record]) -> Tally {
         let mut tally = Tally::new(header);

@@ -71,10 +71,7 @@ impl Sharing {
                 word!("Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
             }
             Self::By(Strategy::Adaptive) => {
-                word!(
-                    "A ring that wakes helpers and survives losses",
-                    "Um anel que acorda quem ajuda e sobrevive a perdas"
-                )
+                word!("Wakes helpers, survives losses", "Acorda quem ajuda, sobrevive a perdas")
             }
             Self::Stealing => word!("Threads take atoms from each other", "As threads tomam átomos umas das outras"),
         }
