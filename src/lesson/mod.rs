@@ -56,6 +56,8 @@ pub struct Plan {
     pub part: Option<u32>,
     /// A machine a speed, 0 to 1.
     pub speeds: Vec<f64>,
+    /// How many of the machines, the last ones, are off at first and may join.
+    pub spares: NodeId,
     /// How long a message travels.
     pub latency: Duration,
     /// How long the parent is busy with a message.
