@@ -111,7 +111,7 @@ pub struct Question {
 }
 
 /// The lessons that come with the program, in the order in which they are best taken: name and text.
-pub const BUILT_IN: [(&str, &str); 7] = [
+pub const BUILT_IN: [(&str, &str); 10] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),
     ("farm", include_str!("../../assets/lessons/farm.ron")),
@@ -119,4 +119,7 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("slow-machine", include_str!("../../assets/lessons/slow-machine.ron")),
     ("sizes", include_str!("../../assets/lessons/sizes.ron")),
     ("limits", include_str!("../../assets/lessons/limits.ron")),
+    ("by-speed", include_str!("../../assets/lessons/by-speed.ron")),
+    ("woken", include_str!("../../assets/lessons/woken.ron")),
+    ("lost-machine", include_str!("../../assets/lessons/lost-machine.ron")),
 ];
