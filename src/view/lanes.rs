@@ -194,7 +194,7 @@ impl Lanes {
                 lane.stay(sent, Stay::Offers);
             }
         }
-        if let (Party::Node(node), Load::Atoms) = (to, load)
+        if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
             && let Some(lane) = self.lane(node)
         {
             lane.stay(sent, Stay::Receives);

@@ -82,7 +82,7 @@ mod tests {
         let slow = Command::Speed { node: 3, speed: 0.01 };
         let off = Command::Condition { node: 2, condition: Condition::Off };
         let well = Command::Condition { node: 2, condition: Condition::Well };
-        let script = [(1.0, off), (1.1, well), (2.0, slow)].map(|(at, command)| (Time::from_secs(at), command));
+        let script = [(2.0, slow), (2.1, off), (2.6, well)].map(|(at, command)| (Time::from_secs(at), command));
         let mut state = RunState::new(&header);
         let (mut crossed, mut sparked, mut copied) = (0, 0, 0);
         Sim::new(&header, &script, |_| sample::COST).run(&mut |record| {

@@ -141,6 +141,7 @@ fn runs() -> Vec<RunLog> {
         (2.9, becomes(0, Condition::Well)),
         (3.2, becomes(2, Condition::Well)),
         (3.4, becomes(0, Condition::Off)),
+        (4.4, becomes(0, Condition::Well)),
     ];
     let hands: [&[(f64, Command)]; 4] = [
         &failures,
