@@ -6,11 +6,12 @@ mod virtual_time;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
-use anel::balance::{Rules, Strategy as Sharing};
+use anel::balance::{Condition, Rules, Strategy as Sharing};
 use anel::export::write_chrome;
 use anel::picture::Size;
 use anel::runlog::{Header, Link, RunLog};
 use anel::scenario::Command;
+use anel::sim::Sim;
 use anel::time::Time;
 use proptest::prelude::*;
 use serde_json::Value;
@@ -147,6 +148,35 @@ fn a_ring_with_a_slow_machine_has_arrows_of_both_kinds() {
     check(&events);
     let arrows = |name: &str| events.iter().filter(|event| event["ph"] == "f" && event["name"] == name).count();
     assert!(arrows("offer") > 2 && arrows("atoms") > 2, "{} {}", arrows("offer"), arrows("atoms"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+    #[test]
+    fn machines_that_fail_make_a_valid_trace(
+        fails in prop::collection::vec(
+            (0..900u64, 0..4u16, prop::sample::select(&[Condition::Off, Condition::Hung, Condition::CutOff][..])), 1..4,
+        ),
+        strategy in prop::sample::select(&[Sharing::Adaptive, Sharing::Ring][..]),
+    ) {
+        let plain = Header::plain(Size::new(100, 30).expect("a small picture"), 10, strategy, vec![1.0; 4]);
+        let header = Header { link: Link { latency: Duration::from_millis(4), ..plain.link }, pace: 0.1, ..plain };
+        let ms = |at: u64| Time(at * 1_000_000);
+        let mut script = Vec::new();
+        for (at, node, condition) in fails {
+            script.push((ms(at), Command::Condition { node, condition }));
+            script.push((ms(at + 600), Command::Condition { node, condition: Condition::Well }));
+        }
+        script.sort_by_key(|(at, _)| *at);
+        let mut log = RunLog::new(header.clone());
+        let mut records = Vec::new();
+        Sim::new(&header, &script, |_| Duration::from_millis(1)).run(&mut |record| records.push(record));
+        log.add(records);
+        let events = events(&log);
+        check(&events);
+        let told = |what: &str| events.iter().any(|event| event["ph"] == "i" && event["name"] == what);
+        prop_assert!(told("switched off") || told("hangs") || told("cut off") || told("the picture is complete"));
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::What;
 use crate::runlog::RunLog;
@@ -266,6 +266,7 @@ fn happenings(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
             What::Paused { node } => (Some(*node), "paused".into()),
             What::Resumed { node } => (Some(*node), "resumed".into()),
             What::Retired { node } => (Some(*node), "retired".into()),
+            What::Condition { node, condition } => (Some(*node), became(*condition).into()),
             What::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
             What::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
             What::Finished => (None, "the picture is complete".into()),
@@ -278,6 +279,15 @@ fn happenings(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
         )?;
     }
     Ok(())
+}
+
+fn became(condition: Condition) -> &'static str {
+    match condition {
+        Condition::Well => "well again",
+        Condition::Hung => "hangs",
+        Condition::CutOff => "cut off",
+        Condition::Off => "switched off",
+    }
 }
 
 /// What part of the machines traced, stretch by stretch.

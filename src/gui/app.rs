@@ -301,7 +301,7 @@ impl App {
         ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session, &mut self.focus, &self.lit));
         ui.scope_builder(within(right), |ui| match self.session.inspected_place() {
             Some(place) => inspector::show(ui, place, &mut self.session),
-            None => ring_panel::show(ui, &self.session, &mut self.focus, &self.lit),
+            None => ring_panel::show(ui, &mut self.session, &mut self.focus, &self.lit),
         });
     }
 }

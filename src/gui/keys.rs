@@ -2,7 +2,7 @@
 
 use egui::{Context, Event, Key, Modifiers};
 
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId};
 use crate::language::word;
 use crate::view::{About, Step};
 
@@ -61,6 +61,8 @@ pub enum Command {
     Slower,
     /// The selected machine stands still, or goes on.
     PauseNode,
+    /// The selected machine becomes so, or well again if it is so.
+    Put(Condition),
     /// The pixel so far to the right and below, instead of the one that is inspected; if none is, a step to the right is
     /// the next event.
     Arrow([i32; 2]),
@@ -263,6 +265,15 @@ pub const TABLE: &[Line] = &[
         shown: same("P"),
         what: ("Pause the selected machine, or let it go on", "Pausar a máquina selecionada, ou retomá-la"),
         keys: &[(NONE, Key::P, Command::PauseNode)],
+    },
+    Line {
+        shown: same("X  H  U"),
+        what: ("It is off, hangs, is cut off; or well again", "Ela é desligada, trava, isola-se; ou volta"),
+        keys: &[
+            (NONE, Key::X, Command::Put(Condition::Off)),
+            (NONE, Key::H, Command::Put(Condition::Hung)),
+            (NONE, Key::U, Command::Put(Condition::CutOff)),
+        ],
     },
     Line {
         shown: ("Click", "Clique"),

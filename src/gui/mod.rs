@@ -13,6 +13,7 @@ mod icons;
 mod inspector;
 mod keys;
 mod learn;
+mod machine_menu;
 mod nodes_panel;
 mod notice;
 mod opening;

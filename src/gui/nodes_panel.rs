@@ -5,6 +5,7 @@ use egui::{Align2, Color32, Rect, Response, ScrollArea, Sense, Stroke, StrokeKin
 use super::focus::Focus;
 use super::history::Gesture;
 use super::icons::{self, Icon};
+use super::machine_menu;
 use super::row_places::{Grid, HEAD, Places};
 use super::session::{Phase, Session};
 use super::theme::{self, GRID, Look};
@@ -45,6 +46,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
             }
             facts(ui, &places, row, session, look);
             controls(ui, &places, row.node, session, look);
+            machine_menu::on(&response, session, row.node, look);
+            machine_menu::on_state(ui, (places.activity, places.row), session, row, look);
         }
     });
 }
@@ -113,7 +116,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     number(Some(places.left), count(row.left), some(row.left > 0));
     number(places.rate, a_second(row.rate), some(row.rate > 0.0));
     number(places.idle, fraction(row.idle), look.text);
-    let calm = row.activity.is_retired() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
+    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
     let now = pos2(places.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {
@@ -138,7 +141,7 @@ fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, l
         });
     });
     if percent != before {
-        session.change(Gesture::Speed(node), |settings| settings.speeds[usize::from(node)] = percent / 100.0);
+        session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
     let paused = session.is_node_paused(node);
     let response = ui.interact(places.pause, ui.scope_id().with(("pause", node)), Sense::click());
@@ -174,7 +177,7 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
         widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
     });
     if percent != before {
-        session.change(Gesture::Speed(node), |settings| settings.speeds[usize::from(node)] = percent / 100.0);
+        session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
 }
 

@@ -3,10 +3,12 @@
 use egui::{Align2, Painter, Rect, Sense, Ui};
 
 use super::focus::Focus;
+use super::machine_menu;
 use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, Look};
 use super::widgets;
+use crate::balance::NodeId;
 use crate::language::{say, word};
 use crate::view::{
     About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
@@ -14,7 +16,7 @@ use crate::view::{
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
-pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
+pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
@@ -62,8 +64,12 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
         (None, Some(Spot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
         (None, None) => None,
     };
-    if let Some((title, lines)) = more {
-        response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
+    if response.secondary_clicked() {
+        let node = match spot {
+            Some(Spot::Node(node)) if message.is_none() => Some(node),
+            _ => None,
+        };
+        ui.data_mut(|data| data.insert_temp(response.id, node));
     }
     if state.finished().is_none() {
         corner(&painter, rect, small_print(state), look);
@@ -73,6 +79,12 @@ pub fn show(ui: &mut Ui, session: &Session, focus: &mut Focus, lit: &Lit) {
         let time = time_words(stage.lasted(), stage.grain());
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
+    }
+    if let Some(node) = ui.data(|data| data.get_temp::<Option<NodeId>>(response.id)).flatten() {
+        machine_menu::on(&response, session, node, look);
+    }
+    if let Some((title, lines)) = more {
+        response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the user has set: what a run is made from, and what acts on the run that goes on.
 
 mod difference;
+mod header;
 
 use std::time::Duration;
 
@@ -8,11 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::preset::Preset;
 use super::tempo::Tempo;
-use crate::balance::{Remedies, Rules, Strategy};
-use crate::driver::auto_pace;
+use crate::balance::{NodeId, Strategy};
 use crate::language::{say, word};
 use crate::picture::{Division, Quality, Size};
-use crate::runlog::{Caption, Driver, Header, Link};
+use crate::runlog::Driver;
 use crate::view::Sharing;
 
 /// What the user has set. Speeds and latency act at once, everything else when a run starts.
@@ -35,6 +35,8 @@ pub struct Settings {
     pub tempo: Tempo,
     /// A machine a speed, as fractions of the reference machine.
     pub speeds: Vec<f64>,
+    /// Machines that are off at first and may join, in a ring that adapts: a speed each, at most [`Settings::MOST_SPARES`].
+    pub spares: Vec<f64>,
     /// What random speeds are made from.
     pub seed: u32,
     /// How long a message travels, in milliseconds, at most [`Settings::MOST_LATENCY`].
@@ -50,6 +52,8 @@ pub struct Settings {
 impl Settings {
     /// What the window can draw and tell apart.
     pub const MOST_NODES: usize = 32;
+    /// More of them would leave little room for the others.
+    pub const MOST_SPARES: usize = 4;
     /// Beyond it nobody sees a difference.
     pub const MOST_SAMPLES: u32 = 8;
     /// In milliseconds.
@@ -89,7 +93,14 @@ impl Settings {
         within(word!("Samples", "Amostras"), self.quality.samples, 1, Self::MOST_SAMPLES)?;
         self.quality.check()?;
         let machines = word!("The number of machines", "Número de máquinas");
-        within(machines, self.speeds.len() as u32, 1, Self::MOST_NODES as u32)?;
+        within(
+            machines,
+            self.speeds.len() as u32,
+            1,
+            (Self::MOST_NODES - self.spares.len().min(Self::MOST_SPARES)) as u32,
+        )?;
+        let spares = word!("The number of spare machines", "Número de máquinas de reserva");
+        within(spares, self.spares.len() as u32, 0, Self::MOST_SPARES as u32)?;
         within(word!("An atom's pixels", "Pixels de um átomo"), self.atom, 1, self.size.pixels())?;
         within(word!("A part", "Uma parte"), self.part, 1, Self::MOST_ATOMS)?;
         within(word!("The latency", "Latência"), self.latency, 0, Self::MOST_LATENCY)?;
@@ -100,7 +111,7 @@ impl Settings {
         if let Tempo::Lasts(seconds) = self.tempo {
             within(word!("A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
         }
-        if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
+        if !self.all_speeds().all(|speed| (0.0..=1.0).contains(&speed)) {
             return Err(word!("A speed can be 0 to 100 %", "Uma velocidade pode ser de 0 a 100 %").into());
         }
         let (atoms, most) = (self.division().atoms(), Self::MOST_ATOMS);
@@ -121,6 +132,7 @@ impl Settings {
         let unlike = |a: &Self| {
             let mut bare = a.clone();
             bare.speeds = vec![0.0; a.speeds.len()];
+            bare.spares = vec![0.0; a.spares.len()];
             (bare.latency, bare.seed) = (0, 0);
             bare
         };
@@ -129,7 +141,24 @@ impl Settings {
 
     /// As many machines, at the speeds that they have; new ones run at full speed.
     pub fn set_nodes(&mut self, nodes: usize) {
-        self.speeds.resize(nodes.clamp(1, Self::MOST_NODES), 1.0);
+        self.speeds.resize(nodes.clamp(1, Self::MOST_NODES - self.spares.len()), 1.0);
+    }
+
+    /// As many spare machines, if there is room for them.
+    pub fn set_spares(&mut self, spares: usize) {
+        self.spares.resize(spares.min(Self::MOST_SPARES).min(Self::MOST_NODES - self.speeds.len()), 1.0);
+    }
+
+    /// The speeds of all machines, the spare ones last.
+    pub fn all_speeds(&self) -> impl Iterator<Item = f64> {
+        self.speeds.iter().chain(&self.spares).copied()
+    }
+
+    /// Gives a machine a speed; it may be a spare one.
+    pub fn set_speed(&mut self, node: NodeId, speed: f64) {
+        if let Some(known) = self.speeds.iter_mut().chain(&mut self.spares).nth(node.into()) {
+            *known = speed;
+        }
     }
 
     /// Gives every machine a speed.
@@ -150,81 +179,24 @@ impl Settings {
     /// Shares the atoms so, with what is usual then: virtual time stays, unless rayon is to share them.
     pub fn set_sharing(&mut self, sharing: Sharing) {
         match sharing {
-            Sharing::Stealing => self.driver = Driver::WorkStealing,
+            Sharing::Stealing => {
+                self.driver = Driver::WorkStealing;
+                self.spares.clear();
+            }
             Sharing::By(strategy) => {
                 if self.driver == Driver::WorkStealing {
                     self.driver = Driver::Threads;
                 }
                 self.strategy = strategy;
                 self.part = strategy.usual_part(self.division(), self.speeds.len());
+                self.set_spares(if strategy == Strategy::Adaptive { 1 } else { 0 });
             }
-        }
-    }
-
-    /// What a run with these settings is asked to do. The scene has a `name` and its file's `text`, `work` is the time of
-    /// the whole picture on the reference machine at full pace, `cores` are those of this computer.
-    pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
-        let handling = Duration::from_millis(self.handling.into());
-        Header {
-            scene: name.to_owned(),
-            scene_text: text.to_owned(),
-            size: self.size,
-            quality: self.quality,
-            division: self.division(),
-            driver: self.driver,
-            rules: Rules {
-                strategy: self.strategy,
-                part: self.part,
-                batch: Some(Rules::batch_for(handling, self.speeds.len())),
-                beat: Rules::beat_for(handling, self.speeds.len()),
-                remedies: Remedies::ALL,
-            },
-            speeds: self.speeds.clone(),
-            spares: 0,
-            pace: self.pace(work, cores),
-            link: Link {
-                latency: self.latency_time(),
-                bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
-                shared: self.shared_wire,
-            },
-            handling,
-            cores: if self.driver == Driver::Sim { self.speeds.len() } else { cores },
-            // A run in virtual time is the same on every computer.
-            caption: if self.driver == Driver::Sim { Caption::default() } else { Caption::here(cores) },
-        }
-    }
-
-    /// The settings that a run with this header may have had. Two threads a node are not offered here: one does the same.
-    pub fn of(header: &Header, tempo: Tempo) -> Self {
-        let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
-        Self {
-            size: header.size,
-            quality: header.quality,
-            atom: header.division.atom_pixels(),
-            driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
-            strategy: header.rules.strategy,
-            part: header.rules.part,
-            tempo: if header.pace < 1.0 { tempo } else { Tempo::Full },
-            speeds: header.speeds.clone(),
-            latency: millis(header.link.latency),
-            handling: millis(header.handling),
-            // A limit stays one, however low.
-            bandwidth: header.link.bandwidth.map_or(0, |bandwidth| (bandwidth * 1e-3).ceil().max(1.0) as u32),
-            shared_wire: header.link.shared,
-            ..Self::default()
         }
     }
 
     /// How long a message travels.
     pub fn latency_time(&self) -> Duration {
         Duration::from_millis(self.latency.into())
-    }
-
-    fn pace(&self, work: Duration, cores: usize) -> f64 {
-        // Machines that share badly take longer than those in a ring: that is to be seen.
-        let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
-        let most = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&self.speeds, cores) };
-        self.tempo.pace(work, speeds.iter().sum(), most)
     }
 }
 
@@ -242,6 +214,7 @@ impl Default for Settings {
             part: 1,
             tempo: Tempo::Lasts(20),
             speeds: vec![1.0; 8],
+            spares: Vec::new(),
             seed: 1,
             latency: 40,
             handling: 0,
@@ -256,6 +229,7 @@ impl Default for Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::Rules;
 
     fn with(change: impl FnOnce(&mut Settings)) -> Settings {
         let mut settings = Settings::default();
@@ -324,6 +298,24 @@ mod tests {
         assert_eq!((settings.driver, settings.sharing()), (Driver::WorkStealing, Sharing::Stealing));
         settings.set_sharing(Sharing::By(Strategy::Ring));
         assert_eq!(settings, Settings::default());
+    }
+
+    #[test]
+    fn spare_machines_come_with_the_ring_that_adapts() {
+        let mut settings = with(|s| s.set_sharing(Sharing::By(Strategy::Adaptive)));
+        assert_eq!((settings.spares.len(), settings.speeds.len()), (1, 8));
+        settings.set_speed(8, 0.5);
+        let header = settings.header("", "", Duration::from_millis(300), 2);
+        assert_eq!((header.spares, header.speeds.len(), header.speeds[8]), (1, 9, 0.5));
+        assert!(header.is_spare(8) && !header.is_spare(7));
+        assert_eq!(Settings::of(&header, settings.tempo), settings);
+        let more = Settings { spares: vec![1.0; 2], ..settings.clone() };
+        assert!(more.needs_restart(&settings));
+        assert_eq!(more.difference(&settings), "2 spare machines");
+        settings.set_nodes(32);
+        assert_eq!((settings.speeds.len(), settings.check()), (31, Ok(())));
+        settings.set_sharing(Sharing::By(Strategy::Ring));
+        assert!(settings.spares.is_empty());
     }
 
     #[test]

@@ -13,6 +13,7 @@ use super::rates;
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button, next_of, popup_frame};
+use crate::balance::Condition;
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{Landmark, Sign, SignKind, Step, landmarks, time_words};
@@ -294,6 +295,25 @@ fn draw_sign(painter: &Painter, at: Pos2, sign: &Sign, stage: &Stage, look: Look
             for side in [-2.5, 2.5] {
                 let bar = Rect::from_center_size(above + vec2(side, -0.5), vec2(2.5, 7.0));
                 painter.rect_filled(bar, 0.0, own(node));
+            }
+        }
+        SignKind::Condition(node, condition) => {
+            // As in the timeline: a cross, an hourglass, a wire that is cut; and a tick for one that is well.
+            let strokes: &[[[f32; 2]; 2]] = match condition {
+                Condition::Off => &[[[-3.5, -4.0], [3.5, 3.0]], [[-3.5, 3.0], [3.5, -4.0]]],
+                Condition::Hung => &[
+                    [[-3.0, -4.0], [3.0, -4.0]],
+                    [[3.0, -4.0], [-3.0, 3.0]],
+                    [[-3.0, 3.0], [3.0, 3.0]],
+                    [[3.0, 3.0], [-3.0, -4.0]],
+                ],
+                Condition::CutOff => {
+                    &[[[-5.0, 0.0], [-2.0, 0.0]], [[2.0, 0.0], [5.0, 0.0]], [[-1.5, 3.0], [1.5, -3.5]]]
+                }
+                Condition::Well => &[[[-3.5, -0.5], [-1.0, 2.5]], [[-1.0, 2.5], [4.0, -4.0]]],
+            };
+            for stroke in strokes {
+                painter.line_segment(stroke.map(|point| above + point.into()), Stroke::new(1.75, own(node)));
             }
         }
         SignKind::Latency => {

@@ -8,7 +8,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
 use super::{BUILT_IN, Claim, Lesson, Look, Moment, Plan, Question, Step, Words};
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{Condition, NodeId, Strategy};
 use crate::picture::Size;
 use crate::ron_file::{self, FileError, find_path, skipped};
 use crate::scenario::Command;
@@ -89,16 +89,29 @@ struct PlanFile {
     latency_ms: f64,
     handling_ms: f64,
     seconds: f64,
+    spares: usize,
     script: Vec<Deed>,
 }
 
-/// At some second a machine gets another speed.
+/// At some second a machine gets another speed, or something else becomes of it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Deed {
     at: f64,
     machine: usize,
-    speed: f64,
+    #[serde(default)]
+    speed: Option<f64>,
+    #[serde(default)]
+    becomes: Option<Becomes>,
+}
+
+/// What becomes of a machine.
+#[derive(Clone, Copy, Deserialize)]
+enum Becomes {
+    Well,
+    Hung,
+    CutOff,
+    Off,
 }
 
 #[derive(Deserialize)]
@@ -141,6 +154,7 @@ impl Default for PlanFile {
             latency_ms: 40.0,
             handling_ms: 0.0,
             seconds: 20.0,
+            spares: 0,
             script: Vec::new(),
         }
     }
@@ -214,6 +228,10 @@ impl PlanFile {
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
             return Err(Wrong::new(&["speeds"], "a speed can be 0 to 1"));
         }
+        if self.spares >= self.speeds.len() || self.spares > 0 && self.strategy != Strategy::Adaptive {
+            let why = "only an `adaptive` run has spare machines, the last of its `speeds`, and not all can be spare";
+            return Err(Wrong::new(&["spares"], why));
+        }
         let ms = |field, value| {
             within(&format!("`{field}`"), value, 0.0, 60_000.0)
                 .map(|value| Duration::from_secs_f64(value * 1e-3))
@@ -240,6 +258,8 @@ impl PlanFile {
             handling: ms("handling_ms", self.handling_ms)?,
             lasts: Duration::from_secs_f64(lasts),
             speeds: self.speeds,
+            // Fewer than machines, of which there are few.
+            spares: self.spares as NodeId,
             script,
         })
     }
@@ -248,9 +268,24 @@ impl PlanFile {
 impl Deed {
     fn resolve(self, machines: usize) -> Result<(Time, Command), String> {
         let node = node(self.machine, machines)?;
-        let speed = within("a speed", self.speed, 0.0, 1.0)?;
         let at = within("the second at which a machine changes", self.at, 0.0, 3600.0)?;
-        Ok((Time::from_secs(at), Command::Speed { node, speed }))
+        let command = match (self.speed, self.becomes) {
+            (Some(speed), None) => Command::Speed { node, speed: within("a speed", speed, 0.0, 1.0)? },
+            (None, Some(becomes)) => Command::Condition { node, condition: becomes.condition() },
+            _ => return Err("a machine gets another `speed`, or `becomes` something: one of both".into()),
+        };
+        Ok((Time::from_secs(at), command))
+    }
+}
+
+impl Becomes {
+    fn condition(self) -> Condition {
+        match self {
+            Self::Well => Condition::Well,
+            Self::Hung => Condition::Hung,
+            Self::CutOff => Condition::CutOff,
+            Self::Off => Condition::Off,
+        }
     }
 }
 

@@ -56,6 +56,8 @@ pub struct Plan {
     pub part: Option<u32>,
     /// A machine a speed, 0 to 1.
     pub speeds: Vec<f64>,
+    /// How many of the machines, the last ones, are off at first and may join.
+    pub spares: NodeId,
     /// How long a message travels.
     pub latency: Duration,
     /// How long the parent is busy with a message.
@@ -109,7 +111,7 @@ pub struct Question {
 }
 
 /// The lessons that come with the program, in the order in which they are best taken: name and text.
-pub const BUILT_IN: [(&str, &str); 7] = [
+pub const BUILT_IN: [(&str, &str); 10] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),
     ("farm", include_str!("../../assets/lessons/farm.ron")),
@@ -117,4 +119,7 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("slow-machine", include_str!("../../assets/lessons/slow-machine.ron")),
     ("sizes", include_str!("../../assets/lessons/sizes.ron")),
     ("limits", include_str!("../../assets/lessons/limits.ron")),
+    ("by-speed", include_str!("../../assets/lessons/by-speed.ron")),
+    ("woken", include_str!("../../assets/lessons/woken.ron")),
+    ("lost-machine", include_str!("../../assets/lessons/lost-machine.ron")),
 ];

@@ -28,6 +28,14 @@ pub enum Moment {
     SmallestTransfer,
     /// A machine is no longer needed for the first time.
     FirstRetired,
+    /// Something becomes of a machine for the first time.
+    FirstFailure,
+    /// The ring closes round a machine, or opens for one, for the first time.
+    FirstGone,
+    /// Atoms that are late or lost are given to another machine for the first time, to be traced again.
+    FirstAgain,
+    /// A machine that sleeps is woken for the first time.
+    FirstWake,
     /// From here on only one machine traces.
     LastAlone,
     /// Everything has happened.
@@ -60,11 +68,18 @@ impl Moment {
                 transfers(records).min_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
             }
             Self::FirstRetired => first(&|what| matches!(what, What::Retired { .. })),
+            Self::FirstFailure => first(&|what| matches!(what, What::Condition { .. })),
+            Self::FirstGone => records.iter().position(|record| {
+                // At the beginning only the seats are empty that were never taken.
+                record.at > Time::ZERO && matches!(record.what, What::Sent { message: Message::Gone(_), .. })
+            }),
+            Self::FirstAgain => first(&|what| matches!(what, What::Sent { message: Message::Again(_), .. })),
+            Self::FirstWake => first(&|what| matches!(what, What::Sent { message: Message::Wake, .. })),
             Self::LastAlone => alone(log),
         }?;
         let about = match &records[index].what {
             What::Sent { id, .. } => Some(About::Message(*id)),
-            What::Retired { node } => Some(About::Node(*node)),
+            What::Retired { node } | What::Condition { node, .. } => Some(About::Node(*node)),
             _ => None,
         };
         Some((index + 1, about))

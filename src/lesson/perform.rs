@@ -80,7 +80,8 @@ impl Plan {
     fn trial(&self, opened: &Opened, costs: &PixelCosts) -> Trial {
         let plain = Header::plain(self.size, self.atom, self.strategy, self.speeds.clone());
         // Some machines may stand still, but not all.
-        let power: f64 = self.speeds.iter().sum::<f64>().max(1e-3);
+        let own = self.speeds.len() - usize::from(self.spares);
+        let power: f64 = self.speeds[..own].iter().sum::<f64>().max(1e-3);
         let pace = costs.whole().as_secs_f64() / (self.lasts.as_secs_f64() * power);
         let header = Header {
             scene: opened.name.clone(),
@@ -91,6 +92,7 @@ impl Plan {
                 beat: Rules::beat_for(self.handling, self.speeds.len()),
                 ..plain.rules
             },
+            spares: self.spares,
             pace: pace.clamp(1e-9, 1.0),
             link: Link { latency: self.latency, ..plain.link },
             handling: self.handling,

@@ -48,6 +48,8 @@ impl Trial {
             What::Paused { node } => Some(Command::Pause { node, paused: true }),
             What::Resumed { node } => Some(Command::Pause { node, paused: false }),
             What::LatencySet { latency } => Some(Command::Latency(latency)),
+            What::Condition { node, condition } => Some(Command::Condition { node, condition }),
+            What::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
             _ => None,
         };
         let script = log.records().iter().filter_map(|record| Some((record.at, command(&record.what)?))).collect();
@@ -64,8 +66,17 @@ impl Trial {
         let mut trial = self.clone();
         let header = &mut trial.header;
         match change {
-            Change::Strategy(strategy) => header.rules.strategy = strategy,
-            Change::Nodes(nodes) => header.speeds.resize(nodes.max(1), 1.0),
+            Change::Strategy(strategy) => {
+                header.rules.strategy = strategy;
+                if strategy != Strategy::Adaptive {
+                    // Nobody would let them in.
+                    header.speeds.truncate(header.speeds.len() - usize::from(std::mem::take(&mut header.spares)));
+                }
+            }
+            Change::Nodes(nodes) => {
+                header.speeds.resize(nodes.max(1), 1.0);
+                header.spares = header.spares.min(header.speeds.len() as NodeId - 1);
+            }
             Change::Speed(node, speed) => {
                 if let Some(known) = header.speeds.get_mut(usize::from(node)) {
                     *known = speed;
@@ -165,6 +176,7 @@ mod tests {
     use proptest::prelude::{prop, prop_assert_eq, proptest};
 
     use super::*;
+    use crate::balance::Condition;
     use crate::runlog::Tally;
     use crate::runlog::examples::header;
 
@@ -195,6 +207,17 @@ mod tests {
     }
 
     #[test]
+    fn spares_stay_only_where_they_may_join() {
+        let mut trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
+        trial = trial.with(Change::Strategy(Strategy::Adaptive));
+        trial.header.spares = 1;
+        let ring = trial.with(Change::Strategy(Strategy::Ring)).header;
+        assert_eq!((ring.speeds.len(), ring.spares, ring.cores), (2, 0, 2));
+        let one = trial.with(Change::Nodes(1)).header;
+        assert_eq!((one.speeds.len(), one.spares), (1, 0));
+    }
+
+    #[test]
     fn a_fork_is_the_same_until_it_parts() {
         let trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
         let half = Time::ZERO + makespan(&trial) / 2;
@@ -212,6 +235,9 @@ mod tests {
         assert_eq!(Trial::of(&log), trial);
         assert_eq!(Trial::of(&log).run(&costs(trial.header.size)), log);
         assert_eq!([Time(400_000), Time(500_000)].map(|at| trial.speed_at(at, 1)), [1.0, 0.2]);
+        let off = Command::Condition { node: 1, condition: Condition::Off };
+        let failing = Trial { script: vec![(Time(500_000), off)], ..trial.clone() };
+        assert_eq!(Trial::of(&failing.run(&costs(trial.header.size))), failing);
         let fork = trial.with(Change::SpeedAt(Time(10), 1, 0.5));
         assert_eq!(fork.script, [(Time(10), Command::Speed { node: 1, speed: 0.5 })]);
     }

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::flight::{Cargo, Flight};
 use super::hover::{Fact, atom_words, flight_words, node_facts};
-use super::lanes::{Lanes, Traced};
+use super::lane::Traced;
+use super::lanes::Lanes;
 use super::moment::{Moment, Past};
 use super::state::RunState;
 use super::steps::About;

@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
-use super::lanes::{Lane, Lanes, Stay};
+use super::lane::{Lane, Stay};
+use super::lanes::Lanes;
 use super::sharing::Sharing;
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::runlog::{Messages, RunLog, Tally};
@@ -152,12 +153,20 @@ impl Account {
 /// From when on the machines' speeds together are how much.
 fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
     let mut speeds = log.header.speeds.clone();
-    let mut powers = vec![(Duration::ZERO, speeds.iter().sum())];
+    let mut works: Vec<bool> = (0..).zip(&speeds).map(|(node, _)| !log.header.is_spare(node)).collect();
+    let power = |speeds: &[f64], works: &[bool]| {
+        speeds.iter().zip(works).filter(|(_, works)| **works).map(|(speed, _)| speed).sum()
+    };
+    let mut powers = vec![(Duration::ZERO, power(&speeds, &works))];
     for record in log.records() {
-        if let What::SpeedSet { node, speed } = record.what {
-            speeds[usize::from(node)] = speed;
-            powers.push((record.at.since(Time::ZERO), speeds.iter().sum()));
+        match record.what {
+            What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
+            What::Condition { node, condition } => {
+                works[usize::from(node)] = matches!(condition, Condition::Well | Condition::CutOff);
+            }
+            _ => continue,
         }
+        powers.push((record.at.since(Time::ZERO), power(&speeds, &works)));
     }
     powers
 }

@@ -1,17 +1,21 @@
 //! The last events of a run as sentences. What belongs together is one event, so that no kind drowns the others.
 
+mod mending;
+
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use super::mishap;
 use super::sentences;
 use super::sharing::Sharing;
 use super::state::RunState;
-use super::words::{atoms_words, counted, fraction, names, node_name};
-use crate::balance::{Message, NodeId, Party};
+use super::words::{atoms_words, counted, fraction, node_name};
+use crate::balance::{Help, Message, NodeId, Party};
 use crate::language::{say, word};
 use crate::picture::atoms_in;
 use crate::record::{Record, What};
 use crate::time::Time;
+use mending::Mishap;
 
 /// The last events, the newest last.
 #[derive(Clone, Debug, Default)]
@@ -54,6 +58,8 @@ enum Event {
     },
     Paused,
     Latency,
+    Condition,
+    Mishap(Mishap),
     End,
 }
 
@@ -74,11 +80,12 @@ impl Events {
                     self.tell(at, Event::Bands, sentences::bands(state, band));
                 }
             }
-            What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if from == who => {
+            What::Sent { from: Party::Node(from), message, .. } if own_offer(*from, message).is_some() => {
+                let (who, done) = (from, own_offer(*from, message).unwrap_or_default());
                 // Later offers are told by what comes of them.
                 if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
                     let whole = node.given.atoms == 0;
-                    self.tell(at, Event::Offer(*who), sentences::offer(*who, whole, *done));
+                    self.tell(at, Event::Offer(*who), sentences::offer(state, *who, whole, done));
                 }
             }
             What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
@@ -134,8 +141,9 @@ impl Events {
                 self.tell(at, Event::Retired(nodes), sentence);
             }
             What::Finished => self.tell(at, Event::End, sentences::complete().into()),
+            What::Condition { node, .. } => self.tell(at, Event::Condition, mishap::condition(state, *node)),
+            What::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
             What::Sent { .. }
-            | What::Condition { .. }
             | What::Link { .. }
             | What::Lost { .. }
             | What::AtomFailed { .. }
@@ -154,7 +162,9 @@ impl Events {
 
     /// What somebody did to the run last.
     pub(super) fn latest_by_hand(&self) -> Option<&str> {
-        let by_hand = |told: &&Told| matches!(told.event, Event::Speed { .. } | Event::Paused | Event::Latency);
+        let by_hand = |told: &&Told| {
+            matches!(told.event, Event::Speed { .. } | Event::Paused | Event::Latency | Event::Condition)
+        };
         self.told.iter().rev().find(by_hand).map(|told| &*told.sentence)
     }
 
@@ -197,27 +207,7 @@ impl Events {
         if let Err(place) = receivers.binary_search(&to) {
             receivers.insert(place, to);
         }
-        let (giver, takers, words) = (node_name(from), names(&receivers), atoms_words(all));
-        let sentence = if is_theft && receivers.len() == 1 {
-            say!(
-                "{takers} steals few atoms at a time from {giver}: {words}",
-                "{takers} rouba poucos átomos por vez de {giver}: {words}"
-            )
-        } else if is_theft {
-            say!(
-                "{takers} steal few atoms at a time from {giver}: {words}",
-                "{takers} roubam poucos átomos por vez de {giver}: {words}"
-            )
-        } else if receivers.len() == 1 {
-            say!("{giver} gave {words} to {takers}", "{giver} deu {words} a {takers}")
-        } else if all as usize == receivers.len() {
-            say!("{giver} gave 1 atom to {takers}", "{giver} deu 1 átomo a {takers}")
-        } else {
-            say!(
-                "{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels",
-                "{giver} deu poucos átomos por vez a {takers}: {all} em {transfers} pacotes"
-            )
-        };
+        let sentence = sentences::trickle((from, &receivers), (transfers, all), is_theft);
         self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
     }
 
@@ -244,6 +234,15 @@ impl Events {
         if self.told.len() > KEPT {
             self.told.pop_front();
         }
+    }
+}
+
+/// How many atoms the sender has traced, if this is its own offer, and not one that stays with its receiver.
+pub(super) fn own_offer(from: NodeId, message: &Message) -> Option<u32> {
+    match *message {
+        Message::Offer { help: Some(Help { left: None, .. }), .. } => None,
+        Message::Offer { who, done, .. } => (who == from).then_some(done),
+        _ => None,
     }
 }
 

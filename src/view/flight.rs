@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::slice;
 use std::time::Duration;
 
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Help, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
@@ -30,6 +30,8 @@ pub struct Flight {
     pub arrives: Time,
     /// The run's seconds in a second of whoever looks on, at most 1.
     pub(super) rate: f64,
+    /// Where on its way it was lost, 0 to 1, if it was.
+    pub(super) lost: Option<f32>,
 }
 
 /// What a message carries, as far as views care.
@@ -54,6 +56,8 @@ pub enum Cargo {
     Again(Vec<Range<Atom>>),
     /// A sleeping node is woken.
     Wake,
+    /// A node says that it sleeps.
+    Sleeps,
     /// What a node tells the parent of what it has.
     Beat,
     /// What the parent is told or tells of losses.
@@ -62,11 +66,15 @@ pub enum Cargo {
     Shutdown,
 }
 
+/// How long a cross is seen.
+const CROSS: Duration = Duration::from_millis(900);
+
 impl Flight {
     /// The message `id` that left at `sent`.
     pub fn new(id: u64, (from, to): (Party, Party), message: &Message, sent: Time, arrives: Time) -> Self {
         let cargo = match message {
             Message::Band(band) => Cargo::Band(band.clone()),
+            Message::Offer { help: Some(Help { left: None, .. }), .. } => Cargo::Sleeps,
             Message::Offer { who, .. } => Cargo::Offer { who: *who },
             Message::Request => Cargo::Request,
             Message::Part(part) => Cargo::Part(part.clone()),
@@ -78,17 +86,34 @@ impl Flight {
             Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
             Message::Shutdown => Cargo::Shutdown,
         };
-        Self { id, from, to, cargo, sent, arrives, rate: 1.0 }
+        Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None }
     }
 
-    /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen.
+    /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen; or to where
+    /// it is lost.
     pub fn shown(&self) -> Range<Time> {
-        self.sent..self.arrives.max(self.sent + self.cargo.shortest().mul_f64(self.rate))
+        let length = self.whole_way().mul_f64(self.lost.map_or(1.0, f64::from));
+        self.sent..self.sent + length
+    }
+
+    /// It is lost: at its end, if nobody is there to receive it, else half-way, or where it is drawn if that is further.
+    pub(super) fn lose(&mut self, at: Time, at_its_end: bool) {
+        self.lost = Some(if at_its_end { 1.0 } else { self.progress(at).max(0.5) });
+    }
+
+    /// How strongly the cross is seen at `now` that stands where it was lost, 0 to 1.
+    pub(super) fn cross(&self, now: Time) -> f32 {
+        if self.lost.is_some() && now >= self.shown().end { self.presence(now) } else { 0.0 }
+    }
+
+    /// How long it is drawn if it arrives.
+    fn whole_way(&self) -> Duration {
+        self.arrives.since(self.sent).max(self.cargo.shortest().mul_f64(self.rate))
     }
 
     /// When the last of its trail is gone at the latest, however fast time goes.
     pub(super) fn gone_at_last(&self) -> Time {
-        self.arrives.max(self.sent + self.cargo.shortest()) + self.cargo.fade()
+        self.arrives.max(self.sent + self.cargo.shortest()) + self.cargo.fade().max(CROSS)
     }
 
     /// When the last of its fading trail is gone.
@@ -97,14 +122,14 @@ impl Flight {
     }
 
     fn fade(&self) -> Duration {
-        self.cargo.fade().mul_f64(self.rate)
+        let fade = self.cargo.fade();
+        if self.lost.is_some() { fade.max(CROSS) } else { fade }.mul_f64(self.rate)
     }
 
     /// How far it is on its way at `now`, 0 to 1.
     pub fn progress(&self, now: Time) -> f32 {
-        let shown = self.shown();
-        let length = shown.end.since(shown.start).as_secs_f64();
-        if length == 0.0 { 1.0 } else { (now.since(shown.start).as_secs_f64() / length).min(1.0) as f32 }
+        let (length, most) = (self.whole_way().as_secs_f64(), self.lost.unwrap_or(1.0));
+        if length == 0.0 { most } else { ((now.since(self.sent).as_secs_f64() / length) as f32).min(most) }
     }
 
     /// How strongly its trail is still seen at `now`: 1 until it has arrived, then less and less, at last 0.
@@ -126,7 +151,8 @@ impl Cargo {
         match self {
             Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
             Self::Transfer(ranges) | Self::Results(ranges) | Self::Again(ranges) => ranges,
-            Self::Offer { .. } | Self::Request | Self::Wake | Self::Beat | Self::Notice | Self::Shutdown => &[],
+            Self::Offer { .. } | Self::Request | Self::Wake | Self::Sleeps => &[],
+            Self::Beat | Self::Notice | Self::Shutdown => &[],
         }
     }
 
@@ -146,7 +172,7 @@ impl Cargo {
             Self::Part(atoms) if atoms.start == atoms.end => Duration::from_millis(900),
             Self::Part(_) => Duration::from_millis(400),
             Self::Request | Self::Wake => Duration::from_millis(250),
-            Self::Offer { .. } | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
+            Self::Offer { .. } | Self::Sleeps | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
         }
     }
 
@@ -157,7 +183,8 @@ impl Cargo {
             Self::Band(_) | Self::Part(_) | Self::Transfer(_) | Self::Again(_) | Self::Wake => {
                 Duration::from_millis(300)
             }
-            Self::Results(_) | Self::Request | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
+            Self::Results(_) | Self::Request => Duration::ZERO,
+            Self::Sleeps | Self::Beat | Self::Notice | Self::Shutdown => Duration::ZERO,
         }
     }
 }
@@ -190,6 +217,20 @@ mod tests {
         let later = offer.presence(Time::from_secs(1.44));
         assert!(later > 0.2 && later < 0.8, "{later}");
         assert_eq!(offer.presence(offer.gone()), 0.0);
+    }
+
+    #[test]
+    fn a_lost_message_ends_half_way_or_where_nobody_is() {
+        let at = Time::from_secs(0.04);
+        for (at_its_end, way) in [(false, 0.5), (true, 1.0)] {
+            let mut flight = transfer(0, 40_000_000);
+            flight.lose(at, at_its_end);
+            assert_eq!(flight.shown().end, Time::from_secs(f64::from(way)));
+            assert_eq!((flight.progress(Time::from_secs(5.0)), flight.cross(at)), (way, 0.0));
+            assert_eq!(flight.cross(flight.shown().end), 1.0);
+            assert_eq!(flight.cross(flight.gone()), 0.0);
+            assert!(flight.gone() > flight.shown().end + Duration::from_millis(500));
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use super::flight::Flight;
+use crate::time::Time;
 
 /// Messages in the order in which they left. Those that can be seen no more are swept out now and then.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +25,13 @@ impl Flights {
             self.swept = self.flights.len();
         }
         self.flights.push(Flight { rate: self.rate(), ..flight });
+    }
+
+    /// A message is lost now.
+    pub fn lose(&mut self, id: u64, at: Time, at_its_end: bool) {
+        if let Some(flight) = self.flights.iter_mut().rfind(|flight| flight.id == id) {
+            flight.lose(at, at_its_end);
+        }
     }
 
     /// How many of the run's seconds go by in a second, at most one.
@@ -53,7 +61,6 @@ impl Deref for Flights {
 mod tests {
     use super::*;
     use crate::balance::{Message, Party};
-    use crate::time::Time;
 
     #[test]
     fn those_that_are_gone_are_swept_out_and_others_stay() {

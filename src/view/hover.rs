@@ -9,7 +9,7 @@ use super::place::Place;
 use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{activity_word, atoms_words, count, counted, duration, fraction, node_name, percent, rate_words};
-use crate::balance::{NodeId, Party};
+use crate::balance::{Condition, NodeId, Party};
 use crate::language::{decimal, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
@@ -185,6 +185,7 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
             }
         }
         (Place::With { node, since }, _) => with_words(state, atom, (node, since), now),
+        (Place::Lost, _) => word!("lost: nobody has it", "perdido: ninguém o tem").into(),
         (Place::Nowhere, _) => word!("still with the parent", "ainda com o pai").into(),
     };
     let name = count(atom.saturating_add(1));
@@ -198,7 +199,7 @@ pub fn flight_words(flight: &Flight) -> String {
         Party::Node(node) => node_name(node).to_string(),
     };
     let (from, to, atoms) = (name(flight.from), name(flight.to), atoms_words(flight.cargo.atoms()));
-    match &flight.cargo {
+    let words = match &flight.cargo {
         Cargo::Band(_) => say!("{atoms} for {to}, its band", "{atoms} para {to}, sua faixa"),
         Cargo::Request => say!("{from} asks {to} for atoms", "{from} pede átomos ao pai"),
         Cargo::Part(_) if flight.cargo.atoms() == 0 => {
@@ -220,17 +221,22 @@ pub fn flight_words(flight: &Flight) -> String {
             "{atoms} from {from} to {to}, to be traced once more",
             "{atoms} de {from} para {to}, para calcular de novo"
         ),
+        Cargo::Sleeps => say!("{from} tells {to} that it sleeps", "{from} diz a {to} que dorme"),
         Cargo::Wake => say!("{from} wakes {to}", "{from} acorda {to}"),
         Cargo::Beat => say!("{from} tells {to} what it has", "{from} diz ao pai o que tem"),
         Cargo::Notice => say!("{from} tells {to} what is lost", "{from} diz a {to} o que se perdeu"),
         Cargo::Shutdown => say!("The end, for {to}", "A mensagem de suicídio, para {to}"),
-    }
+    };
+    if flight.lost.is_some() { say!("{words}: lost", "{words}: perdida") } else { words }
 }
 
 /// An atom is at a node.
 fn with_words(state: &RunState, atom: Atom, (node, since): (NodeId, Time), now: Time) -> String {
     let (name, waited) = (node_name(node), duration(now.since(since)));
     match state.nodes().get(usize::from(node)) {
+        Some(of) if of.condition == Condition::Hung => {
+            say!("is with {name}, which hangs", "está com {name}, que travou")
+        }
         Some(of) if of.atom == Some(atom) && of.paused => {
             say!("{name} has begun it, but is paused", "{name} o começou, mas está em pausa")
         }

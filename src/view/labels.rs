@@ -154,7 +154,7 @@ pub(super) fn label(
     let labels = &plan.labels;
     let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail);
     let [x, y] = [plan.centre[0] + dx, plan.centre[1] + dy];
-    let ink = if activity.is_retired() { Hue::Quiet } else { Hue::Text }.full();
+    let ink = if activity.is_out() { Hue::Quiet } else { Hue::Text }.full();
     let (size, small) = (labels.size(), TextSize::Small(labels.text));
     let [first, second] = match labels.form {
         Form::Nothing => return,
@@ -182,9 +182,9 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [St
     let [left, done] = [of.left(), of.done].map(short);
     let (left, done) = (say!("{left} left", "{rest} {left}"), say!("{done} done", "{done} {made}"));
     match activity {
-        _ if state.finished().is_some() => [done, percent(of.done, state.atoms())],
-        Activity::Waiting => [activity_word(activity).into(), String::new()],
-        _ if activity.is_retired() => [done, activity_word(activity).into()],
+        _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
+        Activity::Waiting | Activity::Spare => [activity_word(activity).into(), String::new()],
+        _ if activity.is_out() => [done, activity_word(activity).into()],
         Activity::Computing => {
             let rate = rate_words(of.rate(now));
             let both = format!("{} · {rate}", fraction(of.speed));
@@ -196,7 +196,7 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [St
 
 /// The same in a number.
 fn number(state: &RunState, of: &NodeState, activity: Activity) -> String {
-    let done = state.finished().is_some() || activity.is_retired();
+    let done = state.finished().is_some() || activity.is_out();
     short(if done { of.done } else { of.left() })
 }
 
@@ -237,7 +237,7 @@ mod tests {
         fn labels_are_no_longer_than_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
             let mut state = RunState::new(&sample::header(&[1.0], 9));
             for ms in 0..done % 3000 {
-                state.nodes[0].atom_done(Time(u64::from(ms) * 1_000_000));
+                state.nodes[0].atom_done(true, Time(u64::from(ms) * 1_000_000));
             }
             let mut of = state.nodes[0].clone();
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);

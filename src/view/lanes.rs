@@ -1,9 +1,9 @@
 //! What each machine did and when, as a fold over records: a lane a node.
 
-use std::time::Duration;
-
 use super::flight::{Cargo, Flight};
-use crate::balance::{Condition, Message, NodeId, Party};
+use super::lane::{Lane, Stay, Traced};
+use super::sharing::Sharing;
+use crate::balance::{Condition, NodeId, Party};
 use crate::picture::Atom;
 use crate::record::{Record, What};
 use crate::runlog::{Header, RunLog};
@@ -17,46 +17,7 @@ pub struct Lanes {
     /// By trip: the bytes of it and of all that were told before it.
     bytes: Vec<u64>,
     version: u64,
-}
-
-/// What one machine did and when.
-#[derive(Clone, Debug, Default)]
-pub struct Lane {
-    /// What it traced, by time.
-    bars: Vec<Traced>,
-    /// The atom that it is tracing, and since when.
-    open: Option<(Atom, Time)>,
-    /// From when on it is in which state, by time.
-    stays: Vec<(Time, Stay)>,
-    /// When its worker was made to stand still, and how long.
-    pauses: Vec<(Time, Option<Time>)>,
-}
-
-/// An atom that was traced.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traced {
-    /// When its worker began it.
-    pub from: Time,
-    /// When it was done.
-    pub to: Time,
-    /// Which.
-    pub atom: Atom,
-}
-
-/// What a machine is about while it traces nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stay {
-    /// It waits for its band.
-    #[default]
-    Waits,
-    /// It has atoms.
-    Works,
-    /// Its offer, or its request, is on its way.
-    Offers,
-    /// Atoms are on their way to it.
-    Receives,
-    /// Nobody needs it.
-    Retired,
+    is_adaptive: bool,
 }
 
 /// A message, from when it left to when it arrives.
@@ -89,6 +50,8 @@ pub enum Load {
     Atoms,
     /// Traced atoms.
     Results,
+    /// What keeps a ring that adapts whole: who is there, and has what.
+    Notice,
     /// The end.
     Shutdown,
 }
@@ -96,7 +59,17 @@ pub enum Load {
 impl Lanes {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
-        Self { lanes: vec![Lane::default(); header.speeds.len()], trips: Vec::new(), bytes: Vec::new(), version: 0 }
+        let lane = |(node, _)| Lane {
+            conditions: if header.is_spare(node) { vec![(Time::ZERO, Condition::Off)] } else { Vec::new() },
+            ..Lane::default()
+        };
+        Self {
+            lanes: (0..).zip(&header.speeds).map(lane).collect(),
+            trips: Vec::new(),
+            bytes: Vec::new(),
+            version: 0,
+            is_adaptive: Sharing::of(header).is_adaptive(),
+        }
     }
 
     /// Of all of a run.
@@ -112,15 +85,15 @@ impl Lanes {
         let at = record.at;
         match &record.what {
             What::Sent { id, from, to, message, bytes, arrives } => {
-                self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), message, *bytes);
+                self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), *bytes);
             }
             What::Condition { node, condition } => {
-                let stands = matches!(condition, Condition::Hung | Condition::Off);
                 if let Some(lane) = self.lane(*node) {
-                    lane.stands(at, stands);
+                    lane.condition(at, *condition);
                 }
             }
-            What::Link { .. } | What::Lost { .. } | What::AtomFailed { .. } | What::GivenUp { .. } => {}
+            What::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
+            What::Link { .. } | What::Lost { .. } | What::GivenUp { .. } => {}
             What::Received { .. } | What::Estimating | What::Estimated { .. } | What::LatencySet { .. } => {}
             What::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
@@ -142,7 +115,12 @@ impl Lanes {
             }
             What::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
             What::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
-            What::Retired { node } => _ = self.lane(*node).map(|lane| lane.stay(at, Stay::Retired)),
+            What::Retired { node } => {
+                let stay = if self.is_adaptive { Stay::Asleep } else { Stay::Retired };
+                if let Some(lane) = self.lane(*node) {
+                    lane.stay(at, stay);
+                }
+            }
             What::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, Stay::Retired)),
         }
     }
@@ -196,7 +174,7 @@ impl Lanes {
         self.lanes.get_mut(usize::from(node))
     }
 
-    fn sent(&mut self, flight: Flight, message: &Message, bytes: u64) {
+    fn sent(&mut self, flight: Flight, bytes: u64) {
         let Flight { id, from, to, sent, arrives, .. } = flight;
         let atoms = flight.cargo.atoms();
         let load = match &flight.cargo {
@@ -204,18 +182,19 @@ impl Lanes {
             Cargo::Request => Load::Request,
             Cargo::Part(part) if part.is_empty() => Load::Request,
             Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_) => Load::Atoms,
-            Cargo::Results(_) | Cargo::Beat | Cargo::Notice => Load::Results,
+            Cargo::Results(_) => Load::Results,
+            Cargo::Sleeps | Cargo::Beat | Cargo::Notice => Load::Notice,
             Cargo::Shutdown => Load::Shutdown,
         };
         if let Party::Node(node) = from {
-            let own = matches!(message, Message::Offer { who, .. } if *who == node);
+            let own = matches!(flight.cargo, Cargo::Offer { who } if who == node);
             if (own || load == Load::Request)
                 && let Some(lane) = self.lane(node)
             {
                 lane.stay(sent, Stay::Offers);
             }
         }
-        if let (Party::Node(node), Load::Atoms) = (to, load)
+        if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
             && let Some(lane) = self.lane(node)
         {
             lane.stay(sent, Stay::Receives);
@@ -238,84 +217,6 @@ pub struct Usage {
     pub messages: usize,
     /// What these weigh on the wire.
     pub bytes: u64,
-}
-
-impl Lane {
-    /// What it traced, by time; the atom that it is tracing is not there yet.
-    pub fn bars(&self) -> &[Traced] {
-        &self.bars
-    }
-
-    /// The atom that it is tracing, and since when.
-    pub fn open(&self) -> Option<(Atom, Time)> {
-        self.open
-    }
-
-    /// From when on it is in which state, by time.
-    pub fn stays(&self) -> &[(Time, Stay)] {
-        &self.stays
-    }
-
-    /// From when to when its worker was made to stand still; the last may go on.
-    pub fn pauses(&self) -> &[(Time, Option<Time>)] {
-        &self.pauses
-    }
-
-    /// The bars that reach into a stretch of time.
-    pub fn bars_in(&self, from: Time, to: Time) -> &[Traced] {
-        let first = self.bars.partition_point(|bar| bar.to < from);
-        let last = self.bars.partition_point(|bar| bar.from <= to);
-        &self.bars[first..last.max(first)]
-    }
-
-    /// The bar at a time.
-    pub fn bar_at(&self, time: Time) -> Option<Traced> {
-        self.bars_in(time, time).last().copied()
-    }
-
-    /// What it is about at a time, apart from atoms that it traces.
-    pub fn stay_at(&self, time: Time) -> Stay {
-        let before = self.stays.partition_point(|(from, _)| *from <= time);
-        before.checked_sub(1).map_or(Stay::Waits, |last| self.stays[last].1)
-    }
-
-    /// Seconds in which it traced atoms.
-    fn busy(&self, from: Time, to: Time) -> f64 {
-        let within = |start: Time, end: Time| end.min(to).since(start.max(from)).as_secs_f64();
-        let open = self.open.map_or(0.0, |(_, since)| within(since, to));
-        self.bars_in(from, to).iter().map(|bar| within(bar.from, bar.to)).sum::<f64>() + open
-    }
-
-    /// Seconds until `now` in which it offered help, asked, or waited for atoms on their way.
-    fn asking(&self, now: Time) -> f64 {
-        let ends = self.stays.iter().skip(1).map(|(at, _)| *at).chain([now]);
-        let length = |((from, stay), end): (&(Time, Stay), Time)| match stay {
-            Stay::Offers | Stay::Receives => end.min(now).since(*from),
-            Stay::Waits | Stay::Works | Stay::Retired => Duration::ZERO,
-        };
-        self.stays.iter().zip(ends).map(length).sum::<Duration>().as_secs_f64()
-    }
-
-    fn stay(&mut self, at: Time, stay: Stay) {
-        // What another party told may come before what this one did earlier.
-        let place = self.stays.partition_point(|(other, _)| *other <= at);
-        let before = place.checked_sub(1).map(|last| self.stays[last].1);
-        // Atoms on their way to a machine that has some make no difference, and what is over stays over.
-        let says_nothing = before == Some(stay)
-            || before == Some(Stay::Retired)
-            || before == Some(Stay::Works) && stay == Stay::Receives;
-        if !says_nothing {
-            self.stays.insert(place, (at, stay));
-        }
-    }
-
-    fn stands(&mut self, at: Time, stands: bool) {
-        match (self.pauses.last_mut(), stands) {
-            (Some((_, end @ None)), false) => *end = Some(at),
-            (Some((_, None)), true) | (_, false) => {}
-            (_, true) => self.pauses.push((at, None)),
-        }
-    }
 }
 
 #[cfg(test)]

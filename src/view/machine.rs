@@ -1,7 +1,8 @@
 //! One machine of the ring: as large as its speed, with its number, its pipe, and what it does.
 
-use std::f32::consts::{FRAC_PI_4, PI, TAU};
+use std::f32::consts::{PI, TAU};
 
+use super::badge::Badge;
 use super::display::{Anchor, Hue, Mark, Point, TextSize};
 use super::node::{Activity, NodeState, Slot};
 use super::plan::Plan;
@@ -22,47 +23,72 @@ pub(super) fn machine(
     marks: &mut Vec<Mark>,
 ) {
     let centre = plan.seat(node);
+    if activity == Activity::Spare {
+        return empty_seat(plan, node, is_selected, marks);
+    }
     progress(plan, centre, (node, of), activity, marks);
     let radius = plan.node * (0.5 + 0.5 * of.speed.clamp(0.0, 1.0).sqrt() as f32);
     let colour = Hue::Node(node);
     let (fill, hue) = match activity {
         Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
-        Activity::Paused | Activity::Stopped => (0.3, Hue::Text),
+        Activity::CutOff if of.computes() => (1.0, Hue::OnNode(node)),
+        Activity::Paused | Activity::Stopped | Activity::Hung => (0.3, Hue::Text),
         Activity::Waiting | Activity::Offering | Activity::Asking | Activity::InLine | Activity::Idle => {
             (0.18, Hue::Text)
         }
-        Activity::Retired | Activity::NoMore => (0.0, Hue::Quiet),
+        Activity::CutOff => (0.18, Hue::Text),
+        Activity::Retired | Activity::Asleep | Activity::NoMore => (0.0, Hue::Quiet),
+        Activity::Off | Activity::Spare => (0.0, Hue::Quiet),
     };
     marks.push(Mark::Disc { centre, radius, ink: colour.faint(fill) });
     match activity {
         Activity::Retired | Activity::NoMore => dashes(centre, radius - 0.75, marks),
+        Activity::Off => {
+            let points = Plan::arc(centre, radius - 0.75, 0.0, TAU);
+            marks.push(Mark::Line { points, width: 1.5, ink: Hue::Quiet.faint(0.6) });
+        }
         _ if fill < 1.0 => {
             let points = Plan::arc(centre, radius - 0.75, 0.0, TAU);
             marks.push(Mark::Line { points, width: 1.5, ink: colour.faint(0.9) });
         }
         _ => {}
     }
-    let has_pipe = plan.node >= PIPE_SEEN && !activity.is_retired() && activity != Activity::Done;
-    if plan.node >= NUMBER_SEEN {
-        marks.push(Mark::Label {
-            at: [centre[0], centre[1] - if has_pipe { 0.2 * radius } else { 0.0 }],
-            anchor: Anchor::Centre,
-            text: node_name(node).to_string(),
-            size: TextSize::Fit((0.86 * plan.node).min(1.05 * radius)),
-            ink: hue.full(),
-        });
-    }
+    let has_pipe = plan.node >= PIPE_SEEN && !activity.is_out() && activity != Activity::Done;
+    let raised = if has_pipe { 0.2 * radius } else { 0.0 };
+    number(plan, node, [centre[0], centre[1] - raised], radius, hue, marks);
     if has_pipe {
         pipe(plan, [centre[0], centre[1] + 0.55 * radius], of, hue, marks);
     }
-    if of.paused && activity != Activity::Done {
-        pause_badge(plan, centre, marks);
+    if let Some(badge) = Badge::of(activity, of.paused) {
+        badge.draw(plan, centre, marks);
     }
     if is_selected {
-        let points = Plan::arc(centre, plan.reach() + 1.5, 0.0, TAU);
-        marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
+        selection(plan, centre, marks);
     }
+}
+
+/// Where a machine may join: only its number within a broken outline.
+fn empty_seat(plan: &Plan, node: NodeId, is_selected: bool, marks: &mut Vec<Mark>) {
+    let centre = plan.seat(node);
+    marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
+    dashes(centre, plan.node, marks);
+    number(plan, node, centre, 0.8 * plan.node, Hue::Quiet, marks);
+    if is_selected {
+        selection(plan, centre, marks);
+    }
+}
+
+fn number(plan: &Plan, node: NodeId, at: Point, radius: f32, hue: Hue, marks: &mut Vec<Mark>) {
+    if plan.node >= NUMBER_SEEN {
+        let (text, size) = (node_name(node).to_string(), TextSize::Fit((0.86 * plan.node).min(1.05 * radius)));
+        marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
+    }
+}
+
+fn selection(plan: &Plan, centre: Point, marks: &mut Vec<Mark>) {
+    let points = Plan::arc(centre, plan.reach() + 1.5, 0.0, TAU);
+    marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
 }
 
 /// What of its work is done, round the machine.
@@ -73,7 +99,7 @@ fn progress(plan: &Plan, centre: Point, (node, of): (NodeId, &NodeState), activi
     marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
     marks.push(Mark::Line { points: Plan::arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
     if done > 0.0 {
-        let strength = if activity.is_retired() { 0.4 } else { 1.0 };
+        let strength = if activity.is_out() { 0.4 } else { 1.0 };
         let points = Plan::arc(centre, track, -PI / 2.0, TAU * done);
         marks.push(Mark::Line { points, width, ink: colour.faint(strength) });
     }
@@ -99,18 +125,5 @@ fn pipe(plan: &Plan, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Ma
             Slot::Empty => 0.18,
         });
         marks.push(Mark::Box { centre: [x + side * 1.35 * half, y], half: [half; 2], round: 0.45 * half, ink });
-    }
-}
-
-/// Two bars at the machine's upper right.
-fn pause_badge(plan: &Plan, [x, y]: Point, marks: &mut Vec<Mark>) {
-    let radius = 0.34 * plan.node;
-    let away = plan.reach() - radius;
-    let [x, y] = [x + away * FRAC_PI_4.cos(), y - away * FRAC_PI_4.sin()];
-    marks.push(Mark::Disc { centre: [x, y], radius, ink: Hue::Ground.full() });
-    marks.push(Mark::Disc { centre: [x, y], radius: 0.87 * radius, ink: Hue::Text.full() });
-    for side in [-1.0, 1.0] {
-        let (centre, half) = ([x + side * 0.25 * radius, y], [0.12 * radius, 0.4 * radius]);
-        marks.push(Mark::Box { centre, half, round: 0.05 * radius, ink: Hue::Ground.full() });
     }
 }

@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::events::{Events, is_done, jam};
+use super::events::{Events, is_done, jam, own_offer};
+use super::mishap;
 use super::sentences;
 use super::standing::standing;
 use super::state::RunState;
@@ -38,6 +39,9 @@ type Weight = (u8, u32);
 /// Of what somebody does to the run: it follows the hand.
 const BY_HAND: Weight = (4, 0);
 
+/// Of machines that are missed: it follows what was done to them.
+const MISSED: Weight = (4, 1);
+
 /// Of the end, which nothing follows.
 const END: Weight = (5, 0);
 
@@ -53,7 +57,11 @@ impl Narrator {
         self.events.apply(record, state);
         let by_hand = matches!(
             record.what,
-            What::SpeedSet { .. } | What::Paused { .. } | What::Resumed { .. } | What::LatencySet { .. }
+            What::SpeedSet { .. }
+                | What::Paused { .. }
+                | What::Resumed { .. }
+                | What::LatencySet { .. }
+                | What::Condition { .. }
         );
         let told = if by_hand {
             // The list knows where a slider was before the hand took hold of it.
@@ -128,11 +136,29 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             let atoms = atoms_in(ranges);
             ((3, atoms.checked_ilog2().unwrap_or(0)), sentences::transfer(state, *from, *to, atoms))
         }
-        What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if from == who => {
-            ((1, 0), sentences::offer(*who, false, *done))
+        What::Sent { from: Party::Parent, message: Message::Gone(_), .. } => {
+            (MISSED, mishap::ring_changed(state, record.at)?)
+        }
+        What::Sent { from, to: Party::Node(to), message: Message::Again(ranges), .. } => {
+            let atoms = atoms_in(ranges);
+            match *from {
+                Party::Parent => ((3, atoms.checked_ilog2().unwrap_or(0)), mishap::given_out(&[*to], atoms)),
+                Party::Node(from) => ((2, 0), mishap::copies(from, &[*to], atoms)),
+            }
+        }
+        What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Wake, .. } => {
+            ((1, 1), mishap::wakes(*from, &[*to]))
+        }
+        What::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
+            ((1, 0), sentences::offer(state, *from, false, own_offer(*from, message)?))
+        }
+        // One that is asked back, or let in, gets no band.
+        What::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
+            return None;
         }
         What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
         What::Retired { .. } if state.sharing.is_farm() => return None,
+        What::Retired { node } if state.sharing.is_adaptive() => ((1, 0), sentences::retired(state, &[*node])),
         What::Retired { node } => {
             let name = node_name(*node);
             let words = say!(

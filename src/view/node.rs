@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::rate::Rate;
+use crate::balance::Condition;
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -13,11 +14,15 @@ pub struct NodeState {
     pub speed: f64,
     /// Its worker was made to stand still; the speed is the one at which it will go on.
     pub paused: bool,
-    /// Atoms that it has traced.
+    /// How its machine is.
+    pub condition: Condition,
+    /// It has not joined the run yet: its seat is empty.
+    pub spare: bool,
+    /// Atoms that it has traced, and that count: of one that is traced twice, or lost, the others' or the next result may.
     pub done: u32,
     /// The atom that its worker is tracing.
     pub atom: Option<Atom>,
-    /// Its own offer came back; in a farm, the parent has no more for it.
+    /// Its own offer came back; in a farm, the parent has no more for it. In a ring that adapts it sleeps.
     pub retired: bool,
     /// Offers that it has made.
     pub offers: u32,
@@ -33,6 +38,12 @@ pub struct NodeState {
     pub requests: u32,
     /// Its speed before that was last set.
     pub(super) speed_before: f64,
+    /// How its machine was before that changed.
+    pub(super) condition_before: Condition,
+    /// Atoms that were lost when it was last switched off.
+    pub(super) took: u32,
+    /// When the parent last heard of it.
+    pub(super) heard: Option<Time>,
     // Signed, since the record of an atom may come before that of the band it belongs to.
     pub(super) left: i64,
     /// When its band arrived.
@@ -81,16 +92,26 @@ pub enum Activity {
     Idle,
     /// Its own offer came back: nobody needs it.
     Retired,
+    /// The same in a ring that adapts: it can be woken.
+    Asleep,
     /// The parent has no more atoms for it.
     NoMore,
+    /// Its machine hangs.
+    Hung,
+    /// Nothing comes from its machine, or to it.
+    CutOff,
+    /// Its machine is switched off.
+    Off,
+    /// Its seat is empty: its machine may join.
+    Spare,
     /// The picture is complete.
     Done,
 }
 
 impl Activity {
-    /// Whether nothing is left to do for it in this run, although the picture is not complete.
-    pub fn is_retired(self) -> bool {
-        matches!(self, Self::Retired | Self::NoMore)
+    /// Whether it has no part in the run, for now or for good, although the picture is not complete.
+    pub fn is_out(self) -> bool {
+        matches!(self, Self::Retired | Self::Asleep | Self::NoMore | Self::Off | Self::Spare)
     }
 }
 
@@ -118,7 +139,12 @@ impl NodeState {
 
     /// Whether its worker would trace atoms if it had any.
     pub fn runs(&self) -> bool {
-        self.speed > 0.0 && !self.paused
+        self.speed > 0.0 && !self.stands()
+    }
+
+    /// Whether its worker stands still, whatever its speed.
+    fn stands(&self) -> bool {
+        self.paused || matches!(self.condition, Condition::Hung | Condition::Off)
     }
 
     /// What its pipe holds, the atom that is traced first: two atoms, while it has as many.
@@ -147,10 +173,13 @@ impl NodeState {
         if now == Time::ZERO { self.speed_now() } else { self.ran_until(now) / now.secs() }
     }
 
-    pub(super) fn new(speed: f64) -> Self {
+    pub(super) fn new(speed: f64, spare: bool) -> Self {
+        let condition = if spare { Condition::Off } else { Condition::Well };
         Self {
             speed,
             paused: false,
+            condition,
+            spare,
             done: 0,
             atom: None,
             retired: false,
@@ -161,6 +190,9 @@ impl NodeState {
             got: Parcels::default(),
             requests: 0,
             speed_before: speed,
+            condition_before: condition,
+            took: 0,
+            heard: None,
             left: 0,
             band_at: None,
             offer_out: false,
@@ -179,7 +211,11 @@ impl NodeState {
     }
 
     pub(super) fn give(&mut self, atoms: u32, at: Time) {
-        self.left += i64::from(atoms);
+        self.give_signed(i64::from(atoms), at);
+    }
+
+    fn give_signed(&mut self, atoms: i64, at: Time) {
+        self.left += atoms;
         if self.left <= 0 {
             self.idle_since.get_or_insert(at);
         } else if let Some(since) = self.idle_since.take() {
@@ -187,14 +223,20 @@ impl NodeState {
         }
     }
 
-    pub(super) fn atom_done(&mut self, at: Time) {
-        self.done += 1;
+    /// It has traced an atom, which may count or not.
+    pub(super) fn atom_done(&mut self, counts: bool, at: Time) {
+        self.done += u32::from(counts);
         self.left -= 1;
         self.atom = None;
         self.rate.count(at);
         if self.left <= 0 && self.idle_since.is_none() {
             self.idle_since = Some(at);
         }
+    }
+
+    /// Its worker could not trace its atom.
+    pub(super) fn atom_failed(&mut self) {
+        (self.left, self.atom) = (self.left - 1, None);
     }
 
     pub(super) fn set_speed(&mut self, speed: f64, at: Time) {
@@ -207,8 +249,18 @@ impl NodeState {
         self.paused = paused;
     }
 
+    pub(super) fn set_condition(&mut self, condition: Condition, at: Time) {
+        self.keep_ran(at);
+        self.condition_before = std::mem::replace(&mut self.condition, condition);
+    }
+
+    /// It knows of so many atoms that it has.
+    pub(super) fn holds(&mut self, atoms: u32, at: Time) {
+        self.give_signed(i64::from(atoms) - self.left, at);
+    }
+
     fn speed_now(&self) -> f64 {
-        if self.paused { 0.0 } else { self.speed }
+        if self.stands() { 0.0 } else { self.speed }
     }
 
     fn ran_until(&self, now: Time) -> f64 {
@@ -233,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_paused_node_has_atoms_but_does_not_trace_them() {
-        let mut node = NodeState::new(0.5);
+        let mut node = NodeState::new(0.5, false);
         assert_eq!((node.pipe(), node.computes()), ([Slot::Empty; 2], false));
         node.give(9, Time::ZERO);
         node.atom = Some(3);
@@ -242,13 +294,13 @@ mod tests {
         assert_eq!((node.pipe(), node.computes(), node.speed), ([Slot::Filled, Slot::Filled], false, 0.5));
         node.set_paused(false, Time::from_secs(2.0));
         assert!(node.computes());
-        (0..8).for_each(|_| node.atom_done(Time::from_secs(3.0)));
+        (0..8).for_each(|_| node.atom_done(true, Time::from_secs(3.0)));
         assert_eq!(node.pipe(), [Slot::Filled, Slot::Empty]);
     }
 
     #[test]
     fn the_mean_speed_knows_of_changes_and_pauses() {
-        let mut node = NodeState::new(1.0);
+        let mut node = NodeState::new(1.0, false);
         let at = Time::from_secs;
         assert_eq!((node.mean_speed(Time::ZERO), node.mean_speed(at(3.0))), (1.0, 1.0));
         node.set_speed(0.5, at(2.0));

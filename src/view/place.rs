@@ -11,6 +11,8 @@ pub enum Place {
     /// No node has got it yet.
     #[default]
     Nowhere,
+    /// Nobody has it any more: it was lost with its machine, or with a message.
+    Lost,
     /// A node has it in its queue or its pipe, or has given it away to a node that has not got it yet.
     With {
         /// Which node.
@@ -36,14 +38,14 @@ impl Place {
     pub fn owner(self) -> Option<NodeId> {
         match self {
             Self::Traced { by, .. } => Some(by),
-            Self::Nowhere | Self::With { .. } => None,
+            Self::Nowhere | Self::Lost | Self::With { .. } => None,
         }
     }
 
     /// Who has it, or has traced it.
     pub fn holder(self) -> Option<NodeId> {
         match self {
-            Self::Nowhere => None,
+            Self::Nowhere | Self::Lost => None,
             Self::With { node, .. } | Self::Traced { by: node, .. } => Some(node),
         }
     }
@@ -69,7 +71,7 @@ impl Place {
         match *self {
             Self::Traced { .. } => {}
             Self::With { since, .. } if since > at => {}
-            Self::Nowhere | Self::With { .. } => *self = Self::With { node, since: at },
+            Self::Nowhere | Self::Lost | Self::With { .. } => *self = Self::With { node, since: at },
         }
     }
 }

@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 
 use super::display::Point;
 use super::labels::Labels;
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Party};
 
 /// Where everything is, for a number of nodes and a size.
 pub(super) struct Plan {
@@ -37,6 +37,14 @@ impl Plan {
         let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
         let seats = rail - node * 1.3 - 8.0;
         Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, labels }
+    }
+
+    /// The angle of an offer's way along the rail, against the clock: to the left neighbour, or further.
+    pub(super) fn way(&self, from: NodeId, to: Party) -> f32 {
+        let Party::Node(to) = to else { return self.step() };
+        let nodes = self.nodes.max(1);
+        let steps = (usize::from(from) + nodes - usize::from(to) % nodes) % nodes;
+        self.step() * if steps == 0 { nodes } else { steps } as f32
     }
 
     /// How broad a node's progress arc is.

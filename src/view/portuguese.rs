@@ -22,7 +22,7 @@ use super::tradeoff::Tradeoff;
 use super::why::record_words;
 use super::words::activity_word;
 use super::{about::Dossier, sample};
-use crate::balance::{NodeId, Rules, Strategy};
+use crate::balance::{Condition, NodeId, Rules, Strategy};
 use crate::language::Language;
 use crate::picture::{Difference, Quality, Size};
 use crate::record::What;
@@ -132,7 +132,19 @@ fn compare(say: impl Fn() -> Said) {
 fn runs() -> Vec<RunLog> {
     let ways = Strategy::ALL.into_iter().map(|strategy| (strategy, Driver::Sim));
     let ways = ways.chain([(Strategy::Ring, Driver::WorkStealing)]);
-    let hands: [&[(f64, Command)]; 3] = [
+    let becomes = |node, condition| Command::Condition { node, condition };
+    let failures = [
+        (0.5, becomes(1, Condition::Off)),
+        (1.4, becomes(1, Condition::Well)),
+        (1.6, becomes(2, Condition::CutOff)),
+        (2.2, becomes(0, Condition::Hung)),
+        (2.9, becomes(0, Condition::Well)),
+        (3.2, becomes(2, Condition::Well)),
+        (3.4, becomes(0, Condition::Off)),
+        (4.4, becomes(0, Condition::Well)),
+    ];
+    let hands: [&[(f64, Command)]; 4] = [
+        &failures,
         &[],
         &[
             (1.0, Command::Speed { node: 1, speed: 0.4 }),
@@ -310,7 +322,12 @@ fn states_fit_below_a_machine() {
         Activity::Receiving,
         Activity::Idle,
         Activity::Retired,
+        Activity::Asleep,
         Activity::NoMore,
+        Activity::Hung,
+        Activity::CutOff,
+        Activity::Off,
+        Activity::Spare,
         Activity::Done,
     ];
     compare(|| all.map(|activity| (Room::Same, activity_word(activity).to_owned())).to_vec());

@@ -3,21 +3,21 @@
 //! Numbers rise clockwise from the top, so an offer, which goes to the left neighbour, always runs anticlockwise:
 //! at the top of the ring to the left.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 
 use super::asking;
-use super::display::{Anchor, Hue, Mark, Point, TextSize};
+use super::centre;
+use super::display::{Hue, Mark, Point};
 use super::flight::Flight;
 use super::labels::{is_labelled, label};
+use super::losses;
 use super::machine::machine;
 use super::outcome::Outcome;
 use super::plan::Plan;
 use super::sharing::Sharing;
 use super::state::RunState;
 use super::traffic;
-use super::words::{duration, fraction, percent};
-use crate::balance::{NodeId, Strategy};
-use crate::language::{say, word};
+use crate::balance::NodeId;
 use crate::time::Time;
 
 /// What is laid over the ring.
@@ -63,11 +63,13 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
         }
     }
     match overlay.outcome {
-        Some(outcome) => result(&plan, &outcome, &mut marks),
-        None => parent(&plan, state, now, &mut marks),
+        Some(outcome) => centre::result(&plan, &outcome, &mut marks),
+        None => centre::parent(&plan, state, now, &mut marks),
     }
     asking::draw(&plan, state, now, &mut marks);
+    losses::sparks(&plan, state, now, &mut marks);
     traffic::parcels(&plan, state, now, overlay.message, &mut marks);
+    losses::crosses(&plan, state, now, &mut marks);
     marks
 }
 
@@ -122,70 +124,6 @@ fn spokes(plan: &Plan, strong: bool, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The parent, how far the picture is, and whether it is busy.
-fn parent(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    let waiting = state.waiting(now);
-    if waiting > 0 || state.is_estimating {
-        marks.push(Mark::Disc { centre: plan.centre, radius: plan.parent, ink: Hue::Hairline.faint(0.6) });
-    }
-    // A single message is soon handled: its number would only flicker.
-    let (caption, hue) = match waiting {
-        _ if state.is_estimating => (word!("estimating", "estimando").into(), Hue::Text),
-        0..2 if state.sharing == Sharing::Stealing => (word!("picture", "imagem").into(), Hue::Quiet),
-        0..2 => (word!("parent", "pai").into(), Hue::Quiet),
-        many => (say!("{many} waiting", "{many} na fila"), Hue::Text),
-    };
-    let (done, large) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan));
-    // Where the parent may be busy that is said wherever there is room; what it is called goes without saying.
-    let is_busy_at_times = !state.handling.is_zero() || state.sharing == Sharing::By(Strategy::StaticEstimate);
-    let has_room = TextSize::Small(plan.labels.text).width("estimating".len()) < 2.0 * plan.parent;
-    let captions = has_captions(plan) || is_busy_at_times && has_room;
-    let lift = if captions { large * 0.25 } else { 0.0 };
-    let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
-    text(plan, -lift, percent(state.done(), state.atoms()), size, Hue::Text, marks);
-    if captions {
-        text(plan, large * 0.6, caption, small, hue, marks);
-    }
-    let points = Plan::arc(plan.centre, plan.parent, 0.0, TAU);
-    marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });
-    if done > 0.0 {
-        let points = Plan::arc(plan.centre, plan.parent, -PI / 2.0, TAU * done);
-        marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
-    }
-}
-
-/// The result of a finished run.
-fn result(plan: &Plan, outcome: &Outcome, marks: &mut Vec<Mark>) {
-    let (large, captions) = (large(plan) * 1.1, has_captions(plan));
-    let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
-    // What explains them has no room within a small ring; the sentence below says it too.
-    let lines = if captions { [-1.3, 0.65] } else { [-0.65, 0.65] };
-    text(plan, large * lines[0], duration(outcome.makespan), size, Hue::Text, marks);
-    text(plan, large * lines[1], fraction(outcome.efficiency), size, Hue::Text, marks);
-    if captions {
-        text(plan, -large * 0.45, word!("start to finish", "início ao fim").into(), small, Hue::Quiet, marks);
-        text(plan, large * 1.5, word!("efficiency", "eficiência").into(), small, Hue::Quiet, marks);
-    }
-}
-
-/// The size of what is read in the centre.
-fn large(plan: &Plan) -> f32 {
-    (plan.rail * 0.15).clamp(10.0, 48.0)
-}
-
-/// Whether the numbers in the centre have room for what they are.
-fn has_captions(plan: &Plan) -> bool {
-    const LETTERS: usize = "start to finish".len();
-    let width = TextSize::Small(plan.labels.text).width(LETTERS);
-    !plan.labels.are_small() && width < 2.0 * plan.interior()
-}
-
-/// Text in the centre, `dy` below its middle.
-fn text(plan: &Plan, dy: f32, text: String, size: TextSize, hue: Hue, marks: &mut Vec<Mark>) {
-    let at = [plan.centre[0], plan.centre[1] + dy];
-    marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
-}
-
 #[cfg(test)]
 mod tests {
     use std::cmp::Ordering;
@@ -194,11 +132,13 @@ mod tests {
 
     use proptest::prelude::*;
 
-    use super::super::display::Ink;
+    use super::super::display::{Ink, TextSize};
     use super::super::flight::Cargo;
     use super::super::sample;
     use super::*;
+    use crate::balance::{Condition, Strategy};
     use crate::record::{Record, What};
+    use crate::runlog::Header;
 
     const SIZE: Point = [520.0, 480.0];
 
@@ -372,6 +312,44 @@ mod tests {
         assert!(texts(&idle).contains(&"idle") && texts(&retired).contains(&"retired"));
         let lines = |marks: &[Mark]| marks.iter().filter(|mark| matches!(mark, Mark::Line { .. })).count();
         assert!(lines(&retired) >= lines(&idle) + 4, "a broken outline");
+    }
+
+    #[test]
+    fn every_state_of_a_machine_has_a_sign_and_a_word_of_its_own() {
+        let mut header = sample::header(&[1.0; 4], 60);
+        header.rules.strategy = Strategy::Adaptive;
+        let draw = |spares, whats: &[What]| {
+            let mut state = RunState::new(&Header { spares, ..header.clone() });
+            state.nodes[3].band_at = Some(Time::ZERO);
+            whats.iter().for_each(|what| state.apply(&Record { at: Time::ZERO, what: what.clone() }));
+            ring(&state, &Overlay::default(), Time::ZERO, [640.0, 490.0])
+        };
+        let becomes = |condition| vec![What::Condition { node: 3, condition }];
+        let seen = [
+            ("idle", draw(0, &[])),
+            ("asleep", draw(0, &[What::Retired { node: 3 }])),
+            ("hung", draw(0, &becomes(Condition::Hung))),
+            ("cut off", draw(0, &becomes(Condition::CutOff))),
+            ("off", draw(0, &becomes(Condition::Off))),
+            ("spare", draw(1, &[])),
+        ];
+        // Without colours and words.
+        let shapes = |marks: &[Mark]| -> Vec<String> {
+            let shape = |mark: &Mark| match mark {
+                Mark::Label { text, .. } if text == "z" => Some(text.clone()),
+                Mark::Label { .. } => None,
+                Mark::Line { points, .. } => Some(format!("{points:?}")),
+                Mark::Disc { centre, radius, .. } => Some(format!("{centre:?} {radius}")),
+                other => Some(format!("{:?}", std::mem::discriminant(other))),
+            };
+            marks.iter().filter_map(shape).collect()
+        };
+        for (i, (word, marks)) in seen.iter().enumerate() {
+            assert!(texts(marks).contains(word), "{word} {:?}", texts(marks));
+            for (other, others) in &seen[..i] {
+                assert!(shapes(marks) != shapes(others), "{word} looks like {other}");
+            }
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::flight::{Cargo, Flight};
 use super::node::{Activity, NodeState};
 use super::state::RunState;
-use crate::balance::{NodeId, Party};
+use crate::balance::{Condition, NodeId, Party};
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -57,7 +57,8 @@ impl RunState {
         let state = &self.nodes[usize::from(node)];
         let lands = |flight: &&Flight| {
             let is_part = matches!(flight.cargo, Cargo::Part(_));
-            flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now) && !is_part
+            let lands = flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now);
+            lands && flight.lost.is_none() && !is_part
         };
         let landing: u32 = match self.finished {
             None => self.flights.iter().filter(lands).map(|flight| flight.cargo.atoms()).sum(),
@@ -68,7 +69,9 @@ impl RunState {
 
     /// Whether atoms are on their way to a machine.
     pub(super) fn has_atoms_under_way(&self) -> bool {
-        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_));
+        let carries = |flight: &Flight| {
+            matches!(flight.cargo, Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_))
+        };
         self.pending.values().any(carries)
     }
 
@@ -87,10 +90,23 @@ impl RunState {
         // What lasts only an instant is shown for as long as it is drawn.
         let offers =
             self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.presence(now) > 0.4);
-        if self.finished.is_some_and(|end| end <= now) {
+        let is_over = self.finished.is_some_and(|end| end <= now);
+        if state.spare {
+            Activity::Spare
+        } else if state.condition != Condition::Well {
+            match state.condition {
+                Condition::Off => Activity::Off,
+                Condition::Hung => Activity::Hung,
+                Condition::CutOff | Condition::Well => Activity::CutOff,
+            }
+        } else if is_over {
             Activity::Done
-        } else if state.retired {
-            if self.sharing.is_farm() { Activity::NoMore } else { Activity::Retired }
+        } else if state.retired && state.left() == 0 {
+            match self.sharing {
+                sharing if sharing.is_farm() => Activity::NoMore,
+                sharing if sharing.is_adaptive() => Activity::Asleep,
+                _ => Activity::Retired,
+            }
         } else if state.band_at.is_none() {
             Activity::Waiting
         } else if state.paused && state.left() > 0 {
@@ -126,7 +142,8 @@ impl RunState {
     fn receives(&self, node: NodeId, now: Time) -> bool {
         self.flights.iter().any(|flight| {
             flight.to == Party::Node(node)
-                && matches!(flight.cargo, Cargo::Transfer(_))
+                && matches!(flight.cargo, Cargo::Transfer(_) | Cargo::Again(_))
+                && flight.lost.is_none()
                 && flight.shown().contains(&now)
         })
     }

@@ -28,7 +28,7 @@ pub(super) fn before_virtual_time() -> &'static str {
 
 /// The parent hands out the bands, of which this is the first.
 pub(super) fn bands(state: &RunState, first: &Range<Atom>) -> String {
-    match state.nodes().len() {
+    match state.nodes().iter().filter(|node| !node.spare).count() {
         machines if state.sharing == Sharing::Stealing => say!(
             "{machines} threads trace the picture: whoever is idle steals from another",
             "{machines} threads calculam a imagem: quem fica ociosa rouba de outra"
@@ -105,6 +105,12 @@ pub(super) fn retired(state: &RunState, nodes: &[NodeId]) -> String {
     match (nodes, state.sharing.is_farm()) {
         ([_], true) => say!("{who} asked for more, but all is given away", "{who} pediu mais, mas tudo já foi dado"),
         (_, true) => say!("{who} asked for more, but all is given away", "{who} pediram mais, mas tudo já foi dado"),
+        ([_], false) if state.sharing.is_adaptive() => {
+            say!("{who} sleeps until somebody needs it", "{who} dorme até que alguém precise dela")
+        }
+        (_, false) if state.sharing.is_adaptive() => {
+            say!("{who} sleep until somebody needs them", "{who} dormem até que alguém precise delas")
+        }
         ([_], false) => say!(
             "{who}'s offer came back, nobody needs its help: it retires",
             "A oferta de {who} voltou, ninguém quer ajuda: ela não é mais necessária"
@@ -122,10 +128,40 @@ pub(super) fn theft(thief: NodeId, from: NodeId, atoms: u32) -> String {
     say!("{thief} steals {atoms} from {from}", "{thief} rouba {atoms} de {from}")
 }
 
-/// A machine that has nothing left to trace offers help; `whole` if it has traced its whole band itself.
-pub(super) fn offer(who: NodeId, whole: bool, done: u32) -> String {
+/// A machine has given few atoms at a time to others, or they were stolen from it.
+pub(super) fn trickle((from, to): (NodeId, &[NodeId]), (transfers, all): (u32, u32), is_theft: bool) -> String {
+    let (giver, takers, words) = (node_name(from), names(to), atoms_words(all));
+    if is_theft && to.len() == 1 {
+        say!(
+            "{takers} steals few atoms at a time from {giver}: {words}",
+            "{takers} rouba poucos átomos por vez de {giver}: {words}"
+        )
+    } else if is_theft {
+        say!(
+            "{takers} steal few atoms at a time from {giver}: {words}",
+            "{takers} roubam poucos átomos por vez de {giver}: {words}"
+        )
+    } else if to.len() == 1 {
+        say!("{giver} gave {words} to {takers}", "{giver} deu {words} a {takers}")
+    } else if all as usize == to.len() {
+        say!("{giver} gave 1 atom to {takers}", "{giver} deu 1 átomo a {takers}")
+    } else {
+        say!(
+            "{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels",
+            "{giver} deu poucos átomos por vez a {takers}: {all} em {transfers} pacotes"
+        )
+    }
+}
+
+/// A machine that has nothing left to trace, or soon will have, offers help; `whole` if it has traced its whole band itself.
+pub(super) fn offer(state: &RunState, who: NodeId, whole: bool, done: u32) -> String {
     let name = node_name(who);
+    let is_early = state.sharing.is_adaptive() && state.nodes().get(usize::from(who)).is_some_and(|of| of.left() > 0);
     match (whole, done) {
+        _ if is_early => say!(
+            "{name} has nearly finished and offers help round the ring",
+            "{name} está quase pronta e oferece ajuda pelo anel"
+        ),
         (_, 0) => say!(
             "{name} has nothing to trace and offers help round the ring",
             "{name} não tem nada a calcular e oferece ajuda pelo anel"
@@ -224,8 +260,12 @@ pub(super) fn paused(state: &RunState, node: NodeId) -> String {
             "{paused}: its {atoms} wait, nobody will make up for it",
             "{paused} com {atoms}: ninguém vai compensar"
         ),
-        1 => say!("{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe"),
-        2..=PIPE => say!("{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe"),
+        1 if !state.sharing.is_adaptive() => {
+            say!("{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe")
+        }
+        2..=PIPE if !state.sharing.is_adaptive() => {
+            say!("{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe")
+        }
         left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => {
             say!("{paused}: the others will make up for it", "{paused}: as outras vão compensar")
         }

@@ -101,6 +101,11 @@ impl Sharing {
         matches!(self, Self::By(strategy) if strategy.is_ring())
     }
 
+    /// Whether it is the ring that wakes sleepers, and mends losses.
+    pub(super) fn is_adaptive(self) -> bool {
+        self == Self::By(Strategy::Adaptive)
+    }
+
     /// Whether whoever is done asks the parent for more.
     pub(super) fn is_farm(self) -> bool {
         matches!(self, Self::By(strategy) if strategy.is_farm())

@@ -1,8 +1,9 @@
 //! What stands out in a run's time: where somebody took a hand in it, who retired, and its end.
 
+use super::mishap;
 use super::sentences;
 use super::state::RunState;
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId};
 use crate::record::{Record, What};
 use crate::time::Time;
 
@@ -24,6 +25,8 @@ pub enum SignKind {
     Speed(NodeId),
     /// A machine was paused, or goes on.
     Pause(NodeId),
+    /// A machine failed, or is well again.
+    Condition(NodeId, Condition),
     /// Messages take another time.
     Latency,
     /// A machine retired.
@@ -46,6 +49,9 @@ impl Signs {
             }
             What::Paused { node } => (SignKind::Pause(*node), sentences::paused(state, *node)),
             What::Resumed { node } => (SignKind::Pause(*node), sentences::resumed(state, *node)),
+            What::Condition { node, condition } => {
+                (SignKind::Condition(*node, *condition), mishap::condition(state, *node))
+            }
             What::LatencySet { latency } => (SignKind::Latency, sentences::latency(state, *latency)),
             What::Retired { node } => (SignKind::Retired(*node), sentences::retired(state, &[*node])),
             What::Finished => (SignKind::Complete, sentences::complete().into()),

@@ -1,7 +1,10 @@
 //! How things stand while nothing happens: who computes, who is slow, and where the ring cannot help, why not.
 
+use super::hang::{hangs, why as amiss};
 use super::node::NodeState;
+use super::standing_adaptive::standing_adaptive;
 use super::state::RunState;
+use super::still::{all_left, all_still, in_queues, remedy, why};
 use super::without_ring::without_ring;
 use super::words::{atoms_words, fraction, left_words, names, node_name};
 use crate::balance::NodeId;
@@ -15,11 +18,21 @@ pub(super) type Machine<'a> = (NodeId, &'a NodeState);
 
 /// How things stand.
 pub(super) fn standing(state: &RunState) -> String {
+    if state.sharing.is_adaptive() {
+        return standing_adaptive(state);
+    }
+    if let Some(words) = hangs(state) {
+        return words;
+    }
     if !state.sharing.is_ring() {
         return without_ring(state);
     }
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
+    if let Some(why) = amiss(state).filter(|_| !busy.is_empty()) {
+        let compute = computing(busy.len(), state.nodes().len(), word!("machines", "máquinas"));
+        return say!("{compute}; {why}, and nobody knows it", "{compute}; {why}, e ninguém sabe disso");
+    }
     match *busy {
         [] if state.has_atoms_under_way() => under_way(),
         [] if still.is_empty() => waiting_for_the_parent(),
@@ -213,59 +226,8 @@ fn stuck(state: &RunState, still: &[Machine<'_>]) -> String {
     }
 }
 
-/// Every machine stands still, and has atoms.
-pub(super) fn all_still(still: &[Machine<'_>]) -> String {
-    match still.iter().filter(|(_, node)| node.paused).count() {
-        _ if still.len() == 1 => {
-            let (why, remedy) = (why(still[0].1), remedy(still));
-            say!("The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
-        }
-        0 => word!(
-            "All machines stand still at 0 %: raise a speed and the work goes on",
-            "Todas as máquinas estão paradas a 0 %: basta aumentar uma velocidade"
-        )
-        .into(),
-        paused if paused == still.len() => word!(
-            "All machines are paused: let one go on, and so does the work",
-            "Todas as máquinas estão em pausa: basta uma continuar"
-        )
-        .into(),
-        _ => word!(
-            "All machines stand still: raise a speed or let one go on, and so does the work",
-            "Todas as máquinas estão paradas: basta aumentar uma velocidade ou uma continuar"
-        )
-        .into(),
-    }
-}
-
-/// Why a machine stands still.
-pub(super) fn why(node: &NodeState) -> &'static str {
-    if node.paused { word!("is paused", "está em pausa") } else { word!("stands still at 0 %", "está parada a 0 %") }
-}
-
-/// What makes machines that stand still go on.
-pub(super) fn remedy(still: &[Machine<'_>]) -> &'static str {
-    match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
-        (1, 0) => word!("raise its speed", "basta aumentar sua velocidade"),
-        (1, _) => word!("let it go on", "basta retomá-la"),
-        (_, 0) => word!("raise their speed", "basta aumentar sua velocidade"),
-        (all, paused) if all == paused => word!("let them go on", "basta retomá-las"),
-        _ => word!("let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
-    }
-}
-
 fn retired(state: &RunState) -> Vec<NodeId> {
     (0..).zip(state.nodes()).filter(|(_, node)| node.retired).map(|(node, _)| node).collect()
-}
-
-/// How many atoms machines have together.
-pub(super) fn all_left(machines: &[Machine<'_>]) -> u32 {
-    machines.iter().map(|(_, node)| node.left()).sum()
-}
-
-/// How many of their atoms could be given away.
-pub(super) fn in_queues(machines: &[Machine<'_>]) -> u32 {
-    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE)).sum()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The state of a run at one moment, as a fold over its records.
 
+mod losses;
 mod messages;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +12,7 @@ use super::flights::Flights;
 use super::node::{NodeState, Parcels};
 use super::place::Place;
 use super::sharing::Sharing;
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{NodeId, Party};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
 use crate::runlog::{Driver, Header};
@@ -51,6 +52,9 @@ pub struct RunState {
     /// The time of the parent's latest record.
     pub(super) parent_head: Time,
     pub(super) finished: Option<Time>,
+    /// Whom the parent last said to be gone, and before that.
+    pub(super) gone: Vec<NodeId>,
+    pub(super) gone_before: Vec<NodeId>,
 }
 
 /// What has arrived at the parent.
@@ -65,8 +69,9 @@ pub struct Arrived {
 impl RunState {
     /// The state before anything has happened.
     pub fn new(header: &Header) -> Self {
+        let spares: Vec<_> = (0..header.speeds.len() as NodeId).filter(|&node| header.is_spare(node)).collect();
         Self {
-            nodes: header.speeds.iter().map(|&speed| NodeState::new(speed)).collect(),
+            nodes: (0..).zip(&header.speeds).map(|(id, &speed)| NodeState::new(speed, header.is_spare(id))).collect(),
             places: vec![Place::Nowhere; header.division.atoms() as usize],
             orders: vec![0; header.division.atoms() as usize],
             cost: 0.0,
@@ -86,6 +91,8 @@ impl RunState {
             head: Time::ZERO,
             parent_head: Time::ZERO,
             finished: None,
+            gone: spares.clone(),
+            gone_before: spares,
         }
     }
 
@@ -98,12 +105,7 @@ impl RunState {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
                 }
-                if let (Party::Node(from), Message::Offer { who, done, .. }) = (from, message)
-                    && from == who
-                    && let Some(node) = self.node(*from)
-                {
-                    node.offered = *done;
-                }
+                self.said(*from, message, at);
                 self.sent(*id, Flight::new(*id, (*from, *to), message, at, *arrives));
             }
             What::Received { id, by } => {
@@ -131,8 +133,10 @@ impl RunState {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
-            What::Condition { .. } | What::Link { .. } | What::Lost { .. } => {}
-            What::AtomFailed { .. } | What::GivenUp { .. } => {}
+            What::Condition { node, condition } => self.condition_set(*node, *condition, at),
+            What::Lost { id } => self.lost(*id, at),
+            What::AtomFailed { node, .. } => _ = self.node(*node).map(NodeState::atom_failed),
+            What::Link { .. } | What::GivenUp { .. } => {}
             What::Estimating => self.is_estimating = true,
             What::Estimated { .. } => self.is_estimating = false,
             What::Finished => self.finished = Some(at),
@@ -233,13 +237,17 @@ impl RunState {
         let order = self.done();
         if let (Some(state), Some(place)) = (self.nodes.get_mut(usize::from(node)), self.places.get_mut(atom as usize))
         {
-            self.orders[atom as usize] = order;
-            self.cost += cost.as_secs_f64();
-            *place = Place::traced(node, cost, at);
+            // Of an atom that is traced twice the first result counts.
+            let counts = place.owner().is_none();
+            if counts {
+                self.orders[atom as usize] = order;
+                self.cost += cost.as_secs_f64();
+                *place = Place::traced(node, cost, at);
+            }
             if self.early_atoms.remove(&atom) {
                 place.place();
             }
-            state.atom_done(at);
+            state.atom_done(counts, at);
             self.touched.push(atom..atom + 1);
         }
     }
@@ -252,6 +260,7 @@ mod tests {
     use super::super::flight::Cargo;
     use super::super::sample;
     use super::*;
+    use crate::balance::Message;
 
     fn in_flight(state: &RunState) -> u32 {
         state

@@ -128,7 +128,7 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
                 let words = || say!("The first to retire: {name}", "A primeira dispensada: {name}");
                 retired.get_or_insert_with(|| mark(words(), About::Node(*node)));
             }
-            What::SpeedSet { node, .. } | What::Paused { node } => {
+            What::SpeedSet { node, .. } | What::Paused { node } | What::Condition { node, .. } => {
                 let name = node_name(*node);
                 let words = || say!("The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
                 hand.get_or_insert_with(|| mark(words(), About::Node(*node)));

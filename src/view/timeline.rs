@@ -1,8 +1,10 @@
 //! The timeline as things to draw: a lane a node, and above them how much of the machines' time is used.
 
 use super::display::{Hue, Ink};
-use super::lanes::{Lane, Lanes, Load, Stay, Trip};
+use super::lane::{Lane, Stay};
+use super::lanes::{Lanes, Load, Trip};
 use super::steps::About;
+use super::trouble::troubles;
 use super::window::TimeWindow;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
@@ -75,16 +77,16 @@ impl LanePlan {
         self.head + self.lane * self.lanes as f32
     }
 
-    fn x(&self, window: &TimeWindow, time: Time) -> f32 {
+    pub(super) fn x(&self, window: &TimeWindow, time: Time) -> f32 {
         (window.share(time).clamp(-1.0, 2.0) * f64::from(self.width)) as f32
     }
 
     /// Where what lasted from one time to another is seen: its left and its right.
-    fn span(&self, window: &TimeWindow, from: Time, to: Time) -> [f32; 2] {
+    pub(super) fn span(&self, window: &TimeWindow, from: Time, to: Time) -> [f32; 2] {
         [self.x(window, from).max(0.0), self.x(window, to).min(self.width)]
     }
 
-    fn middle(&self, node: NodeId) -> f32 {
+    pub(super) fn middle(&self, node: NodeId) -> f32 {
         let [top, bottom] = self.lane(node);
         (top + bottom) / 2.0
     }
@@ -98,6 +100,7 @@ pub fn timeline(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, head: Time)
         stays(lane, node, window, plan, head, &mut drawn.quads);
         bars(lane, node, window, plan, head, &mut drawn.quads, &mut used);
         pauses(lane, node, window, plan, head, &mut drawn.quads);
+        troubles(lane, node, window, plan, head, &mut drawn);
     }
     if plan.head > 0.0 {
         usage(&used, plan, &mut drawn.quads);
@@ -168,7 +171,7 @@ fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: 
             Stay::Waits | Stay::Works => continue,
             Stay::Offers => (2.5, Hue::Node(node).faint(0.45)),
             Stay::Receives => (2.5, Hue::Node(node).faint(0.75)),
-            Stay::Retired => (0.75, Hue::Quiet.faint(0.6)),
+            Stay::Retired | Stay::Asleep => (0.75, Hue::Quiet.faint(0.6)),
         };
         if right > left {
             quads.push(Quad { place: [left, middle - half, right, middle + half], ink });
@@ -250,6 +253,7 @@ fn messages(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, lines: &mut Vec
     }
     // What is sent to the parent, and what comes from it, is a tick where it leaves or arrives.
     let of_parent = |trip: &Trip| match (trip.from, trip.to) {
+        _ if trip.load == Load::Notice => None,
         (Party::Node(node), Party::Parent) => Some((node, trip.sent)),
         (Party::Parent, Party::Node(node)) => Some((node, trip.arrives)),
         _ => None,

@@ -29,7 +29,7 @@ pub(super) fn offers(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>,
     for (lane, flight) in in_lanes(state, now) {
         let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { continue };
         let radius = plan.rail + lane_offset(plan, lane);
-        let sweep = -plan.step() * flight.progress(now);
+        let sweep = -plan.way(from, flight.to) * flight.progress(now);
         let strength = if lane < FOLLOWED { 0.9 } else { HINT };
         marks.push(Mark::Line {
             points: Plan::arc(plan.centre, radius, plan.angle(from), sweep),
@@ -65,7 +65,7 @@ fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
     let token = |lane| {
         let flight = last(lane)?;
         let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { return None };
-        let angle = plan.angle(from) - plan.step() * flight.progress(now);
+        let angle = plan.angle(from) - plan.way(from, flight.to) * flight.progress(now);
         let radius = (plan.node * 0.42).clamp(7.0, 13.0);
         // Further out it would lie on what is said of a node.
         let most = plan.labels.gap() - radius - BORDER;
@@ -108,18 +108,18 @@ impl Token<'_> {
 }
 
 /// How strongly a flight or its trail is seen.
-fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
+pub(super) fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
     flight.presence(now) * state.presence(now)
 }
 
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
-fn lane_offset(plan: &Plan, lane: usize) -> f32 {
+pub(super) fn lane_offset(plan: &Plan, lane: usize) -> f32 {
     let lane = lane % 8;
     let out = lane.div_ceil(2) as f32 * lane_width(plan);
     if lane % 2 == 1 { out } else { -out }
 }
 
-fn lane_width(plan: &Plan) -> f32 {
+pub(super) fn lane_width(plan: &Plan) -> f32 {
     (plan.rail * 0.025).clamp(1.5, 4.0)
 }
 
@@ -164,7 +164,12 @@ fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'
                 let (from, to_rim) = plan.between(plan.centre, plan.seat(to));
                 (from, to_rim, to)
             }
-            (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
+            (Party::Parent, Party::Node(to), Cargo::Again(_)) => {
+                transfers += 1;
+                let (from, to_rim) = plan.between(plan.centre, plan.seat(to));
+                (from, to_rim, to)
+            }
+            (Party::Node(from), Party::Node(to), Cargo::Transfer(_) | Cargo::Again(_)) => {
                 transfers += 1;
                 let (rim, to_rim) = plan.between(plan.seat(from), plan.seat(to));
                 (rim, to_rim, from)
@@ -211,6 +216,17 @@ impl Parcel<'_> {
             return marks.push(Mark::Box { centre, half, round: 0.5 * half[0], ink: hue.faint(alpha) });
         }
         let round = 6.0;
+        if matches!(self.flight.cargo, Cargo::Again(_)) {
+            // A copy looks like a second sheet behind the first.
+            let behind = [centre[0] + 4.0, centre[1] - 4.0];
+            marks.push(Mark::Box {
+                centre: behind,
+                half: half.map(|side| side + 2.0),
+                round,
+                ink: Hue::Ground.faint(alpha),
+            });
+            marks.push(Mark::Box { centre: behind, half, round, ink: hue.faint(0.6 * alpha) });
+        }
         let (wide, border) = if is_lit { (BORDER, Hue::Text) } else { (2.0, Hue::Ground) };
         marks.push(Mark::Box { centre, half: half.map(|side| side + wide), round, ink: border.faint(alpha) });
         marks.push(Mark::Box { centre, half, round, ink: hue.faint(alpha) });

@@ -1,7 +1,9 @@
 //! Why a run that is over has no complete picture.
 
-use super::standing::{Machine, in_queues, waiting};
+use super::hang::hung;
+use super::standing::{Machine, waiting};
 use super::state::RunState;
+use super::still::in_queues;
 use super::words::percent;
 use crate::language::say;
 
@@ -16,6 +18,9 @@ pub fn unfinished_words(state: &RunState) -> String {
         && state.done() + missing == state.atoms()
         && keepers.iter().all(|(_, node)| !node.runs())
         && in_queues(&keepers) == 0;
+    if let Some(why) = hung(state) {
+        return format!("{ends}: {why}");
+    }
     if is_kept { format!("{ends}: {}", waiting(&keepers)) } else { ends }
 }
 

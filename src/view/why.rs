@@ -2,12 +2,13 @@
 
 use super::flight::{Cargo, Flight};
 use super::hover::flight_words;
+use super::mishap;
 use super::sentences;
 use super::sharing::Sharing;
 use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, count, duration, node_name};
-use crate::balance::{Condition, NodeId, Party};
+use crate::balance::{NodeId, Party};
 use crate::language::{say, word};
 use crate::record::{Record, What};
 
@@ -48,15 +49,7 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
         What::Paused { node } => sentences::paused(state, *node),
         What::Resumed { node } => sentences::resumed(state, *node),
         What::LatencySet { latency } => sentences::latency(state, *latency),
-        What::Condition { node, condition } => {
-            let name = node_name(*node);
-            match condition {
-                Condition::Well => say!("{name} is well again", "{name} voltou"),
-                Condition::Hung => say!("{name} hangs", "{name} travou"),
-                Condition::CutOff => say!("{name} is cut off", "{name} ficou isolada"),
-                Condition::Off => say!("{name} is switched off", "{name} foi desligada"),
-            }
-        }
+        What::Condition { node, .. } => mishap::condition(state, *node),
         What::Link { one, other, cut } => {
             let name = |party: &Party| match party {
                 Party::Parent => word!("the parent", "o pai").into(),
@@ -94,7 +87,7 @@ fn sent_words(flight: &Flight, state: &RunState) -> String {
             format!("{}{why}", sentences::transfer(state, from, to, atoms))
         }
         (Party::Node(from), _, Cargo::Offer { who }) if from == *who => {
-            sentences::offer(*who, true, state.nodes().get(usize::from(from)).map_or(0, |node| node.offered))
+            sentences::offer(state, *who, true, state.nodes().get(usize::from(from)).map_or(0, |node| node.offered))
         }
         (Party::Node(from), Party::Node(to), Cargo::Offer { who }) => {
             let left = state.nodes().get(usize::from(from)).map_or(0, |node| waiting(node.left()));
@@ -114,6 +107,9 @@ fn sent_words(flight: &Flight, state: &RunState) -> String {
 pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Option<String> {
     if !matches!(state.sharing(), Sharing::By(_)) {
         return None;
+    }
+    if state.sharing().is_adaptive() {
+        return Some(word!("by their speeds both end together", "por suas velocidades, terminam juntas").into());
     }
     let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
     let (own, offered, waits) = (owner?.done, offerer?.offered, waiting(owner?.left()) + atoms);

@@ -2,10 +2,9 @@
 
 use super::sentences::{estimating, is_slow};
 use super::sharing::Sharing;
-use super::standing::{
-    self, Machine, all_left, all_still, computing, has_most, only, only_one, remedy, under_way, why,
-};
+use super::standing::{self, Machine, computing, has_most, only, only_one, under_way};
 use super::state::RunState;
+use super::still::{all_left, all_still, remedy, why};
 use super::words::{atoms_words, fraction, left_words, names, node_name};
 use crate::balance::NodeId;
 use crate::language::{say, word};

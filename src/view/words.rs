@@ -101,7 +101,12 @@ pub fn activity_word(activity: Activity) -> &'static str {
         Activity::Receiving => word!("receiving", "recebendo"),
         Activity::Idle => word!("idle", "ociosa"),
         Activity::Retired => word!("retired", "dispensada"),
+        Activity::Asleep => word!("asleep", "dormindo"),
         Activity::NoMore => word!("no more", "sem trabalho"),
+        Activity::Hung => word!("hung", "travada"),
+        Activity::CutOff => word!("cut off", "isolada"),
+        Activity::Off => word!("off", "desligada"),
+        Activity::Spare => word!("spare", "reserva"),
         Activity::Done => word!("done", "pronta"),
     }
 }

@@ -97,7 +97,7 @@ impl App {
                 let name = node_name(node);
                 session.note(say!("There is no machine {name}", "Não há máquina {name}"));
             }
-            Command::Faster | Command::Slower | Command::PauseNode => self.obey_for_node(command),
+            Command::Faster | Command::Slower | Command::PauseNode | Command::Put(_) => self.obey_for_node(command),
             Command::Camera => self.picture.moves_camera = !self.picture.moves_camera,
             Command::CameraHome => session.camera_home(),
             Command::Dolly(nearer) => session.move_camera(|camera| camera.dolly(if nearer { 0.9 } else { 1.0 / 0.9 })),
@@ -161,6 +161,9 @@ impl App {
         if command == Command::PauseNode {
             return self.session.toggle_node_pause(node);
         }
+        if let Command::Put(condition) = command {
+            return self.session.toggle_condition(node, condition);
+        }
         let now = self.session.speed(node);
         // To the next tenth, or to one of the low speeds at which a machine is felt.
         let mut steps = [0.0, 0.01, 0.05].into_iter().chain((1..=10).map(|tenth| f64::from(tenth) / 10.0));
@@ -168,7 +171,7 @@ impl App {
             Command::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
             _ => steps.take_while(|&step| step < now - 0.001).last().unwrap_or(0.0),
         };
-        self.session.change(Gesture::Once, |settings| settings.speeds[usize::from(node)] = speed);
+        self.session.change(Gesture::Once, |settings| settings.set_speed(node, speed));
     }
 
     /// Whatever was opened last goes away.

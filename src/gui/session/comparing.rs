@@ -192,7 +192,8 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
     let slowest = trial.header.speeds.iter().copied().fold(1.0, f64::min);
     let slow = (0.0 < slowest && slowest < 0.5).then_some(slowest);
     // What was done to the run was done to its machines, which here are others.
-    let bare = Trial { script: Vec::new(), ..trial.clone() };
+    let mut bare = Trial { script: Vec::new(), ..trial.clone() };
+    bare.header.spares = 0;
     let one = bare.with(Change::Nodes(1)).with(Change::Equal).with(Change::Strategy(Strategy::Serial));
     let alone = Tally::of(&one.run(costs)).makespan().unwrap_or_default();
     let of = |strategy| {

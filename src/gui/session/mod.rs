@@ -3,6 +3,7 @@
 
 mod comparing;
 mod exporting;
+mod failing;
 mod files;
 mod inspecting;
 pub mod jobs;
@@ -271,7 +272,7 @@ impl Session {
         if self.is_recorded() || !self.stage.is_live() && self.stage.phase == Phase::Running {
             recorded()
         } else {
-            self.settings.speeds.get(index).copied().unwrap_or_else(recorded)
+            self.settings.all_speeds().nth(index).unwrap_or_else(recorded)
         }
     }
 
@@ -348,9 +349,9 @@ impl Session {
             self.restart();
             return before;
         }
-        let speeds = self.settings.speeds.iter().zip(&before.speeds);
+        let speeds = self.settings.all_speeds().zip(before.all_speeds());
         for (node, (speed, _)) in (0..).zip(speeds).filter(|(_, (speed, before))| speed != before) {
-            self.stage.performer.set_speed(node, *speed);
+            self.stage.performer.set_speed(node, speed);
         }
         if self.settings.latency != before.latency {
             self.stage.performer.set_latency(self.settings.latency_time());

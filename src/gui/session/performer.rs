@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use crossbeam_channel::Receiver;
 
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId};
 use crate::driver::{Retrace, Run, Update};
+use crate::scenario::Command;
 
 /// Whoever performs a run.
 pub enum Performer {
@@ -65,6 +66,13 @@ impl Performer {
     pub fn set_node_paused(&self, node: NodeId, paused: bool) {
         if let Self::Live(run) = self {
             run.set_paused(node, paused);
+        }
+    }
+
+    /// Something becomes of a node's machine.
+    pub fn put(&self, node: NodeId, condition: Condition) {
+        if let Self::Live(run) = self {
+            run.command(Command::Condition { node, condition });
         }
     }
 

@@ -53,18 +53,27 @@ impl Settings {
 
     /// How many machines there are now, or which have other speeds.
     fn other_machines(&self, before: &Self) -> Option<String> {
-        let nodes = self.speeds.len();
+        let (spares, nodes) = (self.spares.len(), self.speeds.len());
+        if self.sharing() == before.sharing() && spares != before.spares.len() {
+            return Some(match spares {
+                0 => word!("no spare machine", "nenhuma máquina de reserva").into(),
+                1 => word!("1 spare machine", "1 máquina de reserva").into(),
+                _ => say!("{spares} spare machines", "{spares} máquinas de reserva"),
+            });
+        }
         if nodes != before.speeds.len() {
             return Some(match nodes {
                 1 => word!("1 machine", "1 máquina").into(),
                 _ => say!("{nodes} machines", "{nodes} máquinas"),
             });
         }
-        let changed: Vec<_> = (0..nodes).filter(|&node| self.speeds[node] != before.speeds[node]).collect();
+        let speeds: Vec<f64> = self.all_speeds().collect();
+        let other = |(node, (now, before)): (usize, (&f64, f64))| (*now != before).then_some(node);
+        let changed: Vec<_> = speeds.iter().zip(before.all_speeds()).enumerate().filter_map(other).collect();
         match changed[..] {
             [] => None,
             [node] => {
-                let (name, speed) = (node + 1, fraction(self.speeds[node]));
+                let (name, speed) = (node + 1, fraction(speeds[node]));
                 Some(say!("machine {name} at {speed}", "máquina {name} a {speed}"))
             }
             _ => {

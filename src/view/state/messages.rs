@@ -5,20 +5,31 @@ use std::time::Duration;
 
 use super::super::flight::{Cargo, Flight};
 use super::RunState;
-use crate::balance::Party;
+use crate::balance::{NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
 impl RunState {
     /// The parent has placed these atoms in the picture.
-    fn placed(&mut self, atoms: &Range<Atom>) {
-        let Some(places) = self.places.get_mut(atoms.start as usize..atoms.end as usize) else { return };
-        for (atom, place) in (atoms.start..).zip(places) {
-            if !place.place() {
-                self.early_atoms.insert(atom);
+    fn placed(&mut self, atoms: &Range<Atom>, (from, at): (NodeId, Time)) {
+        if atoms.end as usize > self.places.len() {
+            return;
+        }
+        for atom in atoms.clone() {
+            match self.places[atom as usize].place() {
+                true => {}
+                false if self.sharing.is_adaptive() => self.count_late(atom, from, at),
+                false => _ = self.early_atoms.insert(atom),
             }
         }
         self.touched.push(atoms.clone());
+    }
+
+    /// The pixels of atoms that are not in the picture yet.
+    fn new_pixels(&self, ranges: &[Range<Atom>]) -> u32 {
+        let is_new = |atom: &Atom| !self.places.get(*atom as usize).is_some_and(|place| place.is_placed());
+        let atoms = ranges.iter().cloned().flatten().filter(is_new);
+        atoms.map(|atom| self.division.pixels_in(&(atom..atom + 1))).sum()
     }
 
     pub(super) fn sent(&mut self, id: u64, flight: Flight) {
@@ -33,12 +44,13 @@ impl RunState {
                 }
                 Cargo::Offer { who } if *who == from => {
                     sender.offers += 1;
-                    sender.offer_out = true;
+                    // Whoever slept has been woken.
+                    (sender.offer_out, sender.retired) = (true, false);
                 }
                 Cargo::Offer { .. } => sender.hops += 1,
                 Cargo::Request => (sender.requests, sender.offer_out) = (sender.requests + 1, true),
                 Cargo::Band(_) | Cargo::Part(_) | Cargo::Results(_) | Cargo::Shutdown => {}
-                Cargo::Again(_) | Cargo::Wake | Cargo::Beat | Cargo::Notice => {}
+                Cargo::Again(_) | Cargo::Wake | Cargo::Sleeps | Cargo::Beat | Cargo::Notice => {}
             }
         }
         if let Cargo::Part(part) = &flight.cargo
@@ -68,7 +80,7 @@ impl RunState {
             return false;
         }
         let (node, kind) = match (flight.from, flight.to, &flight.cargo) {
-            (_, _, Cargo::Shutdown | Cargo::Beat | Cargo::Notice) => return false,
+            (_, _, Cargo::Shutdown | Cargo::Sleeps | Cargo::Beat | Cargo::Notice) => return false,
             (Party::Node(from), _, Cargo::Results(_)) => (from, 0),
             (Party::Node(from), _, Cargo::Request) => (from, 1),
             (_, Party::Node(to), Cargo::Part(part)) if !part.is_empty() => (to, 2),
@@ -83,19 +95,26 @@ impl RunState {
     }
 
     pub(super) fn received(&mut self, flight: Flight, at: Time) {
+        self.heard(&flight, at);
         let to = match (flight.to, &flight.cargo) {
             (Party::Parent, Cargo::Results(ranges)) => {
-                self.arrived.pixels += ranges.iter().map(|range| self.division.pixels_in(range)).sum::<u32>();
-                ranges.iter().for_each(|range| self.placed(range));
+                let Party::Node(from) = flight.from else { return };
+                self.arrived.pixels += self.new_pixels(ranges);
+                ranges.iter().for_each(|range| self.placed(range, (from, at)));
                 return;
             }
             (Party::Parent, _) => return,
             (Party::Node(to), _) => to,
         };
+        let again = match &flight.cargo {
+            Cargo::Again(ranges) => Some(self.new_to(to, ranges.iter().cloned().flatten())),
+            _ => None,
+        };
         let Some(state) = self.node(to) else { return };
         let ranges = match flight.cargo {
             Cargo::Band(band) => {
-                state.band_at = Some(at);
+                // The parent asks those back whom it thinks gone.
+                state.band_at.get_or_insert(at);
                 vec![band]
             }
             Cargo::Part(part) => {
@@ -106,14 +125,14 @@ impl RunState {
                 vec![part]
             }
             Cargo::Transfer(ranges) | Cargo::Again(ranges) => {
-                state.offer_out = false;
+                (state.offer_out, state.retired) = (false, false);
                 state.got.add(atoms_in(&ranges));
                 ranges
             }
             Cargo::Offer { .. } | Cargo::Request | Cargo::Results(_) | Cargo::Shutdown => return,
-            Cargo::Wake | Cargo::Beat | Cargo::Notice => return,
+            Cargo::Wake | Cargo::Sleeps | Cargo::Beat | Cargo::Notice => return,
         };
-        state.give(atoms_in(&ranges), at);
+        state.give(again.unwrap_or_else(|| atoms_in(&ranges)), at);
         for range in ranges {
             if let Some(places) = self.places.get_mut(range.start as usize..range.end as usize) {
                 places.iter_mut().for_each(|place| place.arrive(to, flight.arrives));

@@ -1,0 +1,47 @@
+//! Machines that are made to fail, or well again, or to join, while a run goes on.
+
+use super::{Phase, Session};
+use crate::balance::{Condition, NodeId, Strategy};
+use crate::view::Sharing;
+
+impl Session {
+    /// How a node's machine is: of a recorded run at the shown moment, else now.
+    pub fn condition(&self, node: NodeId) -> Condition {
+        let state = if self.is_recorded() { self.stage.state() } else { self.stage.latest() };
+        state.nodes().get(usize::from(node)).map_or(Condition::Well, |node| node.condition)
+    }
+
+    /// Whether a node's seat is empty, so that its machine may join.
+    pub fn is_spare(&self, node: NodeId) -> bool {
+        let state = if self.is_recorded() { self.stage.state() } else { self.stage.latest() };
+        state.nodes().get(usize::from(node)).is_some_and(|node| node.spare)
+    }
+
+    /// Whether anything can become of machines: the run goes on, and is no recorded one.
+    pub fn can_fail(&self) -> bool {
+        !self.is_recorded() && self.stage.phase == Phase::Running && self.sharing() != Sharing::Stealing
+    }
+
+    /// Whether losses are mended.
+    pub fn mends_losses(&self) -> bool {
+        self.sharing() == Sharing::By(Strategy::Adaptive)
+    }
+
+    /// Something becomes of a machine.
+    pub fn put(&mut self, node: NodeId, condition: Condition) {
+        if self.can_fail() {
+            self.return_to_present();
+            self.stage.performer.put(node, condition);
+        }
+    }
+
+    /// A machine becomes so, or well again if it is so already.
+    pub fn toggle_condition(&mut self, node: NodeId, condition: Condition) {
+        let is_so = self.condition(node) == condition || self.is_spare(node);
+        self.put(node, if is_so { Condition::Well } else { condition });
+    }
+
+    fn sharing(&self) -> Sharing {
+        Sharing::of(self.header())
+    }
+}

@@ -1,0 +1,109 @@
+//! Machines that fail, and are well again: by the menu of a row, of the ring, and by keys; and spare ones that join.
+
+use anel::balance::{Condition, Strategy};
+use anel::record::What;
+use egui::Key;
+use egui_kittest::kittest::Queryable;
+
+use super::driving::*;
+
+/// A window in which a ring that adapts runs in virtual time.
+fn open_adaptive() -> Window {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Virtual");
+    choose(&mut window, "Strategy", "Adaptive ring");
+    press(&mut window, "Set up");
+    until(&mut window, "atoms", |window| done(window) > 50);
+    window
+}
+
+fn conditions(window: &Window) -> Vec<(u16, Condition)> {
+    recorded(window, |what| match what {
+        What::Condition { node, condition } => Some((*node, *condition)),
+        _ => None,
+    })
+}
+
+fn is_seen(window: &Window, words: &str) -> bool {
+    session(window).stage().narrator().events().any(|(_, told)| told.contains(words))
+}
+
+#[test]
+fn a_machine_is_switched_off_and_on_by_its_rows_menu() {
+    let mut window = open_adaptive();
+    window.get_by_label("Node 3").click_secondary();
+    press(&mut window, "Switch off");
+    until(&mut window, "a loss", |window| conditions(window) == [(2, Condition::Off)]);
+    let state = session(&window).stage().state();
+    assert_eq!((state.nodes()[2].condition, state.nodes()[2].left()), (Condition::Off, 0));
+    until(&mut window, "the ring to notice", |window| is_seen(window, "the ring closes round it"));
+    assert!(is_seen(&window, "Machine 3 is switched off with "));
+    window.get_by_label("What node 3 does: off").click();
+    press(&mut window, "Switch on again");
+    until(&mut window, "its return", |window| is_seen(window, "the ring opens for it"));
+    let before = session(&window).stage().state().nodes()[2].done;
+    until(&mut window, "its work", |window| session(window).stage().state().nodes()[2].done > before);
+}
+
+#[test]
+fn an_empty_seat_is_taken() {
+    let mut window = open_adaptive();
+    assert_eq!((session(&window).header().spares, session(&window).header().speeds.len()), (1, 9));
+    assert!(session(&window).is_spare(8));
+    window.get_by_label("Node 9").click_secondary();
+    press(&mut window, "Let it join");
+    until(&mut window, "its work", |window| session(window).stage().state().nodes()[8].done > 0);
+    assert!(is_seen(&window, "Machine 9 joins"));
+    drag(&mut window, "Speed of node 9", 0.5);
+    assert_eq!(session(&window).speed(8), 0.5);
+}
+
+#[test]
+fn the_ring_view_has_the_same_menu() {
+    let mut window = open_adaptive();
+    let ring = window.get_by_label("The ring").rect();
+    let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
+    window.hover_at(top);
+    window.step();
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos: top, button, pressed, modifiers });
+        window.step();
+    }
+    press(&mut window, "Let it hang");
+    until(&mut window, "a machine that hangs", |window| conditions(window) == [(0, Condition::Hung)]);
+}
+
+#[test]
+fn keys_make_the_selected_machine_fail_and_well_again() {
+    let mut window = open_adaptive();
+    key(&mut window, Key::Num2);
+    for (pressed, condition) in [(Key::H, Condition::Hung), (Key::U, Condition::CutOff), (Key::X, Condition::Off)] {
+        let before = conditions(&window).len();
+        key(&mut window, pressed);
+        until(&mut window, "a failure", |window| conditions(window).last() == Some(&(1, condition)));
+        key(&mut window, pressed);
+        until(&mut window, "its end", |window| conditions(window).last() == Some(&(1, Condition::Well)));
+        assert_eq!(conditions(&window).len(), before + 2);
+    }
+}
+
+#[test]
+fn other_rings_can_be_broken_too_and_say_that_they_hang() {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Virtual");
+    until(&mut window, "atoms", |window| done(window) > 50);
+    assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
+    key(&mut window, Key::Num1);
+    key(&mut window, Key::X);
+    for _ in 0..8 {
+        key(&mut window, Key::Period);
+    }
+    until(&mut window, "the run to hang", |window| {
+        let (stage, now) = (session(window).stage(), session(window).now());
+        stage.narrator().sentence(stage.state(), now)
+            == "The run hangs, since 1 is off: the article's ring has no remedy, the adaptive ring has"
+    });
+}
