@@ -101,6 +101,16 @@ pub enum What {
         /// Whether it is cut now.
         cut: bool,
     },
+    /// The way from one party to another was held up: what would have arrived after [`Record::at`] arrives at `until`, and
+    /// nothing arrives before.
+    Delayed {
+        /// Who sends it.
+        from: Party,
+        /// Who waits for it.
+        to: Party,
+        /// Until when.
+        until: Time,
+    },
     /// A message would have arrived now, and is lost: its link is cut, or its receiver is off.
     Lost {
         /// Which one.

@@ -38,6 +38,16 @@ pub enum Command {
         /// Whether it is cut.
         cut: bool,
     },
+    /// Holds up what is on its way from one party to another, and what is sent there: it arrives no earlier than so much
+    /// later, all in its order.
+    Delay {
+        /// Who sends it.
+        from: Party,
+        /// Who is to wait for it.
+        to: Party,
+        /// How long, from now.
+        by: Duration,
+    },
     /// Gives all links another latency, for the messages that leave from now on.
     Latency(Duration),
 }

@@ -68,6 +68,8 @@ fn a_mistake_is_told_with_its_place() {
     place("colour: 3", "", "line 4");
     place("strategy: \"tree\"", "", "there is no strategy `tree`");
     place("speeds: []", "", "line 4, column 36: the run `one`: there can be 1 to 32 machines");
+    place("without: [\"wake\"]", "", "only an `adaptive` run has remedies");
+    place("strategy: \"adaptive\", without: [\"sleep\"]", "", "there is no remedy `sleep`");
     place("speeds: [2]", "", "a speed can be 0 to 1");
     place(
         "script: [(at: 1, machine: 9, speed: 0.1)]",

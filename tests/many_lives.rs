@@ -27,6 +27,8 @@ struct Seen {
     off: u32,
     begun_anew: u32,
     links_cut: u32,
+    held_up: u32,
+    stood_still: u32,
     lost: u32,
     again: u32,
     /// Runs that ended while a machine could not hear of it.
@@ -47,8 +49,8 @@ fn whatever_befalls_machines_and_links_the_picture_is_the_same() {
             live(&tracer, &mut Rng::with_seed(seed), &mut seen).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         assert!(bits(frame.pixels()).eq(bits(&plain)), "seed {seed}: another picture");
     }
-    let Seen { hung, cut_off, off, begun_anew, links_cut, lost, again, unheard } = seen;
-    let all = [hung, cut_off, off, begun_anew, links_cut, lost, again, unheard];
+    let Seen { hung, cut_off, off, begun_anew, links_cut, held_up, stood_still, lost, again, unheard } = seen;
+    let all = [hung, cut_off, off, begun_anew, links_cut, held_up, stood_still, lost, again, unheard];
     assert!(all.iter().all(|&times| times > 0), "{seen:?}");
     // The system may still be clearing away what has ended.
     for _ in 0..3000 {
@@ -75,7 +77,7 @@ fn live(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, S
         ..plain
     };
     let run = Run::start(Arc::clone(tracer), &header);
-    for _ in 0..rng.u32(2..10) {
+    for _ in 0..rng.u32(2..12) {
         std::thread::sleep(rng.u32(0..3000) * Duration::from_micros(1));
         run.command(befall(rng, nodes));
     }
@@ -88,12 +90,21 @@ fn live(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, S
 fn befall(rng: &mut Rng, nodes: NodeId) -> Command {
     let node = rng.u16(1..nodes);
     let conditions = [Condition::Off, Condition::Hung, Condition::CutOff, Condition::Well, Condition::Well];
-    match rng.u32(0..5) {
+    match rng.u32(0..7) {
         0 => {
             // The first node always hears of its parent.
             let other = [Party::Parent, Party::Node(0), Party::Node(rng.u16(0..nodes))][rng.usize(0..3)];
             Command::Link { one: Party::Node(node), other, cut: rng.u32(0..3) > 0 }
         }
+        1 => {
+            let (one, other) = (Party::Node(node), [Party::Parent, Party::Node(0)][rng.usize(0..2)]);
+            let (from, to) = if rng.bool() { (one, other) } else { (other, one) };
+            Command::Delay { from, to, by: rng.u32(0..100) * MS }
+        }
+        2 => match rng.u32(0..3) {
+            0 => Command::Pause { node, paused: rng.bool() },
+            _ => Command::Speed { node, speed: [0.0, 0.0, 0.01, 1.0][rng.usize(0..4)] },
+        },
         _ => Command::Condition { node, condition: conditions[rng.usize(0..conditions.len())] },
     }
 }
@@ -112,6 +123,8 @@ fn look_at(records: &[Record], nodes: NodeId, seen: &mut Seen) {
                 }
             }
             What::Link { cut: true, .. } => seen.links_cut += 1,
+            What::Delayed { .. } => seen.held_up += 1,
+            What::Paused { .. } | What::SpeedSet { speed: 0.0, .. } => seen.stood_still += 1,
             What::Lost { .. } => seen.lost += 1,
             What::Sent { message: Message::Request, .. } => seen.begun_anew += 1,
             What::Sent { from: Party::Parent, message: Message::Again(_), .. } => seen.again += 1,

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{ArgGroup, Parser, Subcommand};
 
 use super::sharing::Sharing;
+use crate::balance::Remedy;
 use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -168,6 +169,9 @@ pub(super) struct RenderArgs {
     /// for about 16 parts a node]
     #[arg(long, value_name = "ATOMS", value_parser = clap::value_parser!(u32).range(1..))]
     pub part: Option<u32>,
+    /// Adaptive: leave these remedies out: speed, floor, early, pipe, wake, copies, shortcuts, leases [default: none]
+    #[arg(long, value_name = "REMEDY,REMEDY", value_delimiter = ',')]
+    pub without: Vec<Remedy>,
     /// How long a message travels, in milliseconds
     #[arg(long, value_name = "MS", default_value = "0", value_parser = milliseconds)]
     pub latency: Duration,

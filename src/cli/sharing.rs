@@ -66,8 +66,12 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     if args.costs.is_some() && driver != Driver::Sim {
         return Err("measured costs are for runs in virtual time; add --driver sim".into());
     }
+    if !args.without.is_empty() && args.strategy != Sharing::By(Strategy::Adaptive) {
+        return Err("only the ring that adapts has remedies: add --strategy adaptive, or leave out --without".into());
+    }
     let mut rules = Rules::usual(strategy, division, speeds.len());
     rules.part = args.part.unwrap_or(rules.part);
+    rules.remedies = args.without.iter().fold(rules.remedies, |all, &remedy| all.without(remedy));
     rules.beat = Rules::beat_for(args.handling, speeds.len());
     let cores = if driver == Driver::Sim { speeds.len() } else { cores() };
     let pace = match args.pace {

@@ -1,28 +1,31 @@
-//! What fails in a run on threads, as far as all parties have to know of it: links that are cut, and machines that are cut off.
+//! What fails in a run on threads, as far as all parties have to know of it: links that are cut, ways that are held up,
+//! and machines that are cut off.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crate::balance::{NodeId, Party};
-use crate::sim::Cuts;
+use crate::sim::Faults;
+use crate::time::Time;
 
-/// What is cut, until the run is over: nothing fails after that, or is mended.
+/// What is wrong, until the run is over: nothing fails after that, or is mended.
 #[derive(Debug, Default)]
 pub(super) struct Losses {
-    cuts: Mutex<Cuts>,
+    faults: Mutex<Faults>,
     over: AtomicBool,
 }
 
 impl Losses {
     /// Cuts the link between two parties, or mends it. Whether that changes anything.
     pub fn cut_link(&self, one: Party, other: Party, is_cut: bool) -> bool {
-        self.change(|cuts| cuts.cut_link(one, other, is_cut))
+        self.change(|faults| faults.cut_link(one, other, is_cut))
     }
 
     /// Cuts a node off from all others, or no longer. Whether that is still possible.
     pub fn cut_off(&self, node: NodeId, is_cut_off: bool) -> bool {
-        self.change(|cuts| {
-            cuts.cut_off(node, is_cut_off);
+        self.change(|faults| {
+            faults.cut_off(node, is_cut_off);
             true
         })
     }
@@ -32,9 +35,22 @@ impl Losses {
         self.lock().is_cut(one, other)
     }
 
+    /// Holds up the way from one party to another from `now` on. Whether that is still possible.
+    pub fn delay(&self, from: Party, to: Party, now: Time, by: Duration) -> bool {
+        self.change(|faults| {
+            faults.delay(from, to, now, now + by);
+            true
+        })
+    }
+
+    /// When a message arrives that would do so at `at`.
+    pub fn arrival(&self, from: Party, to: Party, at: Time) -> Time {
+        self.lock().arrival(from, to, at)
+    }
+
     /// The parent has nothing more to do: what it says last reaches whoever it reaches now.
     pub fn end(&self) {
-        let _cuts = self.lock();
+        let _faults = self.lock();
         self.over.store(true, Ordering::SeqCst);
     }
 
@@ -43,14 +59,14 @@ impl Losses {
         self.over.load(Ordering::SeqCst)
     }
 
-    fn change(&self, change: impl FnOnce(&mut Cuts) -> bool) -> bool {
-        let mut cuts = self.lock();
-        !self.is_over() && change(&mut cuts)
+    fn change(&self, change: impl FnOnce(&mut Faults) -> bool) -> bool {
+        let mut faults = self.lock();
+        !self.is_over() && change(&mut faults)
     }
 
     /// No panic leaves it half changed.
-    fn lock(&self) -> MutexGuard<'_, Cuts> {
-        self.cuts.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Faults> {
+        self.faults.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -63,7 +79,6 @@ mod tests {
     use crate::balance::{Condition, Event, Message};
     use crate::record::What;
     use crate::runlog::examples;
-    use crate::time::Time;
     use crossbeam_channel::Receiver;
     use std::sync::Arc;
 
@@ -183,6 +198,20 @@ mod tests {
         pair.send(500);
         assert_eq!(pair.hear(600), "L");
         pair.hearer.put(Condition::Well);
+        pair.send(700);
+        assert_eq!(pair.hear(800), "mR");
+    }
+
+    #[test]
+    fn what_is_held_up_arrives_later_in_its_order_and_with_what_is_sent_meanwhile() {
+        let mut pair = Pair::new();
+        pair.send(100);
+        pair.shared.losses.delay(TWO, ONE, Time(90), Duration::from_nanos(400));
+        pair.send(200);
+        assert_eq!(pair.hear(489), "");
+        pair.send(480);
+        pair.hearer.set_timer(Time(470));
+        assert_eq!(pair.hear(600), "tmmmRRR");
         pair.send(700);
         assert_eq!(pair.hear(800), "mR");
     }

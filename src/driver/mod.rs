@@ -17,6 +17,7 @@
 //! A recorded run has no parties any more: its records are known, and threads trace its picture again.
 
 mod clock;
+mod firsts;
 mod guarded;
 mod jobs;
 mod losses;

@@ -105,4 +105,8 @@ impl Duties for Handler {
     fn is_over(&self) -> bool {
         self.finished
     }
+
+    fn is_void(&self) -> bool {
+        self.finished
+    }
 }

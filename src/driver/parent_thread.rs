@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::firsts::Firsts;
 use super::meter::Meter;
 use super::port::{Incoming, Port, Stopped};
 use super::{TracePixels, Update};
@@ -26,6 +27,7 @@ pub(super) struct ParentThread {
     /// Traces for an estimate, as fast as the reference machine.
     machine: Machine,
     placed: Placed,
+    firsts: Firsts,
     /// Whether the parent has asked for an estimate.
     estimate: bool,
     finished: bool,
@@ -38,17 +40,6 @@ struct Placed {
     pixels: Vec<Colour>,
 }
 
-impl Placed {
-    fn add(&mut self, atoms: &[Range<Atom>], pixels: Vec<Colour>) {
-        self.atoms.extend_from_slice(atoms);
-        if self.pixels.is_empty() {
-            self.pixels = pixels;
-        } else {
-            self.pixels.extend(pixels);
-        }
-    }
-}
-
 impl ParentThread {
     /// The parent of the run that `header` describes.
     pub fn new(header: &Header, port: Port, trace: Arc<TracePixels>) -> Self {
@@ -57,7 +48,8 @@ impl ParentThread {
         let machine = Machine::new(1.0, header.pace);
         let (division, placed) = (header.division, Placed::default());
         let size = header.size;
-        Self { parent, port, trace, size, division, machine, placed, estimate: false, finished: false }
+        let firsts = Firsts::new(division);
+        Self { parent, port, trace, size, division, machine, placed, firsts, estimate: false, finished: false }
     }
 
     /// Runs the parent until the picture is complete, or until the run is stopped.
@@ -79,7 +71,7 @@ impl ParentThread {
             match self.port.next(now) {
                 Some(Incoming::Event(event, pixels)) => {
                     if let Event::Message { message: Message::Results(atoms), .. } = &event {
-                        self.placed.add(atoms, pixels);
+                        self.place(atoms, &pixels);
                     }
                     self.hand_over(event);
                 }
@@ -89,12 +81,25 @@ impl ParentThread {
                 Some(Incoming::Command(Command::Link { one, other, cut })) => {
                     self.port.record(What::Link { one, other, cut });
                 }
+                Some(Incoming::Command(Command::Delay { from, by, .. })) => self.port.delayed(from, by),
                 Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
                 Some(Incoming::Order(_)) => unreachable!("the parent is no worker"),
                 None => self.port.wait(None),
             }
         }
         Ok(())
+    }
+
+    /// Keeps the pixels of those of these atoms that are not in the picture yet, to be passed on.
+    fn place(&mut self, atoms: &[Range<Atom>], pixels: &[Colour]) {
+        for (range, (place, colours)) in atoms.iter().zip(self.division.placed(atoms, pixels)) {
+            for new in self.firsts.take(range.clone()) {
+                let pixels = self.division.pixels_of(&new);
+                let [from, to] = [pixels.start, pixels.end].map(|pixel| (pixel - place.start) as usize);
+                self.placed.pixels.extend_from_slice(&colours[from..to]);
+                self.placed.atoms.push(new);
+            }
+        }
     }
 
     /// Samples what the picture costs, and waits until the reference machine would have done as much.

@@ -118,6 +118,7 @@ impl Port {
         let bytes = self.shared.bytes(&message);
         let receiver = self.shared.index(to);
         let arrives = self.shared.arrival(&mut self.links[receiver], self.time, bytes);
+        let arrives = self.shared.losses.arrival(self.me, to, arrives);
         let is_lost = self.shared.losses.is_cut(self.me, to);
         let sent = || Content::Message { from: self.me, message: message.clone(), pixels };
         let content = if is_lost { Content::Lost } else { sent() };
@@ -159,6 +160,12 @@ impl Port {
         true
     }
 
+    /// Notes down that what `from` sends to this party is held up.
+    pub fn delayed(&mut self, from: Party, by: Duration) {
+        let (to, until) = (self.me, self.time + by);
+        self.record(What::Delayed { from, to, until });
+    }
+
     /// What happens next, if it happens until `horizon`; the party's time is then when it does.
     pub fn next(&mut self, horizon: Time) -> Option<Incoming> {
         while let Ok(parcel) = self.inbox.try_recv() {
@@ -177,8 +184,13 @@ impl Port {
                 return Some(Incoming::Event(Event::Timer, Vec::new()));
             }
             let at = handled.filter(|&at| at <= horizon)?;
-            self.advance(if self.backdates { at } else { horizon });
             let Reverse(parcel) = self.held.pop()?;
+            let due = self.due(&parcel);
+            if due > parcel.due {
+                self.held.push(Reverse(Parcel { due, ..parcel }));
+                continue;
+            }
+            self.advance(if self.backdates { at } else { horizon });
             match &parcel.content {
                 content if self.is_lost(content) => _ = self.record(What::Lost { id: parcel.id }),
                 Content::Message { .. } if self.condition == Condition::Hung => self.waiting.push_back(parcel),
@@ -235,6 +247,14 @@ impl Port {
     fn hold(&mut self, parcel: Parcel) {
         if !matches!(parcel.content, Content::Wake) {
             self.held.push(Reverse(parcel));
+        }
+    }
+
+    /// When something arrives: a message may have been held up since it was sent.
+    fn due(&self, parcel: &Parcel) -> Time {
+        match parcel.content {
+            Content::Message { from, .. } => self.shared.losses.arrival(from, self.me, parcel.due),
+            _ => parcel.due,
         }
     }
 

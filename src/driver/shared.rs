@@ -149,6 +149,7 @@ impl Shared {
         match command {
             Command::Latency(latency) => self.set_latency(latency),
             Command::Link { one, other, cut } => self.cut(one, other, cut),
+            Command::Delay { from, to, by } => self.delay(from, to, by),
             Command::Condition { .. } if !self.can_fail => {}
             Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
                 if usize::from(node) < self.nodes {
@@ -169,11 +170,24 @@ impl Shared {
 
     /// Cuts a link for the messages that leave or arrive from now on, or mends it, and tells the parent of a change.
     fn cut(&self, one: Party, other: Party, cut: bool) {
-        let exists = |party| matches!(party, Party::Parent) || self.index(party) < self.nodes;
-        if self.can_fail && exists(one) && exists(other) && self.losses.cut_link(one, other, cut) {
+        if self.has_link(one, other) && self.losses.cut_link(one, other, cut) {
             let command = Content::Command(Command::Link { one, other, cut });
             self.deliver(self.index(Party::Parent), self.clock.now(), command);
         }
+    }
+
+    /// Holds up the way from one party to another, and tells who waits there.
+    fn delay(&self, from: Party, to: Party, by: Duration) {
+        let now = self.clock.now();
+        if self.has_link(from, to) && from != to && self.losses.delay(from, to, now, by) {
+            self.deliver(self.index(to), now, Content::Command(Command::Delay { from, to, by }));
+        }
+    }
+
+    /// Whether something can become of the link between the two.
+    fn has_link(&self, one: Party, other: Party) -> bool {
+        let exists = |party| matches!(party, Party::Parent) || self.index(party) < self.nodes;
+        self.can_fail && exists(one) && exists(other)
     }
 
     /// The next thing's id.

@@ -8,6 +8,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
+use super::firsts::Firsts;
 use super::port::FLUSH;
 use super::whole::Whole;
 use super::{TracePixels, Update};
@@ -129,7 +130,13 @@ pub(super) fn play(
     let whole = Whole::trace(header.division, trace, &|_| {}, &is_over)?.ok_or(STOPPED)?;
     let costs = whole.costs();
     let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
-    let mut news = News { division: header.division, whole, on_their_way: BTreeMap::new(), updates };
+    let mut news = News {
+        division: header.division,
+        whole,
+        on_their_way: BTreeMap::new(),
+        firsts: Firsts::new(header.division),
+        updates,
+    };
     shared.begin();
     loop {
         if is_over() {
@@ -172,6 +179,7 @@ struct News<'a> {
     division: Division,
     whole: Whole,
     on_their_way: BTreeMap<u64, Vec<Range<Atom>>>,
+    firsts: Firsts,
     updates: &'a Sender<Update>,
 }
 
@@ -185,7 +193,8 @@ impl News<'_> {
                     self.on_their_way.insert(*id, ranges.clone());
                 }
                 What::Received { id, by: Party::Parent } => {
-                    atoms.extend(self.on_their_way.remove(id).into_iter().flatten());
+                    let ranges = self.on_their_way.remove(id).into_iter().flatten();
+                    atoms.extend(ranges.flat_map(|range| self.firsts.take(range)));
                 }
                 _ => {}
             }

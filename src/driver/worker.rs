@@ -52,6 +52,11 @@ pub(super) trait Duties {
 
     /// Whether there is nothing to wait for.
     fn is_over(&self) -> bool;
+
+    /// Whether nobody needs the atom in hand any more.
+    fn is_void(&self) -> bool {
+        false
+    }
 }
 
 /// A worker, to be made and kept on the thread on which it traces.
@@ -209,6 +214,7 @@ impl Worker {
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
             Command::Condition { condition, .. } => return self.put(condition, duties),
+            Command::Delay { from, by, .. } => return self.port.delayed(from, by),
             Command::Link { .. } | Command::Latency(_) => {
                 unreachable!("the parent notes down what is done to the network")
             }
@@ -300,7 +306,8 @@ impl Worker {
         Ok(())
     }
 
-    /// Waits until the piece in hand is due, unless that is near; handles what happens meanwhile.
+    /// Waits until the piece in hand is due, unless that is near; handles what happens meanwhile. An atom that nobody needs any
+    /// more is dropped.
     fn wait_until_due(&mut self, duties: &mut impl Duties) -> Result<(), Stopped> {
         let mut near = AHEAD;
         loop {
@@ -313,6 +320,10 @@ impl Worker {
             // Who waits at all waits for the full time, or the thread would wake for each piece.
             near = Duration::ZERO;
             self.handle_until(duties, |worker| worker.machine.due().map_or(now, |due| due.min(now)));
+            if duties.is_void() {
+                self.hand = None;
+                return Ok(());
+            }
             self.port.wait(self.machine.due());
         }
     }

@@ -122,6 +122,13 @@ fn row(record: &Record) -> Row {
             let what = if *cut { "link cut" } else { "link mended" };
             Row { what, from: Some(name(*one)), to: Some(name(*other)), ..Row::default() }
         }
+        What::Delayed { from, to, until } => Row {
+            what: "held up",
+            from: Some(name(*from)),
+            to: Some(name(*to)),
+            latency_s: Some(seconds(until.since(record.at))),
+            ..Row::default()
+        },
         What::Lost { id } => Row { what: "lost", message: Some(*id), ..Row::default() },
         What::AtomFailed { node, atom } => Row { atoms: Some(atom.to_string()), count: Some(1), ..of("failed", *node) },
         What::GivenUp { atom } => Row { what: "given up", atoms: Some(atom.to_string()), ..Row::default() },

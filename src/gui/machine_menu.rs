@@ -71,8 +71,8 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
         word!("This ring notices, and mends it", "Este anel percebe e conserta")
     } else {
         word!(
-            "No remedy for this here: the run may hang. The adaptive ring has one",
-            "Aqui não há remédio: a execução pode parar. O anel adaptativo tem"
+            "No remedy for this here: the run may hang. The adaptive ring has one, its leases",
+            "Aqui não há remédio: a execução pode parar. O anel adaptativo tem, os prazos"
         )
     };
     ui.add(egui::Label::new(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap());

@@ -14,6 +14,7 @@ mod inspector;
 mod keys;
 mod learn;
 mod machine_menu;
+mod message_menu;
 mod nodes_panel;
 mod notice;
 mod opening;

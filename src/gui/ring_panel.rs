@@ -4,6 +4,7 @@ use egui::{Align2, Painter, Rect, Sense, Ui};
 
 use super::focus::Focus;
 use super::machine_menu;
+use super::message_menu;
 use super::paint::{Inks, paint};
 use super::session::Session;
 use super::theme::{self, Look};
@@ -65,11 +66,12 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
         (None, None) => None,
     };
     if response.secondary_clicked() {
-        let node = match spot {
-            Some(Spot::Node(node)) if message.is_none() => Some(node),
-            _ => None,
+        let subject = match (message, spot) {
+            (Some(message), _) => Some(Subject::Message(message.into())),
+            (None, Some(Spot::Node(node))) => Some(Subject::Node(node)),
+            (None, _) => None,
         };
-        ui.data_mut(|data| data.insert_temp(response.id, node));
+        ui.data_mut(|data| data.insert_temp(response.id, subject));
     }
     if state.finished().is_none() {
         corner(&painter, rect, small_print(state), look);
@@ -80,12 +82,21 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
-    if let Some(node) = ui.data(|data| data.get_temp::<Option<NodeId>>(response.id)).flatten() {
-        machine_menu::on(&response, session, node, look);
+    match ui.data(|data| data.get_temp::<Option<Subject>>(response.id)).flatten() {
+        Some(Subject::Node(node)) => machine_menu::on(&response, session, node, look),
+        Some(Subject::Message(message)) => message_menu::on(&response, session, &message, look),
+        None => {}
     }
     if let Some((title, lines)) = more {
         response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
     }
+}
+
+/// What the menu is about.
+#[derive(Clone)]
+enum Subject {
+    Node(NodeId),
+    Message(message_menu::Subject),
 }
 
 /// What there is to know of the drawing itself, in its lower right corner.

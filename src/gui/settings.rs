@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::preset::Preset;
 use super::tempo::Tempo;
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Remedies, Strategy};
 use crate::language::{say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::Driver;
@@ -37,6 +37,8 @@ pub struct Settings {
     pub speeds: Vec<f64>,
     /// Machines that are off at first and may join, in a ring that adapts: a speed each, at most [`Settings::MOST_SPARES`].
     pub spares: Vec<f64>,
+    /// What a ring that adapts does otherwise than the article's.
+    pub remedies: Remedies,
     /// What random speeds are made from.
     pub seed: u32,
     /// How long a message travels, in milliseconds, at most [`Settings::MOST_LATENCY`].
@@ -215,6 +217,7 @@ impl Default for Settings {
             tempo: Tempo::Lasts(20),
             speeds: vec![1.0; 8],
             spares: Vec::new(),
+            remedies: Remedies::ALL,
             seed: 1,
             latency: 40,
             handling: 0,

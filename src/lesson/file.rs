@@ -8,7 +8,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
 use super::{BUILT_IN, Claim, Lesson, Look, Moment, Plan, Question, Step, Words};
-use crate::balance::{Condition, NodeId, Strategy};
+use crate::balance::{Condition, NodeId, Remedies, Remedy, Strategy};
 use crate::picture::Size;
 use crate::ron_file::{self, FileError, find_path, skipped};
 use crate::scenario::Command;
@@ -90,6 +90,8 @@ struct PlanFile {
     handling_ms: f64,
     seconds: f64,
     spares: usize,
+    #[serde(deserialize_with = "remedies")]
+    without: Vec<Remedy>,
     script: Vec<Deed>,
 }
 
@@ -155,6 +157,7 @@ impl Default for PlanFile {
             handling_ms: 0.0,
             seconds: 20.0,
             spares: 0,
+            without: Vec::new(),
             script: Vec::new(),
         }
     }
@@ -232,6 +235,9 @@ impl PlanFile {
             let why = "only an `adaptive` run has spare machines, the last of its `speeds`, and not all can be spare";
             return Err(Wrong::new(&["spares"], why));
         }
+        if !self.without.is_empty() && self.strategy != Strategy::Adaptive {
+            return Err(Wrong::new(&["without"], "only an `adaptive` run has remedies that it could be without"));
+        }
         let ms = |field, value| {
             within(&format!("`{field}`"), value, 0.0, 60_000.0)
                 .map(|value| Duration::from_secs_f64(value * 1e-3))
@@ -260,6 +266,7 @@ impl PlanFile {
             speeds: self.speeds,
             // Fewer than machines, of which there are few.
             spares: self.spares as NodeId,
+            remedies: self.without.into_iter().fold(Remedies::ALL, Remedies::without),
             script,
         })
     }
@@ -332,6 +339,12 @@ impl QuestionFile {
 /// By its name on the command line.
 fn strategy<'de, D: Deserializer<'de>>(from: D) -> Result<Strategy, D::Error> {
     String::deserialize(from)?.parse().map_err(D::Error::custom)
+}
+
+/// By their names on the command line.
+fn remedies<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Remedy>, D::Error> {
+    let names = Vec::<String>::deserialize(from)?;
+    names.iter().map(|name| name.parse().map_err(D::Error::custom)).collect()
 }
 
 /// People count machines from 1.

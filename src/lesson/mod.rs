@@ -20,7 +20,7 @@ use std::time::Duration;
 
 use serde::Deserialize;
 
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Remedies, Strategy};
 use crate::picture::Size;
 use crate::scenario::Script;
 
@@ -58,6 +58,8 @@ pub struct Plan {
     pub speeds: Vec<f64>,
     /// How many of the machines, the last ones, are off at first and may join.
     pub spares: NodeId,
+    /// What the ring that adapts does otherwise than the article's.
+    pub remedies: Remedies,
     /// How long a message travels.
     pub latency: Duration,
     /// How long the parent is busy with a message.
@@ -111,7 +113,7 @@ pub struct Question {
 }
 
 /// The lessons that come with the program, in the order in which they are best taken: name and text.
-pub const BUILT_IN: [(&str, &str); 10] = [
+pub const BUILT_IN: [(&str, &str); 15] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),
     ("farm", include_str!("../../assets/lessons/farm.ron")),
@@ -120,6 +122,11 @@ pub const BUILT_IN: [(&str, &str); 10] = [
     ("sizes", include_str!("../../assets/lessons/sizes.ron")),
     ("limits", include_str!("../../assets/lessons/limits.ron")),
     ("by-speed", include_str!("../../assets/lessons/by-speed.ron")),
+    ("crumbs", include_str!("../../assets/lessons/crumbs.ron")),
+    ("early", include_str!("../../assets/lessons/early.ron")),
+    ("pipe", include_str!("../../assets/lessons/pipe.ron")),
+    ("copies", include_str!("../../assets/lessons/copies.ron")),
     ("woken", include_str!("../../assets/lessons/woken.ron")),
+    ("shortcuts", include_str!("../../assets/lessons/shortcuts.ron")),
     ("lost-machine", include_str!("../../assets/lessons/lost-machine.ron")),
 ];

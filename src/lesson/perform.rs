@@ -90,6 +90,7 @@ impl Plan {
                 part: self.part.unwrap_or(plain.rules.part),
                 batch: Some(Rules::batch_for(self.handling, self.speeds.len())),
                 beat: Rules::beat_for(self.handling, self.speeds.len()),
+                remedies: self.remedies,
                 ..plain.rules
             },
             spares: self.spares,

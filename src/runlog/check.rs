@@ -83,6 +83,11 @@ impl<'a> Checker<'a> {
                 party(header, *one)?;
                 party(header, *other)
             }
+            What::Delayed { from, to, until } => {
+                party(header, *from)?;
+                party(header, *to)?;
+                ensure(until.since(record.at) <= HOUR, "messages are held up for more than an hour")
+            }
             What::AtomFailed { node: id, atom } => {
                 self.atom(*atom)?;
                 node(header, *id)

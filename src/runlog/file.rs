@@ -227,6 +227,10 @@ mod tests {
             (0..NODES).prop_map(|node| What::Retired { node }),
             (0..NODES, conditions()).prop_map(|(node, condition)| What::Condition { node, condition }),
             (parties(), parties(), any::<bool>()).prop_map(|(one, other, cut)| What::Link { one, other, cut }),
+            (parties(), parties(), 0..=3_600_000u64).prop_map(|(from, to, ms)| {
+                let until = Time::ZERO + Duration::from_millis(ms);
+                What::Delayed { from, to, until }
+            }),
             any::<u64>().prop_map(|id| What::Lost { id }),
             (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomFailed { node, atom }),
             (0..ATOMS).prop_map(|atom| What::GivenUp { atom }),

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::Caption;
-use crate::balance::{NodeId, Rules, Strategy};
+use crate::balance::{NodeId, Remedies, Rules, Strategy};
 use crate::picture::{Division, Quality, Size};
 
 /// What a run was asked to do.
@@ -103,6 +103,12 @@ impl Header {
     /// What the run is called: its title, else its scene.
     pub fn title(&self) -> &str {
         if self.caption.title.is_empty() { &self.scene } else { &self.caption.title }
+    }
+
+    /// What the ring does otherwise than the article's; nothing where atoms are shared in another way.
+    pub fn remedies(&self) -> Remedies {
+        let adapts = self.driver != Driver::WorkStealing && self.rules.strategy == Strategy::Adaptive;
+        if adapts { self.rules.remedies } else { Remedies::NONE }
     }
 
     /// Whether this node is off at first.

@@ -91,6 +91,7 @@ impl Tally {
             | What::AtomStarted { .. }
             | What::LatencySet { .. }
             | What::Link { .. }
+            | What::Delayed { .. }
             | What::Lost { .. }
             | What::AtomFailed { .. }
             | What::GivenUp { .. }

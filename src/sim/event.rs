@@ -68,6 +68,15 @@ impl Future {
         self.events.iter().any(|Reverse(planned)| kind(&planned.happening))
     }
 
+    /// Plans what is of this kind for another time, in the order in which it was to happen.
+    pub fn move_to(&mut self, at: impl Fn(Time) -> Time, kind: impl Fn(&Happening) -> bool) {
+        let (mut moved, others): (Vec<_>, Vec<_>) =
+            self.events.drain().map(|Reverse(planned)| planned).partition(|planned| kind(&planned.happening));
+        self.events = others.into_iter().map(Reverse).collect();
+        moved.sort_unstable();
+        moved.into_iter().for_each(|planned| self.plan(at(planned.at), planned.happening));
+    }
+
     /// Takes out what happens next, if that is until `horizon`.
     pub fn pop(&mut self, horizon: Time) -> Option<(Time, Happening)> {
         self.next().filter(|&at| at <= horizon)?;

@@ -1,6 +1,7 @@
 //! What is lost in a run in virtual time: machines that hang, are cut off or off, links that are cut, and what was on them.
 
 use std::mem;
+use std::time::Duration;
 
 use super::event::Happening;
 use super::simulation::{Sim, Tell};
@@ -52,7 +53,7 @@ impl Sim {
             return;
         }
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
-        self.cuts.cut_off(node, condition == Condition::CutOff);
+        self.faults.cut_off(node, condition == Condition::CutOff);
         self.note(What::Condition { node, condition }, tell);
         let party = &mut self.nodes[index];
         match (before, condition) {
@@ -72,12 +73,28 @@ impl Sim {
         }
     }
 
+    /// Holds up the way from one party to another.
+    pub(super) fn delay(&mut self, from: Party, to: Party, by: Duration, tell: Tell<'_>) {
+        let is_missing = |party| matches!(party, Party::Node(node) if self.machine(node).is_none());
+        if self.finished || from == to || is_missing(from) || is_missing(to) {
+            return;
+        }
+        let until = self.faults.delay(from, to, self.now, self.now + by);
+        let on_this_way = |happening: &Happening| match happening {
+            Happening::Arrival { to: other, mail } => (mail.from, *other) == (from, to),
+            _ => false,
+        };
+        let faults = &self.faults;
+        self.future.move_to(|at| faults.arrival(from, to, at), on_this_way);
+        self.note(What::Delayed { from, to, until }, tell);
+    }
+
     /// The parent has nothing more to do. Nodes that its last message cannot reach are abandoned: whoever owns their machines
     /// has to look after them.
     pub(super) fn end(&mut self) {
         self.finished = true;
         for node in 0..self.nodes.len() as NodeId {
-            let unheard = self.cuts.is_cut(Party::Parent, Party::Node(node));
+            let unheard = self.faults.is_cut(Party::Parent, Party::Node(node));
             let party = &mut self.nodes[usize::from(node)];
             if unheard || matches!(party.condition, Condition::Hung | Condition::Off) {
                 party.finished = true;
@@ -90,11 +107,37 @@ impl Sim {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
     use crate::runlog::{Driver, Header, examples};
     use crate::scenario::Command;
+
+    #[test]
+    fn what_is_held_up_arrives_then_in_its_order_and_what_is_on_a_cut_link_never() {
+        let header = Header { driver: Driver::Sim, ..examples::header(&[1.0, 1.0, 1.0]) };
+        let (from, to, at) = (Party::Node(1), Party::Parent, Time(3_000));
+        let until = Time::from_secs(0.01);
+        let held = vec![(at, Command::Delay { from, to, by: until.since(at) })];
+        let cut = vec![(at, Command::Link { one: from, other: to, cut: true })];
+        for (script, is_cut) in [(held, false), (cut, true)] {
+            let (mut sent, mut came, mut lost) = (Vec::new(), Vec::new(), 0);
+            Sim::new(&header, &script, |_| Duration::from_micros(1)).run(&mut |record| match record.what {
+                What::Sent { id, from: Party::Node(1), to: Party::Parent, arrives, .. } => {
+                    assert!(is_cut || record.at <= at || arrives >= until, "it is known when it is sent");
+                    sent.push(id);
+                }
+                What::Received { id, by: Party::Parent } if sent.contains(&id) => came.push((record.at, id)),
+                What::Lost { .. } => lost += 1,
+                _ => {}
+            });
+            let late = came.iter().filter(|(when, _)| *when > at).collect::<Vec<_>>();
+            if is_cut {
+                assert!(late.is_empty() && lost > 0 && lost + came.len() == sent.len(), "{late:?}, {lost} lost");
+            } else {
+                assert!(!late.is_empty() && late.iter().all(|(when, _)| *when >= until), "{late:?}");
+                assert!(came.is_sorted_by_key(|(_, id)| *id) && came.len() == sent.len());
+            }
+        }
+    }
 
     #[test]
     fn a_run_in_which_nobody_will_ever_work_comes_to_its_end() {

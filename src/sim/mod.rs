@@ -1,8 +1,8 @@
 //! Machines and links as they are emulated, and whole runs in virtual time: the same protocol, the same records, no
 //! thread and no clock, so that the same run gives the same records to the byte.
 
-mod cuts;
 mod event;
+mod faults;
 mod link;
 mod losses;
 mod machine;
@@ -10,7 +10,7 @@ mod party;
 mod simulation;
 mod trial;
 
-pub use cuts::Cuts;
+pub use faults::Faults;
 pub use link::{Link, Wire};
 pub use machine::Machine;
 pub use simulation::Sim;

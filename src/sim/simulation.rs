@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::time::Duration;
 
-use super::cuts::Cuts;
 use super::event::{Future, Happening, Mail};
+use super::faults::Faults;
 use super::link::{Link, Wire};
 use super::party::Party as Machinery;
 use crate::balance::{Action, Condition, Event, Message, NodeId, Parent, Party, Rules, estimate};
@@ -27,7 +27,7 @@ pub struct Sim {
     pub(super) nodes: Vec<Machinery>,
     /// What all share, if they do.
     wire: Option<Wire>,
-    pub(super) cuts: Cuts,
+    pub(super) faults: Faults,
     parent_timer: Option<Time>,
     pub(super) rules: Rules,
     latency: Duration,
@@ -76,7 +76,7 @@ impl Sim {
             finished: false,
             nodes: (0..nodes as NodeId).map(|id| Machinery::new(header, id)).collect(),
             wire: header.link.shared.then(Wire::default),
-            cuts: Cuts::default(),
+            faults: Faults::default(),
             parent_timer: None,
             rules: header.rules,
             latency: header.link.latency,
@@ -185,10 +185,11 @@ impl Sim {
             }
             Command::Condition { node, condition } => self.put(node, condition, tell),
             Command::Link { one, other, cut } => {
-                if !self.finished && self.cuts.cut_link(one, other, cut) {
+                if !self.finished && self.faults.cut_link(one, other, cut) {
                     self.note(What::Link { one, other, cut }, tell);
                 }
             }
+            Command::Delay { from, to, by } => self.delay(from, to, by, tell),
             Command::Latency(latency) if self.finished || latency == self.latency => {}
             Command::Latency(latency) => {
                 self.latency = latency;
@@ -207,6 +208,9 @@ impl Sim {
         match happening {
             Happening::Started => self.hand_over(Party::Parent, Event::Started, tell),
             Happening::Lost(id) => self.note(What::Lost { id }, tell),
+            Happening::Arrival { to, mail } if self.faults.is_cut(mail.from, to) => {
+                self.note(What::Lost { id: mail.id }, tell);
+            }
             Happening::Arrival { to: Party::Parent, mail } if !self.handling.is_zero() => {
                 self.parent_busy = self.parent_busy.max(self.now) + self.handling;
                 self.future.plan(self.parent_busy, Happening::Handled(mail));
@@ -335,10 +339,11 @@ impl Sim {
         let place = if let Party::Node(node) = to { usize::from(node) } else { usize::MAX };
         let link = links.entry(place).or_default();
         let arrives = link.arrival(self.now, bytes, self.latency, self.bandwidth, self.wire.as_mut());
+        let arrives = self.faults.arrival(from, to, arrives);
         let id = self.sent;
         self.sent += 1;
         self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
-        let cut = self.cuts.is_cut(from, to);
+        let cut = self.faults.is_cut(from, to);
         let arrival = Happening::Arrival { to, mail: Mail { id, from, message } };
         self.future.plan(arrives, if cut { Happening::Lost(id) } else { arrival });
     }

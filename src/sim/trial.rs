@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Sim;
-use crate::balance::{NodeId, Rules, Strategy};
+use crate::balance::{NodeId, Remedy, Rules, Strategy};
 use crate::picture::{Division, Size};
 use crate::record::What;
 use crate::runlog::{Driver, Header, RunLog};
@@ -32,6 +32,8 @@ pub enum Change {
     SpeedAt(Time, NodeId, f64),
     /// All machines run at full speed.
     Equal,
+    /// A ring that adapts lacks one of its remedies.
+    Without(Remedy),
     /// Pixels in an atom.
     Atom(u32),
     /// How long a message travels.
@@ -43,16 +45,18 @@ pub enum Change {
 impl Trial {
     /// The run that a log is of, in virtual time, with all that was done to it.
     pub fn of(log: &RunLog) -> Self {
-        let command = |what: &What| match *what {
+        let command = |at: Time, what: &What| match *what {
             What::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
             What::Paused { node } => Some(Command::Pause { node, paused: true }),
             What::Resumed { node } => Some(Command::Pause { node, paused: false }),
             What::LatencySet { latency } => Some(Command::Latency(latency)),
             What::Condition { node, condition } => Some(Command::Condition { node, condition }),
             What::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
+            What::Delayed { from, to, until } => Some(Command::Delay { from, to, by: until.since(at) }),
             _ => None,
         };
-        let script = log.records().iter().filter_map(|record| Some((record.at, command(&record.what)?))).collect();
+        let script =
+            log.records().iter().filter_map(|record| Some((record.at, command(record.at, &record.what)?))).collect();
         Self::new(log.header.clone(), script)
     }
 
@@ -93,6 +97,7 @@ impl Trial {
                     place <= later + 1 || !of_it(command)
                 });
             }
+            Change::Without(remedy) => header.rules.remedies = header.rules.remedies.without(remedy),
             Change::Equal => header.speeds.fill(1.0),
             Change::Atom(pixels) => header.division = Division::new(header.size.pixels(), pixels.max(1)),
             Change::Latency(latency) => header.link.latency = latency,

@@ -1,5 +1,6 @@
 //! What is changed of a run, in words, and what a run with changes is called.
 
+use super::remedies::without;
 use super::sharing::Sharing;
 use super::words::{count, duration, fraction, node_name, time_words};
 use crate::balance::Strategy;
@@ -20,6 +21,7 @@ pub fn change_words(change: Change) -> String {
             let (at, name, speed) = (time_words(at, 1.0), node_name(node), fraction(speed));
             say!("{name} at {speed} from {at} on", "{name} a {speed} a partir de {at}")
         }
+        Change::Without(remedy) => without(remedy),
         Change::Equal => word!("all at 100 %", "todas a 100 %").to_owned(),
         Change::Atom(pixels) => {
             let pixels = count(pixels);
@@ -59,6 +61,7 @@ fn is_of_the_same(earlier: Change, later: Change) -> bool {
     match (earlier, later) {
         (Change::Speed(one, _), Change::Speed(other, _)) => one == other,
         (Change::Speed(..), Change::Equal) => true,
+        (Change::Without(one), Change::Without(other)) => one == other,
         _ => {
             std::mem::discriminant(&earlier) == std::mem::discriminant(&later) && !matches!(later, Change::SpeedAt(..))
         }
@@ -70,6 +73,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::balance::Remedy;
     use crate::time::Time;
 
     #[test]
@@ -88,5 +92,7 @@ mod tests {
         );
         assert_eq!(trial_name(Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal]), "Ring, all at 100 %");
         assert_eq!(trial_name(Strategy::Ring, &[]), "Ring");
+        let without = [Remedy::Wake, Remedy::Copies, Remedy::Wake].map(Change::Without);
+        assert_eq!(trial_name(Strategy::Adaptive, &without), "Adaptive ring, without copies, without waking");
     }
 }

@@ -58,6 +58,7 @@ enum Event {
     },
     Paused,
     Latency,
+    Delay,
     Condition,
     Mishap(Mishap),
     End,
@@ -143,6 +144,9 @@ impl Events {
             What::Finished => self.tell(at, Event::End, sentences::complete().into()),
             What::Condition { node, .. } => self.tell(at, Event::Condition, mishap::condition(state, *node)),
             What::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
+            What::Delayed { from, to, until } => {
+                self.tell(at, Event::Delay, mishap::delayed((*from, *to), until.since(at)));
+            }
             What::Sent { .. }
             | What::Link { .. }
             | What::Lost { .. }

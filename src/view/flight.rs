@@ -32,6 +32,8 @@ pub struct Flight {
     pub(super) rate: f64,
     /// Where on its way it was lost, 0 to 1, if it was.
     pub(super) lost: Option<f32>,
+    /// Since when it is held up, if it is, and for how long.
+    pub(super) held: Option<(Time, Duration)>,
 }
 
 /// What a message carries, as far as views care.
@@ -86,14 +88,14 @@ impl Flight {
             Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
             Message::Shutdown => Cargo::Shutdown,
         };
-        Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None }
+        Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None, held: None }
     }
 
     /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen; or to where
     /// it is lost.
     pub fn shown(&self) -> Range<Time> {
         let length = self.whole_way().mul_f64(self.lost.map_or(1.0, f64::from));
-        self.sent..self.sent + length
+        self.sent..self.sent + length + self.held.map_or(Duration::ZERO, |(_, by)| by)
     }
 
     /// It is lost: at its end, if nobody is there to receive it, else half-way, or where it is drawn if that is further.
@@ -101,14 +103,28 @@ impl Flight {
         self.lost = Some(if at_its_end { 1.0 } else { self.progress(at).max(0.5) });
     }
 
+    /// It stands still from `at` on, and arrives at `until`.
+    pub(super) fn hold(&mut self, at: Time, until: Time) {
+        let (since, by) = self.held.unwrap_or((at, Duration::ZERO));
+        self.held = Some((since, by + until.since(self.arrives)));
+        self.arrives = self.arrives.max(until);
+    }
+
     /// How strongly the cross is seen at `now` that stands where it was lost, 0 to 1.
     pub(super) fn cross(&self, now: Time) -> f32 {
         if self.lost.is_some() && now >= self.shown().end { self.presence(now) } else { 0.0 }
     }
 
-    /// How long it is drawn if it arrives.
+    /// How long it is drawn if it arrives, and is not held up.
     fn whole_way(&self) -> Duration {
-        self.arrives.since(self.sent).max(self.cargo.shortest().mul_f64(self.rate))
+        let way = self.arrives.since(self.sent).saturating_sub(self.held.map_or(Duration::ZERO, |(_, by)| by));
+        way.max(self.cargo.shortest().mul_f64(self.rate))
+    }
+
+    /// For how long it has been on its way, apart from what it was held up.
+    fn travelled(&self, now: Time) -> Duration {
+        let held = self.held.map_or(Duration::ZERO, |(at, by)| now.since(at).min(by));
+        now.since(self.sent).saturating_sub(held)
     }
 
     /// When the last of its trail is gone at the latest, however fast time goes.
@@ -129,7 +145,7 @@ impl Flight {
     /// How far it is on its way at `now`, 0 to 1.
     pub fn progress(&self, now: Time) -> f32 {
         let (length, most) = (self.whole_way().as_secs_f64(), self.lost.unwrap_or(1.0));
-        if length == 0.0 { most } else { ((now.since(self.sent).as_secs_f64() / length) as f32).min(most) }
+        if length == 0.0 { most } else { ((self.travelled(now).as_secs_f64() / length) as f32).min(most) }
     }
 
     /// How strongly its trail is still seen at `now`: 1 until it has arrived, then less and less, at last 0.

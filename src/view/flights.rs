@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use super::flight::Flight;
+use crate::balance::Party;
 use crate::time::Time;
 
 /// Messages in the order in which they left. Those that can be seen no more are swept out now and then.
@@ -34,6 +35,12 @@ impl Flights {
         }
     }
 
+    /// What is still on this way at `at` arrives at `until`.
+    pub fn hold(&mut self, (from, to): (Party, Party), at: Time, until: Time) {
+        let is_there = |flight: &&mut Flight| (flight.from, flight.to) == (from, to) && flight.arrives > at;
+        self.flights.iter_mut().filter(is_there).for_each(|flight| flight.hold(at, until));
+    }
+
     /// How many of the run's seconds go by in a second, at most one.
     pub fn rate(&self) -> f64 {
         self.rate.unwrap_or(1.0)
@@ -60,7 +67,7 @@ impl Deref for Flights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::balance::{Message, Party};
+    use crate::balance::Message;
 
     #[test]
     fn those_that_are_gone_are_swept_out_and_others_stay() {

@@ -5,7 +5,7 @@ use super::place::Place;
 use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{atoms_words, names};
-use crate::balance::{Condition, NodeId, Party, Strategy};
+use crate::balance::{Condition, NodeId, Party, Remedy, Strategy};
 use crate::language::{say, word};
 
 /// Why nothing happens any more, if a machine that failed is why; `None` if something may happen still.
@@ -21,7 +21,7 @@ pub(super) fn hangs(state: &RunState) -> Option<String> {
         return None;
     }
     let why = why(state)?;
-    if state.sharing.is_adaptive() {
+    if state.has(Remedy::Leases) {
         return (!state.nodes().iter().any(|node| node.condition == Condition::Well)).then(|| {
             say!("{why}: nobody is left; make one well again", "{why}: não resta ninguém; basta recuperar uma")
         });
@@ -33,7 +33,7 @@ pub(super) fn hangs(state: &RunState) -> Option<String> {
 /// The same of a record that ends before the picture is complete.
 pub(super) fn hung(state: &RunState) -> Option<String> {
     let (why, remedy) = (why(state)?, remedy(state));
-    Some(if state.sharing.is_adaptive() { why } else { format!("{why}; {remedy}") })
+    Some(if state.has(Remedy::Leases) { why } else { format!("{why}; {remedy}") })
 }
 
 /// Who has failed, or what is lost.
@@ -59,7 +59,9 @@ pub(super) fn why(state: &RunState) -> Option<String> {
 
 /// Who has a remedy for it.
 fn remedy(state: &RunState) -> &'static str {
-    if state.sharing == Sharing::By(Strategy::Ring) {
+    if state.sharing.is_adaptive() {
+        word!("without leases this ring has no remedy", "sem prazos este anel não tem remédio")
+    } else if state.sharing == Sharing::By(Strategy::Ring) {
         word!(
             "the article's ring has no remedy, the adaptive ring has",
             "o anel do artigo não tem remédio, o adaptativo tem"

@@ -2,8 +2,7 @@
 
 use super::flight::{Cargo, Flight};
 use super::lane::{Lane, Stay, Traced};
-use super::sharing::Sharing;
-use crate::balance::{Condition, NodeId, Party};
+use crate::balance::{Condition, NodeId, Party, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, What};
 use crate::runlog::{Header, RunLog};
@@ -17,7 +16,8 @@ pub struct Lanes {
     /// By trip: the bytes of it and of all that were told before it.
     bytes: Vec<u64>,
     version: u64,
-    is_adaptive: bool,
+    /// Whether who retires can be woken.
+    wakes: bool,
 }
 
 /// A message, from when it left to when it arrives.
@@ -68,7 +68,7 @@ impl Lanes {
             trips: Vec::new(),
             bytes: Vec::new(),
             version: 0,
-            is_adaptive: Sharing::of(header).is_adaptive(),
+            wakes: header.remedies().has(Remedy::Wake),
         }
     }
 
@@ -93,7 +93,7 @@ impl Lanes {
                 }
             }
             What::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
-            What::Link { .. } | What::Lost { .. } | What::GivenUp { .. } => {}
+            What::Link { .. } | What::Delayed { .. } | What::Lost { .. } | What::GivenUp { .. } => {}
             What::Received { .. } | What::Estimating | What::Estimated { .. } | What::LatencySet { .. } => {}
             What::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
@@ -116,7 +116,7 @@ impl Lanes {
             What::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
             What::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
             What::Retired { node } => {
-                let stay = if self.is_adaptive { Stay::Asleep } else { Stay::Retired };
+                let stay = if self.wakes { Stay::Asleep } else { Stay::Retired };
                 if let Some(lane) = self.lane(*node) {
                     lane.stay(at, stay);
                 }

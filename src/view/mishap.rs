@@ -1,9 +1,11 @@
 //! What befalls machines and messages in a sentence, and what the ring that adapts does about it.
 
+use std::time::Duration;
+
 use super::node::NodeState;
 use super::state::RunState;
 use super::words::{atoms_words, duration, names, node_name};
-use crate::balance::{Condition, NodeId};
+use crate::balance::{Condition, NodeId, Party, Remedy};
 use crate::language::{say, word};
 use crate::time::Time;
 
@@ -11,7 +13,7 @@ use crate::time::Time;
 pub(super) fn condition(state: &RunState, node: NodeId) -> String {
     let name = node_name(node);
     let Some(machine) = state.nodes().get(usize::from(node)) else { return String::new() };
-    let is_mended = state.sharing.is_adaptive();
+    let is_mended = state.has(Remedy::Leases);
     match (machine.condition, machine.condition_before) {
         (Condition::Off, _) => switched_off(machine, name, is_mended),
         (Condition::Hung, _) if is_mended => say!(
@@ -80,6 +82,35 @@ pub(super) fn ring_changed(state: &RunState, now: Time) -> Option<String> {
             "O pai ouve as máquinas {who}: o anel se abre para elas"
         ),
     })
+}
+
+/// The way from one party to another is held up.
+pub(super) fn delayed((from, to): (Party, Party), by: Duration) -> String {
+    let by = duration(by);
+    match (from, to) {
+        (Party::Node(from), Party::Node(to)) => {
+            let (from, to) = (node_name(from), node_name(to));
+            say!(
+                "What machine {from} sends to machine {to} is held up for {by}",
+                "O que a máquina {from} manda à máquina {to} fica retido por {by}"
+            )
+        }
+        (Party::Node(from), Party::Parent) => {
+            let from = node_name(from);
+            say!(
+                "What machine {from} sends to the parent is held up for {by}",
+                "O que a máquina {from} manda ao pai fica retido por {by}"
+            )
+        }
+        (Party::Parent, Party::Node(to)) => {
+            let to = node_name(to);
+            say!(
+                "What the parent sends to machine {to} is held up for {by}",
+                "O que o pai manda à máquina {to} fica retido por {by}"
+            )
+        }
+        (Party::Parent, Party::Parent) => String::new(),
+    }
 }
 
 /// The parent gives atoms out again that nobody has.

@@ -44,6 +44,7 @@ mod playback;
 mod portuguese;
 mod quality;
 mod rate;
+mod remedies;
 mod ring;
 #[cfg(test)]
 mod sample;
@@ -98,6 +99,7 @@ pub use paper::Paper;
 pub use place::Place;
 pub use playback::{Playback, RATES, rate_of_time_words, short_rate_words};
 pub use quality::{error_words, measured_lines, quality_lines, quality_words, times_words};
+pub use remedies::{remedies_words, remedy_hint, remedy_name, without};
 pub use ring::{Overlay, Spot, message_at, ring, ring_at};
 pub use scale::{Axis, Scale};
 pub use sharing::Sharing;

@@ -9,7 +9,7 @@ use super::sentences;
 use super::standing::standing;
 use super::state::RunState;
 use super::words::node_name;
-use crate::balance::{Message, Party};
+use crate::balance::{Message, Party, Remedy};
 use crate::language::say;
 use crate::picture::atoms_in;
 use crate::record::{Record, What};
@@ -158,7 +158,7 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
         }
         What::Sent { from: Party::Parent, message: Message::Band(band), .. } => ((2, 0), sentences::bands(state, band)),
         What::Retired { .. } if state.sharing.is_farm() => return None,
-        What::Retired { node } if state.sharing.is_adaptive() => ((1, 0), sentences::retired(state, &[*node])),
+        What::Retired { node } if state.has(Remedy::Wake) => ((1, 0), sentences::retired(state, &[*node])),
         What::Retired { node } => {
             let name = node_name(*node);
             let words = say!(

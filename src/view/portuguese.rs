@@ -180,7 +180,7 @@ fn runs() -> Vec<RunLog> {
                     Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
                         usize::from(*node) < speeds.len()
                     }
-                    Command::Latency(_) | Command::Link { .. } => true,
+                    Command::Delay { .. } | Command::Latency(_) | Command::Link { .. } => true,
                 };
                 let script: Vec<_> = script.iter().filter(fits).copied().collect();
                 let mut records = Vec::new();

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::flight::{Cargo, Flight};
 use super::node::{Activity, NodeState};
 use super::state::RunState;
-use crate::balance::{Condition, NodeId, Party};
+use crate::balance::{Condition, NodeId, Party, Remedy};
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -104,7 +104,7 @@ impl RunState {
         } else if state.retired && state.left() == 0 {
             match self.sharing {
                 sharing if sharing.is_farm() => Activity::NoMore,
-                sharing if sharing.is_adaptive() => Activity::Asleep,
+                _ if self.has(Remedy::Wake) => Activity::Asleep,
                 _ => Activity::Retired,
             }
         } else if state.band_at.is_none() {

@@ -9,7 +9,7 @@ use super::sharing::Sharing;
 use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, duration, fraction, names, node_name};
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Remedy, Strategy};
 use crate::language::{say, word};
 use crate::picture::Atom;
 
@@ -105,10 +105,10 @@ pub(super) fn retired(state: &RunState, nodes: &[NodeId]) -> String {
     match (nodes, state.sharing.is_farm()) {
         ([_], true) => say!("{who} asked for more, but all is given away", "{who} pediu mais, mas tudo já foi dado"),
         (_, true) => say!("{who} asked for more, but all is given away", "{who} pediram mais, mas tudo já foi dado"),
-        ([_], false) if state.sharing.is_adaptive() => {
+        ([_], false) if state.has(Remedy::Wake) => {
             say!("{who} sleeps until somebody needs it", "{who} dorme até que alguém precise dela")
         }
-        (_, false) if state.sharing.is_adaptive() => {
+        (_, false) if state.has(Remedy::Wake) => {
             say!("{who} sleep until somebody needs them", "{who} dormem até que alguém precise delas")
         }
         ([_], false) => say!(
@@ -156,7 +156,7 @@ pub(super) fn trickle((from, to): (NodeId, &[NodeId]), (transfers, all): (u32, u
 /// A machine that has nothing left to trace, or soon will have, offers help; `whole` if it has traced its whole band itself.
 pub(super) fn offer(state: &RunState, who: NodeId, whole: bool, done: u32) -> String {
     let name = node_name(who);
-    let is_early = state.sharing.is_adaptive() && state.nodes().get(usize::from(who)).is_some_and(|of| of.left() > 0);
+    let is_early = state.has(Remedy::Early) && state.nodes().get(usize::from(who)).is_some_and(|of| of.left() > 0);
     match (whole, done) {
         _ if is_early => say!(
             "{name} has nearly finished and offers help round the ring",
@@ -260,10 +260,10 @@ pub(super) fn paused(state: &RunState, node: NodeId) -> String {
             "{paused}: its {atoms} wait, nobody will make up for it",
             "{paused} com {atoms}: ninguém vai compensar"
         ),
-        1 if !state.sharing.is_adaptive() => {
+        1 if !state.has(Remedy::Copies) => {
             say!("{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe")
         }
-        2..=PIPE if !state.sharing.is_adaptive() => {
+        2..=PIPE if !state.has(Remedy::Copies) => {
             say!("{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe")
         }
         left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => {

@@ -7,7 +7,7 @@ use super::standing::{self, Machine, computing, only, under_way};
 use super::state::RunState;
 use super::still::{all_still, why};
 use super::words::{atoms_words, names, node_name};
-use crate::balance::{Condition, NodeId};
+use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{say, word};
 
 /// How things stand.
@@ -36,6 +36,14 @@ fn besides(state: &RunState, there: &[Machine<'_>]) -> Option<String> {
     let asleep = those(&|node| node.retired && node.left() == 0);
     Some(match (&*failed, &*still, &*asleep) {
         ([], [], []) => return None,
+        ([], [], [one]) if !state.has(Remedy::Wake) => {
+            let who = node_name(*one);
+            say!("{who} has retired", "{who} foi dispensada")
+        }
+        ([], [], many) if !state.has(Remedy::Wake) => {
+            let who = names(many);
+            say!("{who} have retired", "{who} foram dispensadas")
+        }
         ([], [], [one]) => {
             let who = node_name(*one);
             say!("{who} sleeps until somebody needs it", "{who} dorme até que precisem dela")
@@ -46,14 +54,23 @@ fn besides(state: &RunState, there: &[Machine<'_>]) -> Option<String> {
         }
         ([], [node, ..], _) => {
             let (name, why) = (node_name(*node), why(&state.nodes()[usize::from(*node)]));
-            say!(
-                "{name} {why}: others take its atoms, and copy the last",
-                "{name} {why}: outras assumem seus átomos e copiam o último"
-            )
+            if state.has(Remedy::Copies) {
+                say!(
+                    "{name} {why}: others take its atoms, and copy the last",
+                    "{name} {why}: outras assumem seus átomos e copiam o último"
+                )
+            } else {
+                say!(
+                    "{name} {why}: others take what waits with it, but not what is in its pipe",
+                    "{name} {why}: outras assumem o que espera nela, mas não o que está no pipe"
+                )
+            }
         }
         ([node], ..) => {
             let (name, is_known) = (node_name(*node), state.gone.contains(node));
-            if is_known {
+            if !state.has(Remedy::Leases) {
+                say!("{name} has failed, and nobody will notice", "{name} falhou, e ninguém vai notar")
+            } else if is_known {
                 say!("the ring has closed round {name}", "o anel se fechou sem {name}")
             } else {
                 say!("{name} has failed, and nobody knows it yet", "{name} falhou, e ninguém sabe ainda")
@@ -74,7 +91,7 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>]) -> String {
     let lost = state.places().iter().filter(|place| **place == Place::Lost).count() as u32;
     let with_failed = |(_, node): &&Machine<'_>| node.condition != Condition::Well;
     let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
-    if lost + kept > 0 {
+    if lost + kept > 0 && state.has(Remedy::Leases) {
         let atoms = atoms_words(lost + kept);
         return say!(
             "{atoms} are with nobody who answers: the parent gives them out again",
@@ -86,6 +103,10 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>]) -> String {
         [] if state.has_atoms_under_way() => under_way(),
         [] => standing::waiting_for_the_parent(),
         [..] if still.len() == there.len() => all_still(&still),
+        [(node, machine), ..] if !state.has(Remedy::Wake) => {
+            let (name, why, left) = (node_name(node), why(machine), atoms_words(machine.left()));
+            say!("{name} {why}, with {left}", "{name} {why}, com {left}")
+        }
         [(node, machine), ..] => {
             let (name, why) = (node_name(node), why(machine));
             say!("{name} {why}: it wakes others for its atoms", "{name} {why}: acorda outras para seus átomos")
@@ -98,14 +119,18 @@ mod tests {
     use super::super::sample;
     use super::super::standing::standing;
     use super::*;
-    use crate::balance::{Message, Party, Strategy};
+    use crate::balance::{Message, Party, Remedies, Strategy};
     use crate::record::{Record, What};
     use crate::time::Time;
 
     /// How things stand where machines have so many atoms left, of which some sleep or are in some condition.
     fn stands(left: &[u32], asleep: &[NodeId], conditions: &[(NodeId, Condition)]) -> String {
+        stands_with(Remedies::ALL, left, asleep, conditions)
+    }
+
+    fn stands_with(remedies: Remedies, left: &[u32], asleep: &[NodeId], conditions: &[(NodeId, Condition)]) -> String {
         let mut header = sample::header(&vec![1.0; left.len()], 900);
-        header.rules.strategy = Strategy::Adaptive;
+        (header.rules.strategy, header.rules.remedies) = (Strategy::Adaptive, remedies);
         let mut state = RunState::new(&header);
         let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
         for ((id, node), &left) in (0..).zip(0..).zip(left) {
@@ -137,6 +162,21 @@ mod tests {
         assert_eq!(
             stands(&[5, 5], &[], &[(0, Condition::Off), (1, Condition::Hung)]),
             "1 and 2 have failed: nobody is left; make one well again"
+        );
+    }
+
+    #[test]
+    fn nothing_is_told_of_remedies_that_are_left_out() {
+        let without = |remedy| Remedies::ALL.without(remedy);
+        assert_eq!(stands_with(without(Remedy::Wake), &[0, 9, 9], &[0], &[]), "2 of 3 machines compute; 1 has retired");
+        let off = (1, Condition::Off);
+        assert_eq!(
+            stands_with(without(Remedy::Leases), &[9, 9, 9], &[], &[off]),
+            "2 of 3 machines compute; 2 has failed, and nobody will notice"
+        );
+        assert_eq!(
+            stands_with(without(Remedy::Leases), &[0, 9, 0], &[0, 2], &[off]),
+            "The run hangs, since 2 is off: without leases this ring has no remedy"
         );
     }
 }

@@ -12,7 +12,7 @@ use super::flights::Flights;
 use super::node::{NodeState, Parcels};
 use super::place::Place;
 use super::sharing::Sharing;
-use crate::balance::{NodeId, Party};
+use crate::balance::{NodeId, Party, Remedies, Remedy};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};
 use crate::runlog::{Driver, Header};
@@ -38,6 +38,8 @@ pub struct RunState {
     touched: Vec<Range<Atom>>,
     division: Division,
     pub(super) sharing: Sharing,
+    /// What a ring does otherwise than the article's.
+    remedies: Remedies,
     /// In virtual time the whole picture is traced before the run begins.
     pub(super) is_virtual: bool,
     latency: Duration,
@@ -69,9 +71,14 @@ pub struct Arrived {
 impl RunState {
     /// The state before anything has happened.
     pub fn new(header: &Header) -> Self {
+        let remedies = header.remedies();
+        let pipe = if remedies.has(Remedy::Pipe) { 1 } else { 2 };
         let spares: Vec<_> = (0..header.speeds.len() as NodeId).filter(|&node| header.is_spare(node)).collect();
         Self {
-            nodes: (0..).zip(&header.speeds).map(|(id, &speed)| NodeState::new(speed, header.is_spare(id))).collect(),
+            nodes: (0..)
+                .zip(&header.speeds)
+                .map(|(id, &speed)| NodeState::new(speed, header.is_spare(id), pipe))
+                .collect(),
             places: vec![Place::Nowhere; header.division.atoms() as usize],
             orders: vec![0; header.division.atoms() as usize],
             cost: 0.0,
@@ -82,6 +89,7 @@ impl RunState {
             touched: Vec::new(),
             division: header.division,
             sharing: Sharing::of(header),
+            remedies,
             is_virtual: header.driver == Driver::Sim,
             latency: header.link.latency,
             handling: header.handling,
@@ -136,6 +144,7 @@ impl RunState {
             What::Condition { node, condition } => self.condition_set(*node, *condition, at),
             What::Lost { id } => self.lost(*id, at),
             What::AtomFailed { node, .. } => _ = self.node(*node).map(NodeState::atom_failed),
+            What::Delayed { from, to, until } => self.delayed((*from, *to), at, *until),
             What::Link { .. } | What::GivenUp { .. } => {}
             What::Estimating => self.is_estimating = true,
             What::Estimated { .. } => self.is_estimating = false,
@@ -192,6 +201,11 @@ impl RunState {
     /// How the atoms are shared.
     pub fn sharing(&self) -> Sharing {
         self.sharing
+    }
+
+    /// Whether it is a ring that does this otherwise than the article's.
+    pub fn has(&self, remedy: Remedy) -> bool {
+        self.remedies.has(remedy)
     }
 
     /// How long a message travels that leaves now, apart from what its weight takes.
@@ -284,6 +298,7 @@ mod tests {
             | What::Condition { node, .. }
             | What::AtomFailed { node, .. }
             | What::Retired { node } => Party::Node(*node),
+            What::Delayed { to, .. } => *to,
             What::Link { .. } | What::Lost { .. } | What::GivenUp { .. } => Party::Parent,
             What::LatencySet { .. } | What::Estimating | What::Estimated { .. } | What::Finished => Party::Parent,
         }

@@ -8,7 +8,7 @@ use super::sharing::Sharing;
 use super::standing::PIPE;
 use super::state::RunState;
 use super::words::{atoms_words, count, duration, node_name};
-use crate::balance::{NodeId, Party};
+use crate::balance::{NodeId, Party, Remedy};
 use crate::language::{say, word};
 use crate::record::{Record, What};
 
@@ -62,6 +62,7 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
                 say!("The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
             }
         }
+        What::Delayed { from, to, until } => mishap::delayed((*from, *to), until.since(record.at)),
         What::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
         What::AtomFailed { node, atom } => {
             let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
@@ -108,7 +109,7 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Op
     if !matches!(state.sharing(), Sharing::By(_)) {
         return None;
     }
-    if state.sharing().is_adaptive() {
+    if state.has(Remedy::Speed) {
         return Some(word!("by their speeds both end together", "por suas velocidades, terminam juntas").into());
     }
     let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));

@@ -8,12 +8,17 @@ use anel::runlog::Header;
 /// The picture of the run that `header` describes, or why there is none, and its records.
 pub fn picture(run: &Run, header: &Header) -> (Result<Frame, String>, Vec<Record>) {
     let (mut frame, mut records) = (Frame::new(header.size), Vec::new());
+    let mut placed_before = vec![false; header.division.atoms() as usize];
     for update in run.updates() {
         match update {
             Update::Placed { atoms, pixels } => {
                 let placed = header.division.placed(&atoms, &pixels);
                 let count: usize = placed.map(|(place, colours)| (frame.place(place, colours), colours.len()).1).sum();
                 assert_eq!(count, pixels.len());
+                for atom in atoms.into_iter().flatten() {
+                    let before = std::mem::replace(&mut placed_before[atom as usize], true);
+                    assert!(!before, "atom {atom} is placed once more");
+                }
             }
             Update::Records(more) => records.extend(more),
             Update::Rays(_) => {}

@@ -9,7 +9,7 @@ use super::sleepers::Sleepers;
 use crate::balance::message::{Action, Event, Help, Message, NodeId, Party};
 use crate::balance::remedy::{Remedies, Remedy};
 use crate::balance::strategy::Rules;
-use crate::balance::work::{PIPE, Work};
+use crate::balance::work::Work;
 use crate::picture::Atom;
 use crate::time::Time;
 
@@ -77,7 +77,7 @@ impl Node {
         let has = |remedy| rules.remedies.has(remedy);
         // What is traced and not sent would be lost with its node.
         let batch = if has(Remedy::Leases) { Some(rules.batch.unwrap_or(rules.beat)) } else { rules.batch };
-        let work = Work::new(batch, if has(Remedy::Pipe) { 1 } else { PIPE });
+        let work = Work::new(batch, rules.pipe());
         Self {
             id,
             part: rules.part.max(1),

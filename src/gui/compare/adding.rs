@@ -10,11 +10,11 @@ use super::super::icons::Icon;
 use super::super::settings::Settings;
 use super::super::theme::{self, GRID, Look};
 use super::super::widgets::{Weight, button, named_button, popup_frame};
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Remedy, Strategy};
 use crate::language::{say, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{change_words, count, duration, fraction, node_name, time_words};
+use crate::view::{change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words};
 
 /// A menu of strategies; returns what was chosen.
 pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Change> {
@@ -98,6 +98,8 @@ type Choice = (Change, bool);
 fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
     let header = &trial.header;
     let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
+    let lacks = |remedy| (Change::Without(remedy), !header.rules.remedies.has(remedy));
+    let remedies = if header.rules.strategy == Strategy::Adaptive { Remedy::ALL.map(lacks).into() } else { Vec::new() };
     let mut machines = values(&[1, 2, 3, 4, 5, 8, 16, 32], header.speeds.len(), Change::Nodes);
     if header.speeds.iter().any(|&speed| speed < 1.0) {
         machines.push((Change::Equal, false));
@@ -110,6 +112,7 @@ fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
     let handlings = values(&[0, 2, 20, 100].map(ms), header.handling, Change::Handling);
     vec![
         (word!("Strategy", "Estratégia"), strategies.into()),
+        (word!("Without", "Sem"), remedies),
         (word!("Machines", "Máquinas"), machines),
         (word!("Pixels in an atom", "Pixels por átomo"), atoms),
         (word!("A message takes", "Uma mensagem leva"), latencies),
@@ -176,6 +179,7 @@ fn short(change: Change) -> String {
         Change::Atom(pixels) => count(pixels),
         Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!("no time", "nada").to_owned(),
         Change::Latency(time) | Change::Handling(time) => duration(time),
+        Change::Without(remedy) => remedy_name(remedy).to_owned(),
         Change::Strategy(_) | Change::Equal => change_words(change),
     }
 }
@@ -195,5 +199,9 @@ fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look) -> Response {
     }
     let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(place, galley, look.text);
-    if is_so { response.on_hover_text(word!("As it is now", "Como está agora")) } else { response }
+    match change {
+        Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy)),
+        _ if is_so => response.on_hover_text(word!("As it is now", "Como está agora")),
+        _ => response,
+    }
 }

@@ -14,6 +14,7 @@ use super::save_bar::resolve;
 use super::session::{Preparing, Purpose, Recorded, Session, Taught};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, path_field};
+use crate::balance::Strategy;
 use crate::language::word;
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
@@ -212,7 +213,19 @@ impl Learn {
         ui.add_space(GRID);
         ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
             let mut chosen = None;
+            let article = self.lessons.iter().position(|lesson| adapts(lesson)).unwrap_or(self.lessons.len());
             for (number, lesson) in (1..).zip(&self.lessons) {
+                match number as usize - 1 {
+                    0 => heading(
+                        ui,
+                        word!("The article's ring, and its rivals", "O anel do artigo, e seus rivais"),
+                        look,
+                    ),
+                    place if place == article => {
+                        heading(ui, word!("The ring that adapts", "O anel que se adapta"), look);
+                    }
+                    _ => {}
+                }
                 if line(ui, number, lesson, look) {
                     chosen = Some(Arc::clone(lesson));
                 }
@@ -249,6 +262,16 @@ impl Learn {
             ui.label(RichText::new(why).font(theme::regular(theme::BODY)).color(look.trouble));
         }
     }
+}
+
+/// Whether a lesson is about the ring that adapts.
+fn adapts(lesson: &Lesson) -> bool {
+    lesson.runs.values().any(|plan| plan.strategy == Strategy::Adaptive)
+}
+
+fn heading(ui: &mut Ui, words: &str, look: Look) {
+    ui.add_space(GRID);
+    ui.label(RichText::new(words).font(theme::strong(theme::BODY)).color(look.quiet));
 }
 
 /// A lesson of the list; returns whether it was chosen.

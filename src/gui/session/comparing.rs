@@ -209,5 +209,5 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
         };
         (strategy, (1..=MOST).filter_map(run).collect())
     };
-    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring].map(of).into(), alone, slow }
+    Growth { of: [Strategy::Static, Strategy::Farm, Strategy::Ring, Strategy::Adaptive].map(of).into(), alone, slow }
 }

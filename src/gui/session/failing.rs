@@ -1,7 +1,9 @@
 //! Machines that are made to fail, or well again, or to join, while a run goes on.
 
+use std::time::Duration;
+
 use super::{Phase, Session};
-use crate::balance::{Condition, NodeId, Strategy};
+use crate::balance::{Condition, NodeId, Party, Remedy};
 use crate::view::Sharing;
 
 impl Session {
@@ -24,7 +26,7 @@ impl Session {
 
     /// Whether losses are mended.
     pub fn mends_losses(&self) -> bool {
-        self.sharing() == Sharing::By(Strategy::Adaptive)
+        self.header().remedies().has(Remedy::Leases)
     }
 
     /// Something becomes of a machine.
@@ -32,6 +34,14 @@ impl Session {
         if self.can_fail() {
             self.return_to_present();
             self.stage.performer.put(node, condition);
+        }
+    }
+
+    /// What is on its way from one party to another is held up.
+    pub fn delay(&mut self, (from, to): (Party, Party), by: Duration) {
+        if self.can_fail() {
+            self.return_to_present();
+            self.stage.performer.delay(from, to, by);
         }
     }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crossbeam_channel::Receiver;
 
-use crate::balance::{Condition, NodeId};
+use crate::balance::{Condition, NodeId, Party};
 use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
@@ -73,6 +73,13 @@ impl Performer {
     pub fn put(&self, node: NodeId, condition: Condition) {
         if let Self::Live(run) = self {
             run.command(Command::Condition { node, condition });
+        }
+    }
+
+    /// What is on its way from one party to another is held up.
+    pub fn delay(&self, from: Party, to: Party, by: Duration) {
+        if let Self::Live(run) = self {
+            run.command(Command::Delay { from, to, by });
         }
     }
 

@@ -5,7 +5,7 @@ use super::Settings;
 use crate::language::{comma, decimal, say, word};
 use crate::picture::Quality;
 use crate::runlog::Driver;
-use crate::view::fraction;
+use crate::view::{fraction, remedies_words};
 
 impl Settings {
     /// What these settings have that those `before` had not, in a few words.
@@ -30,6 +30,7 @@ impl Settings {
             say!("{part} atoms in a transfer at least", "{part} átomos por transferência, no mínimo")
         };
         tell(sharing == before_it && part != before.part, parts);
+        tell(sharing == before_it && self.remedies != before.remedies, remedies_words(self.remedies));
         tell(self.tempo != before.tempo, Tempo::words(self.tempo));
         let (latency, handling) = (self.latency, self.handling);
         tell(latency != before.latency, say!("{latency} ms a hop", "{latency} ms por salto"));

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::super::tempo::Tempo;
 use super::Settings;
-use crate::balance::{NodeId, Remedies, Rules, Strategy};
+use crate::balance::{NodeId, Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::runlog::{Caption, Driver, Header, Link};
 use crate::view::Sharing;
@@ -27,7 +27,7 @@ impl Settings {
                 part: self.part,
                 batch: Some(Rules::batch_for(handling, speeds.len())),
                 beat: Rules::beat_for(handling, speeds.len()),
-                remedies: Remedies::ALL,
+                remedies: self.remedies,
             },
             spares: self.spares.len() as NodeId,
             pace: self.pace(work, cores),
@@ -59,6 +59,7 @@ impl Settings {
             tempo: if header.pace < 1.0 { tempo } else { Tempo::Full },
             speeds: speeds.to_vec(),
             spares: spares.to_vec(),
+            remedies: header.rules.remedies,
             latency: millis(header.link.latency),
             handling: millis(header.handling),
             // A limit stays one, however low.

@@ -1,16 +1,16 @@
 //! Who shares the atoms, by which rules, and over what network.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Button, ComboBox, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
+use egui::{Button, ComboBox, Popup, PopupCloseBehavior, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
 
 use super::super::settings::Settings;
 use super::super::theme::{self, GRID, Look};
-use super::super::widgets::{choice, number};
+use super::super::widgets::{Weight, choice, named_button, number, popup_frame};
 use super::{VALUE, high_line, line, small};
-use crate::balance::Strategy;
-use crate::language::word;
+use crate::balance::{Remedy, Strategy};
+use crate::language::{say, word};
 use crate::runlog::Driver;
-use crate::view::Sharing;
+use crate::view::{Sharing, remedies_words, remedy_hint, remedy_name};
 
 /// Who shares the atoms, and how.
 pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
@@ -69,6 +69,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
     });
     if on == Sharing::By(Strategy::Adaptive) {
         spares(ui, draft, look);
+        remedies(ui, draft, look);
     }
 }
 
@@ -115,6 +116,30 @@ fn spares(ui: &mut Ui, draft: &mut Settings, look: Look) {
             "De início, desligadas: o menu de um lugar vazio deixa uma entrar"
         ));
         draft.set_spares(spares as usize);
+    });
+}
+
+/// What the ring does otherwise than the article's, each to be left out.
+fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look) {
+    line(ui, word!("Remedies", "Remédios"), look, |ui| {
+        let words = remedies_words(draft.remedies);
+        let name = say!("Remedies: {words}", "Remédios: {words}");
+        let opener = named_button(ui, None, &name, Some(&words), Weight::Quiet);
+        let popup = Popup::from_toggle_button_response(&opener).frame(popup_frame(ui.ctx()));
+        popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+            ui.set_width(52.0 * GRID);
+            for remedy in Remedy::ALL {
+                let mut has = draft.remedies.has(remedy);
+                let name = RichText::new(remedy_name(remedy)).font(theme::strong(theme::BODY)).color(look.text);
+                if ui.checkbox(&mut has, name).changed() {
+                    let (with, without) = (draft.remedies.with(remedy), draft.remedies.without(remedy));
+                    draft.remedies = if has { with } else { without };
+                }
+                small(ui, remedy_hint(remedy), look);
+            }
+            let hint = word!("Without any it is the article's ring", "Sem nenhum, é o anel do artigo");
+            small(ui, hint, look);
+        });
     });
 }
 

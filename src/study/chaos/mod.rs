@@ -103,8 +103,8 @@ struct Seen {
     records: u64,
     again: u64,
     of_bound: f64,
-    /// Of all scripts: switched off, hung, cut off, links cut, speeds, latencies.
-    befell: [u64; 6],
+    /// Of all scripts: switched off, hung, cut off, links cut, ways held up, speeds, latencies.
+    befell: [u64; 7],
 }
 
 impl Seen {
@@ -120,8 +120,9 @@ impl Seen {
                 Command::Condition { condition: Condition::Hung, .. } => 1,
                 Command::Condition { condition: Condition::CutOff, .. } => 2,
                 Command::Link { cut: true, .. } => 3,
-                Command::Speed { .. } => 4,
-                Command::Latency(_) => 5,
+                Command::Delay { .. } => 4,
+                Command::Speed { .. } => 5,
+                Command::Latency(_) => 6,
                 _ => continue,
             };
             self.befell[kind] += 1;
@@ -141,18 +142,18 @@ fn report(
         "Seeds {} to {}: random runs in virtual time, of 1 to 24 machines (some of them spares that join later), 1 to 400 atoms whose cost \
          varies a hundredfold, speeds of 0.001 to 1, latencies of 0 to 200 ms, in some a slow shared wire and a slow parent. In seven of \
          eight runs machines change their speed, stand still, hang, are cut off, are switched off and begin anew, join, or are lost for \
-         good, and links are cut and mended; at last one machine is well. Each run has to end; the picture has to be whole, each atom of it \
+         good, links are cut and mended, and what is on a way is held up for up to 10 s; at last one machine is well. Each run has to end; the picture has to be whole, each atom of it \
          traced by who sent it; no node may begin an atom after its shutdown; no offer may be in two places; nothing may be given out again \
          where nothing was lost; and there may be no more messages than the ring's README says.\n",
         seeds.start,
         seeds.end.saturating_sub(1)
     );
-    let [off, hung, cut_off, links, speeds, latencies] = seen.befell;
+    let [off, hung, cut_off, links, delays, speeds, latencies] = seen.befell;
     say!(text, "- runs that held: {}, of which nothing befell {}", seen.runs, seen.calm);
     say!(text, "- runs that failed: {}", failures.len());
     say!(
         text,
-        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {speeds} changed speeds, {latencies} changed latencies"
+        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} ways held up, {speeds} changed speeds, {latencies} changed latencies"
     );
     say!(text, "- records: {}; atoms given out again by the parent: {}", seen.records, seen.again);
     say!(text, "- most messages, over the bound: {:.2}\n", seen.of_bound);

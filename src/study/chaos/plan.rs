@@ -77,7 +77,7 @@ impl Plan {
             let begins = at(rng, 0.0);
             let ends = at(rng, begins.secs());
             let condition = *pick(rng, &[Condition::Hung, Condition::CutOff, Condition::Off]);
-            match rng.u32(0..8) {
+            match rng.u32(0..9) {
                 // It joins late.
                 0 => {
                     script.push((Time::ZERO, Command::Condition { node, condition: Condition::Off }));
@@ -90,18 +90,20 @@ impl Plan {
                 // For good.
                 3 => script.push((begins, Command::Condition { node, condition })),
                 4 => {
-                    let one = Party::Node(node);
-                    let other = match rng.u16(0..=nodes) {
-                        last if last == nodes => Party::Parent,
-                        other => Party::Node(other),
-                    };
+                    let (one, other) = (Party::Node(node), party(rng, nodes));
                     script.push((begins, Command::Link { one, other, cut: true }));
                     if rng.bool() {
                         script.push((ends, Command::Link { one, other, cut: false }));
                     }
                 }
-                5 => script.push((begins, Command::Latency(latency(rng, false)))),
-                6 => {
+                5 => {
+                    let by = Duration::from_secs_f64(10f64.powf(between(rng, -3.0, 1.0)));
+                    let (one, other) = (Party::Node(node), party(rng, nodes));
+                    let (from, to) = if rng.bool() { (one, other) } else { (other, one) };
+                    script.push((begins, Command::Delay { from, to, by }));
+                }
+                6 => script.push((begins, Command::Latency(latency(rng, false)))),
+                7 => {
                     script.push((begins, Command::Speed { node, speed: 0.0 }));
                     script.push((ends, Command::Speed { node, speed: speed(rng, SLOWEST) }));
                 }
@@ -121,6 +123,14 @@ fn plain(atoms: u32, speeds: Vec<f64>) -> Header {
     // No picture is without pixels, and none of these is too large.
     let size = Size::new(ATOM, atoms.max(1)).expect("a small picture");
     Header { driver: Driver::Sim, ..Header::plain(size, ATOM, Strategy::Adaptive, speeds) }
+}
+
+/// A node, or the parent.
+fn party(rng: &mut Rng, nodes: NodeId) -> Party {
+    match rng.u16(0..=nodes) {
+        last if last == nodes => Party::Parent,
+        node => Party::Node(node),
+    }
 }
 
 fn latency(rng: &mut Rng, calm: bool) -> Duration {

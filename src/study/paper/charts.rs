@@ -97,9 +97,9 @@ fn sizes(rows: &[Row], figure: &str) -> Chart {
 fn packets(rows: &[Row]) -> Chart {
     let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
     let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
-    let ours = |network| {
-        let of =
-            select(rows, "part", network, "sim").filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
+    let ours = |strategy: Strategy, network| {
+        let is_one = move |row: &&Row| row.strategy == strategy.name() && !row.slow && row.transfers > 0;
+        let of = select(rows, "part", network, "sim").filter(is_one);
         of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect()
     };
     let line = |i, name: &str, points, style| Series { name: name.into(), hue: series_hue(i), points, style };
@@ -109,8 +109,10 @@ fn packets(rows: &[Row]) -> Chart {
         x: Axis { label: "mean atoms in a packet".into(), scale: Scale::Log10, range: None },
         y: Axis { label: "time / ideal time".into(), scale: Scale::Linear, range: Some((0.95, 1.3)) },
         series: vec![
-            line(0, "no network", ours("none"), Style::Dots),
-            line(1, "modelled network", ours("modelled"), Style::Dots),
+            line(0, "no network", ours(Strategy::Ring, "none"), Style::Dots),
+            line(1, "modelled network", ours(Strategy::Ring, "modelled"), Style::Dots),
+            line(0, "adaptive, no network", ours(Strategy::Adaptive, "none"), Style::Hollow),
+            line(1, "adaptive, modelled network", ours(Strategy::Adaptive, "modelled"), Style::Hollow),
             line(3, "the article", article, Style::Dots),
         ],
     }

@@ -136,9 +136,8 @@ impl<'a> Measuring<'a> {
                     let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
                     self.add(About::new("atom", modelled), &on_network(header), &[], &costs);
                 }
-                for (part, strategy) in
-                    PARTS.into_iter().flat_map(|part| [(part, Strategy::Ring), (part, Strategy::Farm)])
-                {
+                let strategies = [Strategy::Ring, Strategy::Adaptive, Strategy::Farm];
+                for (part, strategy) in PARTS.into_iter().flat_map(|part| strategies.map(|strategy| (part, strategy))) {
                     let mut header = self.bench.header(ATOM, strategy, speeds.clone());
                     header.rules.part = part;
                     self.add(About::new("part", modelled), &on_network(header), &[], &self.costs.clone());

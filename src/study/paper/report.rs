@@ -1,5 +1,6 @@
 //! What the study of the article says.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::super::rivals::Needs;
@@ -26,10 +27,30 @@ pub(super) fn report(found: &Found<'_>) -> String {
     choking(&mut text, handling);
     swings(&mut text, rows);
     space(&mut text, divisions);
-    text.push_str(
-        "\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n\nAll runs are in `paper.csv`.\n",
-    );
+    packets(&mut text, rows);
+    text.push_str("\nAll runs are in `paper.csv`.\n");
     text
+}
+
+/// Figure 9: whether time rises as packets shrink.
+fn packets(text: &mut String, rows: &[Row]) {
+    text.push_str("\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n");
+    say!(text, "\nMean atoms in a packet, and time over the ideal, by the least atoms that are worth sending:\n");
+    say!(text, "| at least | ring | ring, network | adaptive | adaptive, network |\n|---:|---:|---:|---:|---:|");
+    let parts: BTreeSet<u32> = select(rows, "part", "none", "sim").map(|row| row.part).collect();
+    for part in parts {
+        let cell = |strategy: Strategy, network| {
+            let mut of = select(rows, "part", network, "sim");
+            let row = of.find(|row| row.strategy == strategy.name() && !row.slow && row.part == part);
+            row.map_or(String::new(), |row| match row.transfers {
+                0 => format!("none: {:.4}", row.over_ideal),
+                transfers => format!("{:.1}: {:.4}", row.atoms_moved as f64 / transfers as f64, row.over_ideal),
+            })
+        };
+        let cells =
+            [Strategy::Ring, Strategy::Adaptive].map(|of| ["none", "modelled"].map(|on| cell(of, on)).join(" | "));
+        say!(text, "| {part} | {} |", cells.join(" | "));
+    }
 }
 
 fn head(text: &mut String, Found { bench, pace, .. }: &Found<'_>) {

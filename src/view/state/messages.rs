@@ -94,6 +94,13 @@ impl RunState {
         drawn
     }
 
+    /// What is on this way arrives later.
+    pub(super) fn delayed(&mut self, way: (Party, Party), at: Time, until: Time) {
+        let is_there = |flight: &&mut Flight| (flight.from, flight.to) == way && flight.arrives > at;
+        self.pending.values_mut().filter(is_there).for_each(|flight| flight.hold(at, until));
+        self.flights.hold(way, at, until);
+    }
+
     pub(super) fn received(&mut self, flight: Flight, at: Time) {
         self.heard(&flight, at);
         let to = match (flight.to, &flight.cargo) {

@@ -1,0 +1,48 @@
+//! Of an atom that is traced twice, only the first result counts: the picture takes each atom once.
+
+use std::ops::Range;
+
+use crate::picture::{Atom, Division};
+
+/// Which atoms are in the picture.
+#[derive(Debug)]
+pub(super) struct Firsts {
+    placed: Vec<bool>,
+}
+
+impl Firsts {
+    /// Of a picture that is cut so; none is in it.
+    pub fn new(division: Division) -> Self {
+        Self { placed: vec![false; division.atoms() as usize] }
+    }
+
+    /// Those of these atoms that come for the first time, in as few ranges as possible.
+    pub fn take(&mut self, atoms: Range<Atom>) -> Vec<Range<Atom>> {
+        let mut new: Vec<Range<Atom>> = Vec::new();
+        for atom in atoms {
+            if std::mem::replace(&mut self.placed[atom as usize], true) {
+                continue;
+            }
+            match new.last_mut() {
+                Some(range) if range.end == atom => range.end += 1,
+                _ => new.push(atom..atom + 1),
+            }
+        }
+        new
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::single_range_in_vec_init, reason = "results are ranges")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_atom_comes_once() {
+        let mut firsts = Firsts::new(Division::new(100, 10));
+        assert_eq!(firsts.take(2..4), [2..4]);
+        assert_eq!(firsts.take(0..6), [0..2, 4..6]);
+        assert_eq!(firsts.take(1..6), []);
+        assert_eq!(firsts.take(5..10), [6..10]);
+    }
+}

@@ -1,0 +1,75 @@
+//! What the remedies of the ring that adapts are called, and what they do.
+
+use crate::balance::{Remedies, Remedy};
+use crate::language::{say, word};
+
+/// What a remedy is called.
+pub fn remedy_name(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Speed => word!("shares by speed", "partes por velocidade"),
+        Remedy::Floor => word!("a floor", "um piso"),
+        Remedy::Early => word!("early offers", "ofertas antecipadas"),
+        Remedy::Pipe => word!("a short pipe", "pipe curto"),
+        Remedy::Wake => word!("waking", "despertar"),
+        Remedy::Copies => word!("copies", "cópias"),
+        Remedy::Shortcuts => word!("shortcuts", "atalhos"),
+        Remedy::Leases => word!("leases", "prazos"),
+    }
+}
+
+/// What it does.
+pub fn remedy_hint(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::Speed => word!(
+            "Shares follow how fast machines are now, not their atoms since the start",
+            "As partes seguem a velocidade de agora, não os átomos desde o início"
+        ),
+        Remedy::Floor => word!(
+            "Nothing is given that would take longer to travel than it saves",
+            "Não se dá o que levaria mais tempo viajando do que poupa"
+        ),
+        Remedy::Early => word!(
+            "A machine offers help before it is out of atoms, so that it never waits",
+            "A máquina oferece ajuda antes de ficar sem átomos, e não espera"
+        ),
+        Remedy::Pipe => {
+            word!("One atom waits in a machine's pipe, not two", "Um átomo espera no pipe da máquina, não dois")
+        }
+        Remedy::Wake => word!(
+            "Who is done sleeps, and whoever comes to need help wakes it",
+            "Quem termina dorme, e quem vem a precisar de ajuda o acorda"
+        ),
+        Remedy::Copies => word!(
+            "An idle machine traces again what is late at a slow one",
+            "Uma máquina ociosa calcula de novo o que tarda em outra"
+        ),
+        Remedy::Shortcuts => word!(
+            "In a large ring an offer stops at few machines, near and far",
+            "Num anel grande a oferta para em poucas máquinas, perto e longe"
+        ),
+        Remedy::Leases => word!(
+            "What a lost machine had is given out again, and the ring closes round it",
+            "O que uma máquina perdida tinha é dado de novo, e o anel se fecha sem ela"
+        ),
+    }
+}
+
+/// Which of them a ring has, in a few words.
+pub fn remedies_words(remedies: Remedies) -> String {
+    let missing: Vec<_> = Remedy::ALL.into_iter().filter(|&remedy| !remedies.has(remedy)).collect();
+    match missing[..] {
+        [] => word!("all remedies", "todos os remédios").to_owned(),
+        [one] => without(one),
+        _ if remedies == Remedies::NONE => word!("no remedy", "nenhum remédio").to_owned(),
+        _ => {
+            let (has, all) = (remedies.iter().count(), Remedy::ALL.len());
+            say!("{has} of {all} remedies", "{has} de {all} remédios")
+        }
+    }
+}
+
+/// A ring that lacks one.
+pub fn without(remedy: Remedy) -> String {
+    let name = remedy_name(remedy);
+    say!("without {name}", "sem {name}")
+}
