@@ -158,20 +158,17 @@ fn what_would_take_longer_to_travel_stays() {
 /// Early: an offer leaves a round trip before the atoms run out.
 #[test]
 fn an_offer_leaves_so_early_that_its_answer_comes_in_time() {
-    let (mut told, _) = Told::with_band(&[Remedy::Speed, Remedy::Early, Remedy::Pipe], 0..20);
+    let (mut told, _) = Told::with_band(&[Remedy::Speed, Remedy::Early], 0..20);
     told.trace(0..5, MS);
     // An offer that has travelled for 2 ms to its first stop, of a node that is not worth an atom.
     assert_eq!(offers(&told.offered(1e-6, 2 * MS, Some(2))), [Party::Node(0)], "it is passed on");
-    assert_eq!(offers(&told.trace(5..15, MS)), []);
-    assert_eq!(offers(&told.trace(15..16, MS)), [Party::Node(0)], "four atoms are left, and a round trip takes 4 ms");
-    assert_eq!(offers(&told.trace(16..19, MS)), [], "once is enough");
-}
-
-/// Pipe: one atom, since the node is at hand when its worker is done.
-#[test]
-fn the_pipe_holds_one_atom() {
-    assert_eq!(Told::with_band(&[Remedy::Pipe], 3..9).1, [Action::Trace(3)]);
-    assert_eq!(Told::with_band(&[], 3..9).1, [Action::Trace(3), Action::Trace(4)]);
+    assert_eq!(offers(&told.trace(5..14, MS)), []);
+    assert_eq!(
+        offers(&told.trace(14..15, MS)),
+        [Party::Node(0)],
+        "four atoms before the last, and a round trip takes 4 ms"
+    );
+    assert_eq!(offers(&told.trace(15..19, MS)), [], "once is enough");
 }
 
 /// Wake: who sleeps is woken by whoever comes to need help, and offers to it first.
@@ -200,7 +197,7 @@ fn whoever_needs_help_wakes_a_sleeper() {
 /// Copies: what has been in the pipe for too long is traced by a sleeper as well, once.
 #[test]
 fn a_sleeper_traces_a_late_atom_as_well() {
-    let (mut late, _) = Told::with_band(&[Remedy::Speed, Remedy::Pipe, Remedy::Wake, Remedy::Copies], 0..4);
+    let (mut late, _) = Told::with_band(&[Remedy::Speed, Remedy::Wake, Remedy::Copies], 0..4);
     late.trace(0..3, MS);
     assert_eq!(late.offered(1.0, Duration::ZERO, None), [], "it is not late yet");
     late.now += 3 * MS;
@@ -259,7 +256,7 @@ fn the_first_result_counts() {
     assert_eq!(tell(Message::Results(vec![7..9])), [], "again");
     let beat = Message::Beat { holds: vec![5..10], idle: false, sent: at(0) };
     assert_eq!(tell(beat), [send(Party::Node(2), Message::Placed(vec![7..9]))]);
-    let (mut node, _) = Told::with_band(&[Remedy::Pipe], 5..10);
+    let (mut node, _) = Told::with_band(&[], 5..10);
     assert_eq!(node.message(Party::Parent, Message::Placed(vec![7..9])), []);
     assert_eq!(node.trace(5..6, MS), [Action::Trace(6)]);
     assert_eq!(node.trace(6..7, MS), [Action::Trace(9)]);
@@ -268,7 +265,7 @@ fn the_first_result_counts() {
 /// Leases: an atom that a worker fails to trace is tried elsewhere; after the third time the run fails with it.
 #[test]
 fn an_atom_that_fails_three_times_fails_the_run() {
-    let (mut node, _) = Told::with_band(&[Remedy::Leases, Remedy::Pipe], 0..4);
+    let (mut node, _) = Told::with_band(&[Remedy::Leases], 0..4);
     let actions = node.event(Event::AtomFailed { atom: 0 });
     assert!(actions.contains(&send(Party::Parent, Message::Failed(0))) && actions.contains(&Action::Trace(1)));
 

@@ -15,8 +15,6 @@ pub enum Remedy {
     Floor,
     /// A node offers help so early that an answer comes when it is needed.
     Early,
-    /// A worker's pipe holds one atom, not two: its node is at hand when it is done.
-    Pipe,
     /// A node that nobody needs sleeps, and whoever comes to need help wakes it.
     Wake,
     /// What waits too long in a node's pipe is traced by an idle node as well; the first result counts.
@@ -30,8 +28,8 @@ pub enum Remedy {
 
 impl Remedy {
     /// Every remedy, in the order in which they are named to the user.
-    pub const ALL: [Self; 8] =
-        [Self::Speed, Self::Floor, Self::Early, Self::Pipe, Self::Wake, Self::Copies, Self::Shortcuts, Self::Leases];
+    pub const ALL: [Self; 7] =
+        [Self::Speed, Self::Floor, Self::Early, Self::Wake, Self::Copies, Self::Shortcuts, Self::Leases];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -39,7 +37,6 @@ impl Remedy {
             Self::Speed => "speed",
             Self::Floor => "floor",
             Self::Early => "early",
-            Self::Pipe => "pipe",
             Self::Wake => "wake",
             Self::Copies => "copies",
             Self::Shortcuts => "shortcuts",
@@ -67,7 +64,7 @@ impl FromStr for Remedy {
 
 /// Some of the remedies: all, unless somebody wants otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "Vec<Remedy>", into = "Vec<Remedy>")]
+#[serde(from = "Vec<String>", into = "Vec<Remedy>")]
 pub struct Remedies(u8);
 
 impl Remedies {
@@ -103,9 +100,16 @@ impl Default for Remedies {
     }
 }
 
-impl From<Vec<Remedy>> for Remedies {
-    fn from(remedies: Vec<Remedy>) -> Self {
+impl FromIterator<Remedy> for Remedies {
+    fn from_iter<I: IntoIterator<Item = Remedy>>(remedies: I) -> Self {
         remedies.into_iter().fold(Self::NONE, Self::with)
+    }
+}
+
+impl From<Vec<String>> for Remedies {
+    /// A recorded run may name remedies that were taken out since.
+    fn from(names: Vec<String>) -> Self {
+        names.iter().filter_map(|name| name.parse().ok()).collect()
     }
 }
 
@@ -126,7 +130,9 @@ mod tests {
             assert!(Remedies::ALL.has(remedy) && !Remedies::NONE.has(remedy));
             let without: Vec<_> = Remedies::ALL.without(remedy).into();
             assert_eq!(without, Remedy::ALL.into_iter().filter(|&other| other != remedy).collect::<Vec<_>>());
-            assert_eq!(Remedies::from(without).with(remedy), Remedies::ALL);
+            assert_eq!(without.into_iter().collect::<Remedies>().with(remedy), Remedies::ALL);
         }
+        let named = ["wake", "pipe"].map(str::to_owned).to_vec();
+        assert_eq!(Remedies::from(named), Remedies::NONE.with(Remedy::Wake), "one was taken out since");
     }
 }

@@ -7,8 +7,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::message::{Action, Event, NodeId};
-use super::remedy::{Remedies, Remedy};
-use super::work::{PIPE, Work};
+use super::remedy::Remedies;
+use super::work::Work;
 use super::{adaptive, farm, ring, solo};
 use crate::picture::Division;
 use crate::time::Time;
@@ -112,12 +112,6 @@ impl Rules {
         Self::BEAT.max((handling * 8).max(Duration::from_micros(500)) * nodes as u32)
     }
 
-    /// How many atoms are in a worker's pipe at most.
-    pub(super) fn pipe(&self) -> usize {
-        let is_short = self.strategy == Strategy::Adaptive && self.remedies.has(Remedy::Pipe);
-        if is_short { 1 } else { PIPE }
-    }
-
     /// The rules of a strategy, unless somebody wants otherwise.
     pub fn usual(strategy: Strategy, division: Division, nodes: usize) -> Self {
         let (part, beat) = (strategy.usual_part(division, nodes), Self::beat_for(Duration::ZERO, nodes));
@@ -159,7 +153,7 @@ enum Role {
 impl Node {
     /// Node `id` of `nodes`.
     pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
-        let work = Work::new(rules.batch, rules.pipe());
+        let work = Work::new(rules.batch);
         let role = match rules.strategy {
             Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(solo::Node::new(work)),
             Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::Node::new(work)),

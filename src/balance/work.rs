@@ -9,15 +9,14 @@ use super::queue::Queue;
 use crate::picture::{Atom, push_atom};
 use crate::time::Time;
 
-/// How many atoms the worker's pipe holds while there are any, the one being traced included, unless somebody wants otherwise:
+/// How many atoms the worker's pipe holds while there are any, the one being traced included:
 /// two, so that neither worker nor node waits for the other (§8).
-pub(super) const PIPE: usize = 2;
+const PIPE: usize = 2;
 
 /// The atoms of a node: those that wait, those in the pipe, and those traced but not yet sent.
 #[derive(Debug)]
 pub(super) struct Work {
     batch: Option<Duration>,
-    depth: usize,
     queue: Queue,
     pipe: VecDeque<Atom>,
     traced: u32,
@@ -27,9 +26,9 @@ pub(super) struct Work {
 }
 
 impl Work {
-    /// No atoms yet; traced ones leave after [`Rules::batch`](super::Rules::batch). The pipe holds `depth` atoms.
-    pub fn new(batch: Option<Duration>, depth: usize) -> Self {
-        Self { batch, depth, queue: Queue::default(), pipe: VecDeque::new(), traced: 0, unsent: Vec::new(), due: None }
+    /// No atoms yet; traced ones leave after [`Rules::batch`](super::Rules::batch).
+    pub fn new(batch: Option<Duration>) -> Self {
+        Self { batch, queue: Queue::default(), pipe: VecDeque::new(), traced: 0, unsent: Vec::new(), due: None }
     }
 
     /// How many atoms wait in the queue; those in the pipe are the worker's and never leave it untraced.
@@ -133,7 +132,7 @@ impl Work {
     }
 
     fn fill_pipe(&mut self, actions: &mut Vec<Action>) {
-        while self.pipe.len() < self.depth
+        while self.pipe.len() < PIPE
             && let Some(atom) = self.queue.pop()
         {
             self.pipe.push_back(atom);

@@ -169,7 +169,7 @@ pub(super) struct RenderArgs {
     /// for about 16 parts a node]
     #[arg(long, value_name = "ATOMS", value_parser = clap::value_parser!(u32).range(1..))]
     pub part: Option<u32>,
-    /// Adaptive: leave these remedies out: speed, floor, early, pipe, wake, copies, shortcuts, leases [default: none]
+    /// Adaptive: leave these remedies out: speed, floor, early, wake, copies, shortcuts, leases [default: none]
     #[arg(long, value_name = "REMEDY,REMEDY", value_delimiter = ',')]
     pub without: Vec<Remedy>,
     /// How long a message travels, in milliseconds

@@ -113,7 +113,7 @@ pub struct Question {
 }
 
 /// The lessons that come with the program, in the order in which they are best taken: name and text.
-pub const BUILT_IN: [(&str, &str); 15] = [
+pub const BUILT_IN: [(&str, &str); 14] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),
     ("farm", include_str!("../../assets/lessons/farm.ron")),
@@ -124,7 +124,6 @@ pub const BUILT_IN: [(&str, &str); 15] = [
     ("by-speed", include_str!("../../assets/lessons/by-speed.ron")),
     ("crumbs", include_str!("../../assets/lessons/crumbs.ron")),
     ("early", include_str!("../../assets/lessons/early.ron")),
-    ("pipe", include_str!("../../assets/lessons/pipe.ron")),
     ("copies", include_str!("../../assets/lessons/copies.ron")),
     ("woken", include_str!("../../assets/lessons/woken.ron")),
     ("shortcuts", include_str!("../../assets/lessons/shortcuts.ron")),

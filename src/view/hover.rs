@@ -253,14 +253,12 @@ fn nothing() -> &'static str {
 }
 
 fn pipe_words(of: &NodeState) -> &'static str {
-    let mut slots = of.pipe();
-    let (first, second) = (slots.next().unwrap_or(Slot::Empty), slots.next().unwrap_or(Slot::Empty));
-    match (first, second) {
-        (Slot::Empty, _) => nothing(),
-        (Slot::Traced, Slot::Empty) => word!("one atom, which it traces", "um átomo, que ela calcula"),
-        (Slot::Traced, _) => word!("two atoms, one of which it traces", "dois átomos; um deles ela calcula"),
-        (Slot::Filled, Slot::Empty) => word!("one atom, which waits", "um átomo, que espera"),
-        (Slot::Filled, _) => word!("two atoms, which wait", "dois átomos, que esperam"),
+    match of.pipe() {
+        [Slot::Empty, _] => nothing(),
+        [Slot::Traced, Slot::Empty] => word!("one atom, which it traces", "um átomo, que ela calcula"),
+        [Slot::Traced, _] => word!("two atoms, one of which it traces", "dois átomos; um deles ela calcula"),
+        [Slot::Filled, Slot::Empty] => word!("one atom, which waits", "um átomo, que espera"),
+        [Slot::Filled, _] => word!("two atoms, which wait", "dois átomos, que esperam"),
     }
 }
 

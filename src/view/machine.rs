@@ -115,13 +115,10 @@ fn dashes(centre: Point, radius: f32, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The places of the pipe, the atom that is traced on the left.
+/// The two places of the pipe, the atom that is traced on the left.
 fn pipe(plan: &Plan, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
     let half = 0.12 * plan.node;
-    let slots = of.pipe();
-    let first = 1.0 - slots.len() as f32;
-    for (place, slot) in slots.enumerate() {
-        let side = first + 2.0 * place as f32;
+    for (slot, side) in of.pipe().into_iter().zip([-1.0, 1.0]) {
         let ink = hue.faint(match slot {
             Slot::Traced => 1.0,
             Slot::Filled => 0.65,

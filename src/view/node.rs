@@ -18,8 +18,6 @@ pub struct NodeState {
     pub condition: Condition,
     /// It has not joined the run yet: its seat is empty.
     pub spare: bool,
-    /// How many places its pipe has.
-    pipe: usize,
     /// Atoms that it has traced, and that count: of one that is traced twice, or lost, the others' or the next result may.
     pub done: u32,
     /// The atom that its worker is tracing.
@@ -117,7 +115,7 @@ impl Activity {
     }
 }
 
-/// A place in a worker's pipe.
+/// One of the two places in a worker's pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// Nothing is in it.
@@ -149,15 +147,14 @@ impl NodeState {
         self.paused || matches!(self.condition, Condition::Hung | Condition::Off)
     }
 
-    /// The places of its pipe, the atom that is traced first: each holds one, while it has as many.
-    pub fn pipe(&self) -> impl ExactSizeIterator<Item = Slot> {
+    /// What its pipe holds, the atom that is traced first: two atoms, while it has as many.
+    pub fn pipe(&self) -> [Slot; 2] {
         let first = if self.atom.is_some() && self.runs() { Slot::Traced } else { Slot::Filled };
-        let left = self.left() as usize;
-        (0..self.pipe).map(move |place| match place {
-            _ if place >= left => Slot::Empty,
-            0 => first,
-            _ => Slot::Filled,
-        })
+        match self.left() {
+            0 => [Slot::Empty; 2],
+            1 => [first, Slot::Empty],
+            _ => [first, Slot::Filled],
+        }
     }
 
     /// Atoms a second that it has traced in the 3 s before `now`, or since its band came if that is less long ago.
@@ -176,14 +173,13 @@ impl NodeState {
         if now == Time::ZERO { self.speed_now() } else { self.ran_until(now) / now.secs() }
     }
 
-    pub(super) fn new(speed: f64, spare: bool, pipe: usize) -> Self {
+    pub(super) fn new(speed: f64, spare: bool) -> Self {
         let condition = if spare { Condition::Off } else { Condition::Well };
         Self {
             speed,
             paused: false,
             condition,
             spare,
-            pipe,
             done: 0,
             atom: None,
             retired: false,
@@ -289,25 +285,22 @@ mod tests {
 
     #[test]
     fn a_paused_node_has_atoms_but_does_not_trace_them() {
-        let mut node = NodeState::new(0.5, false, 2);
-        let pipe = |node: &NodeState| node.pipe().collect::<Vec<_>>();
-        assert_eq!((pipe(&node), node.computes()), (vec![Slot::Empty; 2], false));
+        let mut node = NodeState::new(0.5, false);
+        assert_eq!((node.pipe(), node.computes()), ([Slot::Empty; 2], false));
         node.give(9, Time::ZERO);
         node.atom = Some(3);
-        assert_eq!((pipe(&node), node.computes()), (vec![Slot::Traced, Slot::Filled], true));
+        assert_eq!((node.pipe(), node.computes()), ([Slot::Traced, Slot::Filled], true));
         node.set_paused(true, Time::from_secs(1.0));
-        assert_eq!((pipe(&node), node.computes(), node.speed), (vec![Slot::Filled; 2], false, 0.5));
+        assert_eq!((node.pipe(), node.computes(), node.speed), ([Slot::Filled, Slot::Filled], false, 0.5));
         node.set_paused(false, Time::from_secs(2.0));
         assert!(node.computes());
         (0..8).for_each(|_| node.atom_done(true, Time::from_secs(3.0)));
-        assert_eq!(pipe(&node), [Slot::Filled, Slot::Empty]);
-        node.pipe = 1;
-        assert_eq!(pipe(&node), [Slot::Filled]);
+        assert_eq!(node.pipe(), [Slot::Filled, Slot::Empty]);
     }
 
     #[test]
     fn the_mean_speed_knows_of_changes_and_pauses() {
-        let mut node = NodeState::new(1.0, false, 2);
+        let mut node = NodeState::new(1.0, false);
         let at = Time::from_secs;
         assert_eq!((node.mean_speed(Time::ZERO), node.mean_speed(at(3.0))), (1.0, 1.0));
         node.set_speed(0.5, at(2.0));

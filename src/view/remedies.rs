@@ -9,7 +9,6 @@ pub fn remedy_name(remedy: Remedy) -> &'static str {
         Remedy::Speed => word!("shares by speed", "partes por velocidade"),
         Remedy::Floor => word!("a floor", "um piso"),
         Remedy::Early => word!("early offers", "ofertas antecipadas"),
-        Remedy::Pipe => word!("a short pipe", "pipe curto"),
         Remedy::Wake => word!("waking", "despertar"),
         Remedy::Copies => word!("copies", "cópias"),
         Remedy::Shortcuts => word!("shortcuts", "atalhos"),
@@ -32,9 +31,6 @@ pub fn remedy_hint(remedy: Remedy) -> &'static str {
             "A machine offers help before it is out of atoms, so that it never waits",
             "A máquina oferece ajuda antes de ficar sem átomos, e não espera"
         ),
-        Remedy::Pipe => {
-            word!("One atom waits in a machine's pipe, not two", "Um átomo espera no pipe da máquina, não dois")
-        }
         Remedy::Wake => word!(
             "Who is done sleeps, and whoever comes to need help wakes it",
             "Quem termina dorme, e quem vem a precisar de ajuda o acorda"

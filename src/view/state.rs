@@ -72,13 +72,9 @@ impl RunState {
     /// The state before anything has happened.
     pub fn new(header: &Header) -> Self {
         let remedies = header.remedies();
-        let pipe = if remedies.has(Remedy::Pipe) { 1 } else { 2 };
         let spares: Vec<_> = (0..header.speeds.len() as NodeId).filter(|&node| header.is_spare(node)).collect();
         Self {
-            nodes: (0..)
-                .zip(&header.speeds)
-                .map(|(id, &speed)| NodeState::new(speed, header.is_spare(id), pipe))
-                .collect(),
+            nodes: (0..).zip(&header.speeds).map(|(id, &speed)| NodeState::new(speed, header.is_spare(id))).collect(),
             places: vec![Place::Nowhere; header.division.atoms() as usize],
             orders: vec![0; header.division.atoms() as usize],
             cost: 0.0,

@@ -8,6 +8,9 @@ use crate::balance::remedy::Remedy;
 use crate::balance::strategy::LEASE;
 use crate::time::Time;
 
+/// How many leases an atom may take, or times four usual atoms, before its worker counts as stuck.
+const PATIENCE: u32 = 16;
+
 impl Node {
     /// How long a node may be silent, and an offer under way, before it counts as lost.
     pub(super) fn lease(&self) -> Duration {
@@ -52,11 +55,12 @@ impl Node {
         }
     }
 
-    /// Whether the worker has had its atom for so long that the node does not vouch for anything it has.
+    /// Whether the worker has had its atom for so long that the node does not vouch for anything it has. Copies and the ring have
+    /// seen to it long before, if somebody can be reached; an atom that is only dear is not to be traced by all.
     fn is_stuck(&self, now: Time) -> bool {
         let age = now.since(self.gauge.since());
         let usual = self.gauge.atom().unwrap_or_default();
-        !self.work.is_idle() && age > self.lease().max(usual * LEASE)
+        !self.work.is_idle() && age > self.lease().max(usual * LEASE) * PATIENCE
     }
 
     fn offer_due(&self) -> Option<Time> {

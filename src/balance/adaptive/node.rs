@@ -77,7 +77,7 @@ impl Node {
         let has = |remedy| rules.remedies.has(remedy);
         // What is traced and not sent would be lost with its node.
         let batch = if has(Remedy::Leases) { Some(rules.batch.unwrap_or(rules.beat)) } else { rules.batch };
-        let work = Work::new(batch, rules.pipe());
+        let work = Work::new(batch);
         Self {
             id,
             part: rules.part.max(1),
@@ -156,7 +156,7 @@ impl Node {
                 // It is let in, even if it was given atoms before it heard so.
                 self.asks = None;
                 if self.has(Remedy::Leases) && self.next_beat.is_none() {
-                    self.next_beat = Some(now);
+                    self.next_beat = Some(now + self.beat);
                 }
                 let State::Waiting { early } = &mut self.state else {
                     // The parent asks those back that it thinks gone.

@@ -47,7 +47,8 @@ impl Node {
         }
     }
 
-    /// When the node is to offer before its atoms run out: a way to and fro before their end.
+    /// When the node is to offer before its atoms run out: a way to and fro before it has but one left, since an offer may pass
+    /// some who have nothing to give.
     pub(super) fn early_at(&self) -> Option<Time> {
         let usual = self.gauge.atom()?;
         let in_hand = self.work.pipe().front().copied();
@@ -73,10 +74,8 @@ impl Node {
         self.state = State::Asleep { again: now + pause, pause };
         actions.push(Action::Retire);
         self.say_that_it_sleeps(now, actions);
-        // The parent may know of atoms that nobody has.
-        if self.next_beat.is_some() {
-            self.next_beat = Some(now);
-        }
+        // The parent may know of atoms that nobody has; one that has just heard of this node is left in peace for a little.
+        self.next_beat = self.next_beat.map(|next| next.min(now.max(next - self.beat * 15 / 16)));
     }
 
     /// Leaves an offer with all who would be asked, for when they come to need help.
