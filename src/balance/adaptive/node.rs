@@ -47,6 +47,9 @@ pub struct Node {
     pub(super) timer: Option<Time>,
 }
 
+/// An atom takes long if so many of them would take longer than a beat.
+const AT_LENGTH: u32 = 16;
+
 /// An offer of help: the token.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Offer {
@@ -135,8 +138,9 @@ impl Node {
     fn left_pipe(&mut self, now: Time, atom: Atom, actions: &mut Vec<Action>) {
         self.copied.retain(|&copied| copied != atom);
         if !self.work.is_idle() {
-            // Where the first result counts, the picture may wait for nothing but these.
-            if self.has(Remedy::Copies) && self.work.waiting() == 0 {
+            // The picture may wait for nothing but these, and the next may take long.
+            let takes_long = self.gauge.atom().is_some_and(|usual| usual * AT_LENGTH > self.beat);
+            if self.has(Remedy::Copies) && self.work.waiting() == 0 && takes_long {
                 self.work.send_results(actions);
             }
             self.call_for_help(now, actions);
