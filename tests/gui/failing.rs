@@ -1,7 +1,8 @@
 //! Machines that fail, and are well again: by the menu of a row, of the ring, and by keys; and spare ones that join.
 
-use anel::balance::{Condition, Strategy};
+use anel::balance::{Condition, Remedy, Strategy};
 use anel::record::What;
+use anel::view::message_at;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -106,4 +107,48 @@ fn other_rings_can_be_broken_too_and_say_that_they_hang() {
         stage.narrator().sentence(stage.state(), now)
             == "The run hangs, since 1 is off: the article's ring has no remedy, the adaptive ring has"
     });
+}
+
+#[test]
+fn a_message_is_held_up_by_its_menu() {
+    let mut window = open_adaptive();
+    let ring = window.get_by_label("The ring").rect();
+    let message = |window: &Window| {
+        let (stage, now) = (session(window).stage(), session(window).now());
+        let points =
+            (0..60 * 60).map(|i| [(i % 60) as f32 / 60.0 * ring.width(), (i / 60) as f32 / 60.0 * ring.height()]);
+        let found = points.map(|at| (at, message_at(stage.state(), now, ring.size().into(), at)));
+        found.filter_map(|(at, flight)| flight.map(|flight| (at, flight.from, flight.to))).next()
+    };
+    until(&mut window, "a message", |window| message(window).is_some());
+    key(&mut window, Key::Space);
+    let ([x, y], from, to) = message(&window).expect("time stands still");
+    let at = ring.min + egui::vec2(x, y);
+    window.hover_at(at);
+    window.step();
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        window.step();
+    }
+    press(&mut window, "Hold it up for 5 s");
+    key(&mut window, Key::Space);
+    let held = |window: &Window| {
+        recorded(window, |what| match what {
+            What::Delayed { from, to, .. } => Some((*from, *to)),
+            _ => None,
+        })
+    };
+    until(&mut window, "a delay", |window| held(window) == [(from, to)]);
+    until(&mut window, "word of it", |window| is_seen(window, " is held up for 5.0 s"));
+}
+
+#[test]
+fn a_remedy_is_left_out() {
+    let mut window = open_adaptive();
+    press(&mut window, "Set up");
+    press(&mut window, "Remedies: all remedies");
+    window.get_by_label("waking").click();
+    until(&mut window, "a run without it", |window| !session(window).header().remedies().has(Remedy::Wake));
+    assert_eq!(session(&window).header().remedies().iter().count(), 6);
 }

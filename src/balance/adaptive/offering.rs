@@ -74,8 +74,11 @@ impl Node {
         self.state = State::Asleep { again: now + pause, pause };
         actions.push(Action::Retire);
         self.say_that_it_sleeps(now, actions);
-        // The parent may know of atoms that nobody has; one that has just heard of this node is left in peace for a little.
-        self.next_beat = self.next_beat.map(|next| next.min(now.max(next - self.beat * 15 / 16)));
+        // The parent may know of atoms that nobody has: not before a lease, and one that has just heard of this node is left in
+        // peace for a little.
+        if now.since(Time::ZERO) >= pause {
+            self.next_beat = self.next_beat.map(|next| next.min(now.max(next - self.beat * 15 / 16)));
+        }
     }
 
     /// Leaves an offer with all who would be asked, for when they come to need help.
