@@ -129,9 +129,9 @@ fn last_atoms(state: &RunState) -> Vec<Time> {
     last
 }
 
-/// The nodes that did most and least of the work.
+/// The nodes that did most and least of the work, of those that were there.
 fn most_and_least(state: &RunState) -> Option<[(NodeId, &NodeState); 2]> {
-    let nodes = || (0..).zip(state.nodes());
+    let nodes = || (0..).zip(state.nodes()).filter(|(_, node)| !node.spare);
     // Of equals the first is named.
     Some([nodes().min_by_key(|(_, node)| Reverse(node.done))?, nodes().min_by_key(|(_, node)| node.done)?])
 }
@@ -185,6 +185,7 @@ mod tests {
     use super::*;
     use crate::balance::Rules;
     use crate::record::{Record, What};
+    use crate::runlog::Header;
 
     const OUTCOME: Outcome = Outcome {
         makespan: Duration::from_millis(20_440),
@@ -267,5 +268,16 @@ mod tests {
         }
         let words = result_words(&state, &OUTCOME);
         assert!(words.ends_with("1 traced most: 1 atom at 100 %; 2 least: 0 at 50 % on average"), "{words}");
+    }
+
+    #[test]
+    fn who_was_not_there_did_not_do_least() {
+        let header = Header { spares: 1, ..sample::header(&[1.0, 0.5, 1.0], 3) };
+        let mut state = RunState::new(&header);
+        for (node, atom) in [(0, 0), (0, 1), (1, 2)] {
+            state.apply(&Record { at: Time::ZERO, what: What::AtomDone { node, atom, cost: Duration::ZERO } });
+        }
+        let words = uneven(&state).unwrap_or_default();
+        assert!(words.contains("1 traced most: 2 atoms at 100 %; 2 least: 1 at 50 %"), "{words}");
     }
 }

@@ -212,24 +212,19 @@ impl Learn {
         });
         ui.add_space(GRID);
         ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
-            let mut chosen = None;
             let article = self.lessons.iter().position(|lesson| adapts(lesson)).unwrap_or(self.lessons.len());
-            for (number, lesson) in (1..).zip(&self.lessons) {
-                match number as usize - 1 {
-                    0 => heading(
-                        ui,
-                        word!("The article's ring, and its rivals", "O anel do artigo, e seus rivais"),
-                        look,
-                    ),
-                    place if place == article => {
-                        heading(ui, word!("The ring that adapts", "O anel que se adapta"), look);
-                    }
-                    _ => {}
-                }
-                if line(ui, number, lesson, look) {
-                    chosen = Some(Arc::clone(lesson));
-                }
-            }
+            let (first, second) = self.lessons.split_at(article);
+            let rivals = word!("The article's ring, and its rivals", "O anel do artigo, e seus rivais");
+            let adaptive = word!("The ring that adapts", "O anel que se adapta");
+            let chosen = if ui.available_width() < 120.0 * GRID {
+                let chosen = part(ui, rivals, (1, first), look);
+                chosen.or(part(ui, adaptive, (1 + article, second), look))
+            } else {
+                ui.columns_const(|[left, right]| {
+                    let chosen = part(left, rivals, (1, first), look);
+                    chosen.or(part(right, adaptive, (1 + article, second), look))
+                })
+            };
             if let Some(lesson) = chosen {
                 self.prepare(lesson, session);
             }
@@ -269,26 +264,37 @@ fn adapts(lesson: &Lesson) -> bool {
     lesson.runs.values().any(|plan| plan.strategy == Strategy::Adaptive)
 }
 
-fn heading(ui: &mut Ui, words: &str, look: Look) {
+/// Some of the lessons, of which the first has this number; returns which was chosen.
+fn part(ui: &mut Ui, heading: &str, (number, lessons): (usize, &[Arc<Lesson>]), look: Look) -> Option<Arc<Lesson>> {
     ui.add_space(GRID);
-    ui.label(RichText::new(words).font(theme::strong(theme::BODY)).color(look.quiet));
+    ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.quiet));
+    let mut chosen = None;
+    for (number, lesson) in (number..).zip(lessons) {
+        if line(ui, number, lesson, look) {
+            chosen = Some(Arc::clone(lesson));
+        }
+    }
+    chosen
 }
 
 /// A lesson of the list; returns whether it was chosen.
-fn line(ui: &mut Ui, number: u32, lesson: &Lesson, look: Look) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width() - GRID, 7.5 * GRID), Sense::click());
+fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
+    let wide = ui.available_width() - GRID;
+    let indent = 6.0 * GRID;
+    let about = lesson.about.spoken().to_owned();
+    let about = ui.painter().layout(about, theme::regular(theme::BODY), look.quiet, wide - indent - GRID);
+    let (rect, response) = ui.allocate_exact_size(vec2(wide, 5.0 * GRID + about.size().y), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.spoken()));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
     let painter = ui.painter_at(rect);
-    let left = rect.left() + 6.0 * GRID;
-    let middle = pos2(rect.left() + 3.0 * GRID, rect.center().y);
+    let left = rect.left() + indent;
+    let middle = pos2(rect.left() + 0.5 * indent, rect.center().y);
     painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);
     let title = pos2(left, rect.top() + 2.5 * GRID);
     painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.spoken(), theme::strong(18.0), look.text);
-    let about = pos2(left, rect.top() + 5.25 * GRID);
-    painter.text(about, egui::Align2::LEFT_CENTER, lesson.about.spoken(), theme::regular(theme::BODY), look.quiet);
+    painter.galley(pos2(left, rect.top() + 4.0 * GRID), about, look.quiet);
     response.clicked()
 }
 

@@ -21,7 +21,9 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
         let combo =
             ComboBox::from_id_salt("strategy").selected_text(on.short_name()).width(20.0 * GRID).height(60.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
+            // All of them are in sight in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 0.0;
+            ui.spacing_mut().button_padding.y = 3.0;
             ui.visuals_mut().selection.bg_fill = look.hairline;
             for sharing in Sharing::ALL {
                 if strategy(ui, sharing, sharing == on, look).clicked() && sharing != on {
@@ -35,7 +37,13 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
             info
         });
     });
-    small(ui, on.hint(), look);
+    // What it does, its remedies say.
+    let adapts = on == Sharing::By(Strategy::Adaptive);
+    if adapts {
+        remedies(ui, draft, look);
+    } else {
+        small(ui, on.hint(), look);
+    }
     let stealing = on == Sharing::Stealing;
     high_line(ui, word!("Time", "Tempo"), look, |ui| {
         ui.add_enabled_ui(!stealing, |ui| {
@@ -67,9 +75,8 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look) {
             number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, name);
         });
     });
-    if on == Sharing::By(Strategy::Adaptive) {
+    if adapts {
         spares(ui, draft, look);
-        remedies(ui, draft, look);
     }
 }
 
@@ -95,14 +102,14 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look) {
                 "Uma Ethernet de 1997 levava no máximo 1250 kB/s; 0 é sem limite"
             ));
         });
-        ui.add_enabled_ui(draft.bandwidth > 0, |ui| {
+        if draft.bandwidth > 0 {
             let text = word!("All share one wire", "Todos num só cabo");
             let text = RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
             ui.checkbox(&mut draft.shared_wire, text).on_hover_text(word!(
                 "Only one message at a time is sent, whoever sends it; else each pair has a wire",
                 "Só uma mensagem é enviada por vez, seja de quem for; senão cada par tem um cabo"
             ));
-        });
+        }
     });
 }
 
@@ -127,7 +134,9 @@ fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look) {
         let opener = named_button(ui, None, &name, Some(&words), Weight::Quiet);
         let popup = Popup::from_toggle_button_response(&opener).frame(popup_frame(ui.ctx()));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
-            ui.set_width(52.0 * GRID);
+            ui.set_width(54.0 * GRID);
+            ui.spacing_mut().item_spacing.y = 0.0;
+            ui.visuals_mut().widgets.inactive.bg_fill = look.hairline;
             for remedy in Remedy::ALL {
                 let mut has = draft.remedies.has(remedy);
                 let name = RichText::new(remedy_name(remedy)).font(theme::strong(theme::BODY)).color(look.text);
@@ -136,6 +145,7 @@ fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look) {
                     draft.remedies = if has { with } else { without };
                 }
                 small(ui, remedy_hint(remedy), look);
+                ui.add_space(0.75 * GRID);
             }
             let hint = word!("Without any it is the article's ring", "Sem nenhum, é o anel do artigo");
             small(ui, hint, look);
