@@ -28,7 +28,7 @@ pub(super) struct Ledger {
     /// No other atom can be lost before this time.
     next_lost: Time,
     failures: BTreeMap<Atom, u8>,
-    /// How long a message has taken at most.
+    /// How long messages have taken at most of late.
     delay: Duration,
 }
 
@@ -140,6 +140,8 @@ impl Ledger {
 
     /// Looks who has been silent for too long, and which atoms nobody has.
     pub fn look(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
+        // A message that took very long does not count for ever.
+        self.delay = self.delay * 7 / 8;
         let lease = self.lease();
         let mut changed = false;
         for entry in self.nodes.iter_mut().filter(|entry| !entry.gone) {
@@ -186,16 +188,16 @@ impl Ledger {
         self.beat * LEASE + self.delay * 2
     }
 
-    /// Gives each idle node a part of what is left of the pool, as large as if all who are idle still were to get one; the ring
-    /// shares it on.
+    /// Gives each idle node an equal part of the pool; the ring shares it on.
     fn give_out(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
-        let idle = self.nodes.iter().filter(|entry| entry.idle && !entry.gone).count().max(1) as u32;
+        let mut idle = self.nodes.iter().filter(|entry| entry.idle && !entry.gone).count().max(1) as u32;
         for node in 0..self.nodes.len() {
             if self.pool.is_empty() {
                 return;
             }
             let Entry { idle: true, gone: false, .. } = self.nodes[node] else { continue };
             let count = atoms_in(&self.pool).div_ceil(idle);
+            idle = (idle - 1).max(1);
             let again = self.take(now, count, placed);
             if !again.is_empty() {
                 self.nodes[node].idle = false;

@@ -15,7 +15,7 @@ pub type NodeId = u16;
 /// Whoever can send and receive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Party {
-    /// Hands out bands once, assembles the picture, sends shutdown; decides nothing else.
+    /// Hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm, and of what is lost.
     Parent,
     /// One machine of the ring.
     Node(NodeId),
@@ -97,6 +97,15 @@ impl Message {
     /// The offer of the article's ring.
     pub fn offer(who: NodeId, done: u32) -> Self {
         Self::Offer { who, done, help: None }
+    }
+
+    /// How many atoms `from` has traced, if this is its own offer, and not one that stays with its receiver.
+    pub fn own_offer(&self, from: NodeId) -> Option<u32> {
+        match *self {
+            Self::Offer { help: Some(Help { left: None, .. }), .. } => None,
+            Self::Offer { who, done, .. } => (who == from).then_some(done),
+            _ => None,
+        }
     }
 
     /// The atoms that it is about: to be traced, or traced.

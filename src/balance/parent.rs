@@ -35,8 +35,10 @@ enum Sharing {
     Estimate,
     /// A part for whoever asks.
     Farm(Parts),
-    /// Equal bands, and a ledger, if machines may be lost.
-    Adaptive(Option<Ledger>),
+    /// Equal bands, and a ledger, since machines may be lost.
+    Adaptive(Ledger),
+    /// The same without leases: nothing is known but who has not joined yet.
+    Trusting(Vec<NodeId>),
 }
 
 impl Parent {
@@ -57,8 +59,11 @@ impl Parent {
             Strategy::Farm => farm(false),
             Strategy::FarmBySpeed => farm(true),
             Strategy::Adaptive => {
-                let ledger = || Ledger::new(rules.beat, (nodes, spares), missing);
-                Sharing::Adaptive(rules.remedies.has(Remedy::Leases).then(ledger))
+                if rules.remedies.has(Remedy::Leases) {
+                    Sharing::Adaptive(Ledger::new(rules.beat, (nodes, spares), missing))
+                } else {
+                    Sharing::Trusting((nodes - spares..nodes).collect())
+                }
             }
         };
         Self { sharing, division, nodes, spares, placed: vec![false; missing as usize], missing }
@@ -70,8 +75,7 @@ impl Parent {
     /// If the event is impossible: an atom that has been placed before (but in the ring that adapts), or a message that no
     /// node sends here.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
-        if let (Sharing::Adaptive(Some(ledger)), Event::Message { from: Party::Node(node), .. }) =
-            (&mut self.sharing, &event)
+        if let (Sharing::Adaptive(ledger), Event::Message { from: Party::Node(node), .. }) = (&mut self.sharing, &event)
         {
             ledger.hear(now, *node, actions);
         }
@@ -88,9 +92,13 @@ impl Parent {
                     Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
                     Sharing::Adaptive(ledger) => {
                         hand_out(self.division.bands(nodes), actions);
-                        if let Some(ledger) = ledger {
-                            ledger.start(now, actions);
-                            actions.push(Action::SetTimer(ledger.next_look(now)));
+                        ledger.start(now, actions);
+                        actions.push(Action::SetTimer(ledger.next_look(now)));
+                    }
+                    Sharing::Trusting(gone) => {
+                        hand_out(self.division.bands(nodes), actions);
+                        if !gone.is_empty() {
+                            tell_who_is_gone(self.nodes, gone, actions);
                         }
                     }
                 }
@@ -106,7 +114,7 @@ impl Parent {
             }
             Event::Message { from: Party::Node(node), message } => self.answer(now, node, message, actions),
             Event::Timer => {
-                if let Sharing::Adaptive(Some(ledger)) = &mut self.sharing {
+                if let Sharing::Adaptive(ledger) = &mut self.sharing {
                     ledger.look(now, &self.placed, actions);
                     actions.push(Action::SetTimer(ledger.next_look(now)));
                 }
@@ -122,14 +130,18 @@ impl Parent {
                 let message = Message::Part(parts.next(node));
                 actions.push(Action::Send { to: Party::Node(node), message });
             }
-            (Sharing::Adaptive(Some(ledger)), Message::Request) => ledger.ask_in(node, actions),
+            (Sharing::Adaptive(ledger), Message::Request) => ledger.ask_in(node, actions),
             // Without a ledger what it had is lost; it may help all the same.
-            (Sharing::Adaptive(None), Message::Request) => hand_out_to(node, 0..0, actions),
-            (Sharing::Adaptive(Some(ledger)), Message::Beat { holds, idle, sent }) => {
+            (Sharing::Trusting(gone), Message::Request) => {
+                hand_out_to(node, 0..0, actions);
+                gone.retain(|&other| other != node);
+                tell_who_is_gone(self.nodes, gone, actions);
+            }
+            (Sharing::Adaptive(ledger), Message::Beat { holds, idle, sent }) => {
                 ledger.beat(now, (node, sent), (&holds, idle), &self.placed, actions);
             }
-            (Sharing::Adaptive(Some(ledger)), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
-            (Sharing::Adaptive(None), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
+            (Sharing::Adaptive(ledger), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
+            (Sharing::Trusting(_), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
             (_, other) => unreachable!("node {node} sends {other:?} to a parent that has no use for it"),
         }
     }
@@ -138,7 +150,10 @@ impl Parent {
     fn place(&mut self, atom: Atom) {
         let placed = &mut self.placed[atom as usize];
         let again = std::mem::replace(placed, true);
-        assert!(!again || matches!(self.sharing, Sharing::Adaptive(_)), "atom {atom} was traced twice");
+        assert!(
+            !again || matches!(self.sharing, Sharing::Adaptive(_) | Sharing::Trusting(_)),
+            "atom {atom} was traced twice"
+        );
         self.missing -= u32::from(!again);
     }
 
@@ -156,6 +171,12 @@ fn hand_out(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Acti
 
 fn hand_out_to(node: NodeId, band: Range<Atom>, actions: &mut Vec<Action>) {
     actions.push(Action::Send { to: Party::Node(node), message: Message::Band(band) });
+}
+
+/// Tells those who are there whom offers are to pass over.
+fn tell_who_is_gone(nodes: NodeId, gone: &[NodeId], actions: &mut Vec<Action>) {
+    let there = (0..nodes).filter(|node| !gone.contains(node));
+    actions.extend(there.map(|node| Action::Send { to: Party::Node(node), message: Message::Gone(gone.to_vec()) }));
 }
 
 #[cfg(test)]

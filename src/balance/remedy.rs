@@ -6,8 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 /// One weakness of the article's ring, mended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Remedy {
     /// Shares follow how fast nodes are now, by the work in their last atoms, not by the atoms since the start.
     Speed,
@@ -64,7 +63,7 @@ impl FromStr for Remedy {
 
 /// Some of the remedies: all, unless somebody wants otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "Vec<String>", into = "Vec<Remedy>")]
+#[serde(from = "Vec<String>", into = "Vec<String>")]
 pub struct Remedies(u8);
 
 impl Remedies {
@@ -113,9 +112,9 @@ impl From<Vec<String>> for Remedies {
     }
 }
 
-impl From<Remedies> for Vec<Remedy> {
+impl From<Remedies> for Vec<String> {
     fn from(remedies: Remedies) -> Self {
-        remedies.iter().collect()
+        remedies.iter().map(|remedy| remedy.to_string()).collect()
     }
 }
 
@@ -128,7 +127,7 @@ mod tests {
         for remedy in Remedy::ALL {
             assert_eq!(remedy.name().parse(), Ok(remedy));
             assert!(Remedies::ALL.has(remedy) && !Remedies::NONE.has(remedy));
-            let without: Vec<_> = Remedies::ALL.without(remedy).into();
+            let without: Vec<_> = Remedies::ALL.without(remedy).iter().collect();
             assert_eq!(without, Remedy::ALL.into_iter().filter(|&other| other != remedy).collect::<Vec<_>>());
             assert_eq!(without.into_iter().collect::<Remedies>().with(remedy), Remedies::ALL);
         }

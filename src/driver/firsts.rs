@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::picture::{Atom, Division};
+use crate::picture::{Atom, Division, push_atom};
 
 /// Which atoms are in the picture.
 #[derive(Debug)]
@@ -18,14 +18,10 @@ impl Firsts {
 
     /// Those of these atoms that come for the first time, in as few ranges as possible.
     pub fn take(&mut self, atoms: Range<Atom>) -> Vec<Range<Atom>> {
-        let mut new: Vec<Range<Atom>> = Vec::new();
+        let mut new = Vec::new();
         for atom in atoms {
-            if std::mem::replace(&mut self.placed[atom as usize], true) {
-                continue;
-            }
-            match new.last_mut() {
-                Some(range) if range.end == atom => range.end += 1,
-                _ => new.push(atom..atom + 1),
+            if !std::mem::replace(&mut self.placed[atom as usize], true) {
+                push_atom(&mut new, atom);
             }
         }
         new

@@ -81,7 +81,7 @@ impl ParentThread {
                 Some(Incoming::Command(Command::Link { one, other, cut })) => {
                     self.port.record(What::Link { one, other, cut });
                 }
-                Some(Incoming::Command(Command::Delay { from, by, .. })) => self.port.delayed(from, by),
+                Some(Incoming::Command(Command::Delay { from, .. })) => self.port.delayed(from),
                 Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
                 Some(Incoming::Order(_)) => unreachable!("the parent is no worker"),
                 None => self.port.wait(None),

@@ -148,7 +148,9 @@ impl Port {
     /// anything has changed; nothing does once the run is over.
     pub fn put(&mut self, condition: Condition) -> bool {
         let Party::Node(node) = self.me else { return false };
-        if condition == self.condition || !self.shared.losses.cut_off(node, condition == Condition::CutOff) {
+        // What is off cannot hang.
+        let is_void = condition == self.condition || (self.condition, condition) == (Condition::Off, Condition::Hung);
+        if is_void || !self.shared.losses.cut_off(node, condition == Condition::CutOff) {
             return false;
         }
         self.condition = condition;
@@ -161,8 +163,9 @@ impl Port {
     }
 
     /// Notes down that what `from` sends to this party is held up.
-    pub fn delayed(&mut self, from: Party, by: Duration) {
-        let (to, until) = (self.me, self.time + by);
+    pub fn delayed(&mut self, from: Party) {
+        let (to, soon) = (self.me, self.time + LEAST);
+        let until = self.shared.losses.arrival(from, to, soon);
         self.record(What::Delayed { from, to, until });
     }
 

@@ -214,7 +214,7 @@ impl Worker {
                 if paused { What::Paused { node } } else { What::Resumed { node } }
             }
             Command::Condition { condition, .. } => return self.put(condition, duties),
-            Command::Delay { from, by, .. } => return self.port.delayed(from, by),
+            Command::Delay { from, .. } => return self.port.delayed(from),
             Command::Link { .. } | Command::Latency(_) => {
                 unreachable!("the parent notes down what is done to the network")
             }

@@ -87,7 +87,7 @@ impl Moment {
 }
 
 fn is_own_offer(what: &What) -> bool {
-    matches!(what, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who)
+    matches!(what, What::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
 }
 
 /// How many atoms go from one machine to another.

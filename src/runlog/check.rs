@@ -31,6 +31,8 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
     ensure(usize::from(header.spares) < header.speeds.len(), "all machines are spares")?;
     ensure(header.spares == 0 || header.rules.strategy == Strategy::Adaptive, "only a ring that adapts has spares")?;
     ensure(header.link.latency <= HOUR && header.handling <= HOUR, "a message takes longer than an hour")?;
+    let beat = header.rules.beat;
+    ensure(beat >= Duration::from_millis(1) && beat <= YEAR, "a beat is not between a millisecond and a year")?;
     ensure(header.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)), "a speed is not between 0 and 1")?;
     ensure(header.pace > 0.0 && header.pace <= 1.0, "the pace is not above 0 and at most 1")?;
     ensure(header.link.bandwidth.is_none_or(|bandwidth| bandwidth > 0.0), "the bandwidth is not above 0")

@@ -28,7 +28,7 @@ pub struct Header {
     pub rules: Rules,
     /// A node a speed, as fractions of the reference machine (1 = 100 %).
     pub speeds: Vec<f64>,
-    /// So many of the nodes, the last ones, are off at first, and may join the run: only a ring that adapts needs them for nothing.
+    /// So many of the nodes, the last ones, are off at first, and may join the run: only a ring that adapts can have some.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub spares: NodeId,
     /// What fraction of one real core the reference machine gets, above 0 and at most 1. At pace 1 a node of

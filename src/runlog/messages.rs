@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::balance::{Message, Party};
+use crate::balance::{Help, Message, Party};
 use crate::picture::atoms_in;
 
 /// How much was said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Messages {
-    /// Requests for work to the parent: only a farm makes any.
+    /// Requests to the parent: for work in a farm, and to be let in by who begins anew.
     pub requests: u64,
     /// The parent's answers.
     pub parts: u64,
@@ -16,6 +16,8 @@ pub struct Messages {
     pub offers: u64,
     /// Offers passed on.
     pub hops: u64,
+    /// Offers that those who sleep left with others.
+    pub notes: u64,
     /// Offers taken.
     pub transfers: u64,
     /// Atoms in the transfers.
@@ -47,6 +49,7 @@ impl Messages {
         self.total += 1;
         self.bytes += bytes;
         match message {
+            Message::Offer { help: Some(Help { left: None, .. }), .. } => self.notes += 1,
             Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
             Message::Offer { .. } => self.hops += 1,
             Message::Transfer(ranges) => {

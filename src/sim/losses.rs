@@ -31,8 +31,11 @@ impl Sim {
                 worked = self.now;
             } else if self.now.since(worked) > self.rules.beat * STANDSTILL {
                 let may_change = |happening: &Happening| match happening {
-                    Happening::Command(_) | Happening::AtomDone { .. } => true,
-                    Happening::Arrival { mail, .. } | Happening::Handled(mail) => !mail.message.ranges().is_empty(),
+                    Happening::Command(_) => true,
+                    Happening::AtomDone { node, plan } => self.nodes[usize::from(*node)].plan == *plan,
+                    Happening::Arrival { mail, .. } | Happening::Handled(mail) => {
+                        mail.message.ranges().iter().any(|range| !range.is_empty())
+                    }
                     _ => false,
                 };
                 if !self.future.has(may_change) {
@@ -48,10 +51,11 @@ impl Sim {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
         let nodes = self.nodes.len() as NodeId;
         let party = &mut self.nodes[index];
-        let before = mem::replace(&mut party.condition, condition);
-        if before == condition {
+        // What is off cannot hang.
+        if party.condition == condition || (party.condition, condition) == (Condition::Off, Condition::Hung) {
             return;
         }
+        let before = mem::replace(&mut party.condition, condition);
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
         self.faults.cut_off(node, condition == Condition::CutOff);
         self.note(What::Condition { node, condition }, tell);

@@ -10,7 +10,7 @@ use super::sentences;
 use super::sharing::Sharing;
 use super::state::RunState;
 use super::words::{atoms_words, counted, fraction, node_name};
-use crate::balance::{Help, Message, NodeId, Party};
+use crate::balance::{Message, NodeId, Party};
 use crate::language::{say, word};
 use crate::picture::atoms_in;
 use crate::record::{Record, What};
@@ -58,7 +58,6 @@ enum Event {
     },
     Paused,
     Latency,
-    Delay,
     Condition,
     Mishap(Mishap),
     End,
@@ -81,8 +80,8 @@ impl Events {
                     self.tell(at, Event::Bands, sentences::bands(state, band));
                 }
             }
-            What::Sent { from: Party::Node(from), message, .. } if own_offer(*from, message).is_some() => {
-                let (who, done) = (from, own_offer(*from, message).unwrap_or_default());
+            What::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some() => {
+                let (who, done) = (from, message.own_offer(*from).unwrap_or_default());
                 // Later offers are told by what comes of them.
                 if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
                     let whole = node.given.atoms == 0;
@@ -145,7 +144,7 @@ impl Events {
             What::Condition { node, .. } => self.tell(at, Event::Condition, mishap::condition(state, *node)),
             What::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
             What::Delayed { from, to, until } => {
-                self.tell(at, Event::Delay, mishap::delayed((*from, *to), until.since(at)));
+                self.tell(at, Event::Condition, mishap::delayed((*from, *to), until.since(at)));
             }
             What::Sent { .. }
             | What::Link { .. }
@@ -238,15 +237,6 @@ impl Events {
         if self.told.len() > KEPT {
             self.told.pop_front();
         }
-    }
-}
-
-/// How many atoms the sender has traced, if this is its own offer, and not one that stays with its receiver.
-pub(super) fn own_offer(from: NodeId, message: &Message) -> Option<u32> {
-    match *message {
-        Message::Offer { help: Some(Help { left: None, .. }), .. } => None,
-        Message::Offer { who, done, .. } => (who == from).then_some(done),
-        _ => None,
     }
 }
 

@@ -129,7 +129,8 @@ impl Flight {
 
     /// When the last of its trail is gone at the latest, however fast time goes.
     pub(super) fn gone_at_last(&self) -> Time {
-        self.arrives.max(self.sent + self.cargo.shortest()) + self.cargo.fade().max(CROSS)
+        let held = self.held.map_or(Duration::ZERO, |(_, by)| by);
+        self.arrives.max(self.sent + self.cargo.shortest() + held) + self.cargo.fade().max(CROSS)
     }
 
     /// When the last of its fading trail is gone.

@@ -31,13 +31,13 @@ pub(super) fn condition(state: &RunState, node: NodeId) -> String {
             "Machine {name} is cut off: it traces on, but nothing comes from it or to it",
             "A máquina {name} está isolada: calcula, mas nada sai dela nem chega a ela"
         ),
-        (Condition::Well, Condition::Off) if is_mended && machine.heard.is_none() => {
+        (Condition::Well, Condition::Off) if state.sharing.is_adaptive() && machine.heard.is_none() => {
             say!(
                 "Machine {name} joins: it asks the parent to be let in",
                 "A máquina {name} chega e pede ao pai para entrar"
             )
         }
-        (Condition::Well, Condition::Off) if is_mended => say!(
+        (Condition::Well, Condition::Off) if state.sharing.is_adaptive() => say!(
             "Machine {name} begins anew and asks the parent to be let in",
             "A máquina {name} recomeça e pede ao pai para entrar"
         ),

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::events::{Events, is_done, jam, own_offer};
+use super::events::{Events, is_done, jam};
 use super::mishap;
 use super::sentences;
 use super::standing::standing;
@@ -150,7 +150,7 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             ((1, 1), mishap::wakes(*from, &[*to]))
         }
         What::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
-            ((1, 0), sentences::offer(state, *from, false, own_offer(*from, message)?))
+            ((1, 0), sentences::offer(state, *from, false, message.own_offer(*from)?))
         }
         // One that is asked back, or let in, gets no band.
         What::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {

@@ -123,7 +123,8 @@ impl RunState {
             }
             What::AtomStarted { node, atom } => {
                 if let Some(state) = self.node(*node) {
-                    state.atom = Some(*atom);
+                    // Whoever slept has been given something.
+                    (state.atom, state.retired) = (Some(*atom), false);
                     self.touched.push(*atom..*atom + 1);
                 }
             }
@@ -249,6 +250,14 @@ impl RunState {
         {
             // Of an atom that is traced twice the first result counts.
             let counts = place.owner().is_none();
+            // The parent may have told of it before its worker.
+            if let Place::Traced { by, cost: known, .. } = place
+                && *by == node
+                && *known == 0.0
+            {
+                *known = cost.as_secs_f32();
+                self.cost += cost.as_secs_f64();
+            }
             if counts {
                 self.orders[atom as usize] = order;
                 self.cost += cost.as_secs_f64();

@@ -35,7 +35,7 @@ impl Step {
     fn ends_at(self, what: &What) -> bool {
         match (self, what) {
             (Self::Atom, What::AtomDone { .. }) => true,
-            (Self::Lap, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. }) => from == who,
+            (Self::Lap, What::Sent { from: Party::Node(from), message, .. }) => message.own_offer(*from).is_some(),
             (
                 Self::Event,
                 What::Sent { message: Message::Results(_), .. } | What::Received { by: Party::Parent, .. },

@@ -21,7 +21,7 @@ impl Node {
             self.call_for_help(now, actions);
             return;
         }
-        let expected = self.sleepers.expected(now, self.lease());
+        let expected = self.expected(now);
         let count = self.share_for(now, helper, expected);
         if count > 0 {
             let message = Message::Transfer(self.work.give(count));
@@ -41,7 +41,7 @@ impl Node {
     /// Wakes those who sleep, as many as there is something for.
     pub(super) fn call_for_help(&mut self, now: Time, actions: &mut Vec<Action>) {
         while let Some((node, helper)) = self.sleepers.fastest().filter(|_| self.refused != Some(self.work.traced())) {
-            let expected = self.sleepers.expected(now, self.lease());
+            let expected = self.expected(now);
             if self.share_for(now, helper, expected) == 0
                 && (expected > 0.0 || self.late_atom(now, helper.speed).is_none())
             {
@@ -50,6 +50,13 @@ impl Node {
             self.sleepers.wake(node, now);
             send(Party::Node(node), Message::Wake, actions);
         }
+    }
+
+    /// How fast those are together that were woken and are expected to offer; one of whom nothing is known is taken to be as fast
+    /// as this node.
+    fn expected(&mut self, now: Time) -> f64 {
+        let own = self.gauge.known().map_or(1.0, |(speed, _)| speed);
+        self.sleepers.expected(now, self.lease(), own)
     }
 
     /// How long an offer has travelled to the last stop.

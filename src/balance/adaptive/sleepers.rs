@@ -57,11 +57,11 @@ impl Sleepers {
         }
     }
 
-    /// How fast those are together that were woken and have not offered yet; whoever takes longer than `patience` is
-    /// forgotten, since it did not sleep any more.
-    pub fn expected(&mut self, now: Time, patience: Duration) -> f64 {
+    /// How fast those are together that were woken and have not offered yet, one of unknown speed as fast as `unknown`; whoever takes longer than `patience` is forgotten, since it did not sleep any more.
+    pub fn expected(&mut self, now: Time, patience: Duration, unknown: f64) -> f64 {
         self.nodes.retain(|_, sleeper| sleeper.woken.is_none_or(|woken| now.since(woken) <= patience));
-        self.nodes.values().filter(|sleeper| sleeper.woken.is_some()).map(|sleeper| sleeper.helper.speed).sum()
+        let speed = |sleeper: &Sleeper| if sleeper.helper.speed > 0.0 { sleeper.helper.speed } else { unknown };
+        self.nodes.values().filter(|sleeper| sleeper.woken.is_some()).map(speed).sum()
     }
 }
 
@@ -79,8 +79,8 @@ mod tests {
         sleepers.wake(9, Time(10));
         assert_eq!(sleepers.fastest(), Some((4, helper(0.5))));
         let patience = Duration::from_nanos(5);
-        assert_eq!(sleepers.expected(Time(15), patience), 1.0);
-        assert_eq!(sleepers.expected(Time(16), patience), 0.0);
+        assert_eq!(sleepers.expected(Time(15), patience, 1.0), 1.0);
+        assert_eq!(sleepers.expected(Time(16), patience, 1.0), 0.0);
         sleepers.add(1, helper(0.75));
         assert_eq!(sleepers.fastest(), Some((1, helper(0.75))), "it went to sleep again");
         assert!(!sleepers.remove(1));

@@ -215,7 +215,7 @@ impl Learn {
             let article = self.lessons.iter().position(|lesson| adapts(lesson)).unwrap_or(self.lessons.len());
             let (first, second) = self.lessons.split_at(article);
             let rivals = word!("The article's ring, and its rivals", "O anel do artigo, e seus rivais");
-            let adaptive = word!("The ring that adapts", "O anel que se adapta");
+            let adaptive = word!("The adaptive ring", "O anel adaptativo");
             let chosen = if ui.available_width() < 120.0 * GRID {
                 let chosen = part(ui, rivals, (1, first), look);
                 chosen.or(part(ui, adaptive, (1 + article, second), look))
@@ -288,7 +288,7 @@ fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
-    let painter = ui.painter_at(rect);
+    let painter = ui.painter();
     let left = rect.left() + indent;
     let middle = pos2(rect.left() + 0.5 * indent, rect.center().y);
     painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);

@@ -39,7 +39,7 @@ pub(super) struct Row {
     pub efficiency: f64,
     pub makespan_s: f64,
     pub messages_per_node: f64,
-    /// Offers, hops and those that are woken, a machine.
+    /// Offers, hops, offers left by sleepers, and those that are woken, a machine.
     pub asking_per_node: f64,
     pub transfers_per_node: f64,
 }
@@ -98,7 +98,7 @@ fn row(
         efficiency: tally.efficiency().unwrap_or_default(),
         makespan_s: tally.makespan().unwrap_or_default().as_secs_f64(),
         messages_per_node: a_node(messages.total),
-        asking_per_node: a_node(messages.offers + messages.hops + messages.wakes),
+        asking_per_node: a_node(messages.offers + messages.hops + messages.notes + messages.wakes),
         transfers_per_node: a_node(messages.transfers),
     }
 }
@@ -112,7 +112,8 @@ pub(super) fn charts(rows: &[Row]) -> Vec<(String, Chart)> {
         let efficiency = chart(rows, uneven, "efficiency", Scale::Linear, |row| row.efficiency);
         charts
             .push((format!("growth-{kind}"), Chart { title: format!("A picture that grows: {words}"), ..efficiency }));
-        let asking = chart(rows, uneven, "offers, hops and wakes a machine", Scale::Log10, |row| row.asking_per_node);
+        let asking =
+            chart(rows, uneven, "offers, hops, notes and wakes a machine", Scale::Log10, |row| row.asking_per_node);
         charts.push((format!("asking-{kind}"), Chart { title: format!("How asking grows: {words}"), ..asking }));
     }
     charts
@@ -139,7 +140,7 @@ pub(super) fn report(text: &mut String, rows: &[Row]) {
     say!(text, "\n## From four machines to a thousand\n");
     say!(
         text,
-        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, hops and wakes a machine.\n",
+        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, hops, notes and wakes a machine.\n",
         LATENCY.as_millis(),
         COST.as_millis()
     );

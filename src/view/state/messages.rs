@@ -132,7 +132,7 @@ impl RunState {
                 vec![part]
             }
             Cargo::Transfer(ranges) | Cargo::Again(ranges) => {
-                (state.offer_out, state.retired) = (false, false);
+                state.offer_out = false;
                 state.got.add(atoms_in(&ranges));
                 ranges
             }
