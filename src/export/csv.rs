@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Condition, Message, NodeId, Party};
+use crate::balance::{Condition, Help, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, What};
 use crate::runlog::RunLog;
@@ -158,8 +158,12 @@ fn sent(from: Party, message: &Message) -> Row {
         }
         Message::Failed(atom) => Row { what: "failed", atoms: Some(atom.to_string()), ..Row::default() },
         Message::Shutdown => Row { what: "shutdown", ..Row::default() },
-        Message::Offer { who, done, .. } => {
-            let what = if from == Party::Node(*who) { "offer" } else { "hop" };
+        Message::Offer { who, done, help } => {
+            let what = match help {
+                Some(Help { left: None, .. }) => "note",
+                _ if from == Party::Node(*who) => "offer",
+                _ => "hop",
+            };
             Row { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..Row::default() }
         }
     }

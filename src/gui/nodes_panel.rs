@@ -61,10 +61,12 @@ fn head(ui: &Ui, places: &Places, look: Look) {
     if let Some(bar) = places.bar {
         words(bar.left(), Align2::LEFT_CENTER, word!("progress", "progresso"));
     }
+    let is_tight = places.rate.is_some_and(|rate| rate - places.left < 7.0 * GRID);
+    let rate = if is_tight { word!("atoms/s", "át./s") } else { word!("atoms/s", "átomos/s") };
     for (x, text) in [
         (places.done, word!("done", "feitos")),
         (Some(places.left), word!("left", "restam")),
-        (places.rate, word!("atoms/s", "átomos/s")),
+        (places.rate, rate),
         (places.idle, word!("idle", "ociosa")),
     ] {
         if let Some(x) = x {

@@ -268,6 +268,8 @@ fn adapts(lesson: &Lesson) -> bool {
 fn part(ui: &mut Ui, heading: &str, (number, lessons): (usize, &[Arc<Lesson>]), look: Look) -> Option<Arc<Lesson>> {
     ui.add_space(GRID);
     ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.quiet));
+    // All of them are in sight in a window of 1280 × 800.
+    ui.spacing_mut().item_spacing.y = 2.0;
     let mut chosen = None;
     for (number, lesson) in (number..).zip(lessons) {
         if line(ui, number, lesson, look) {
@@ -283,7 +285,7 @@ fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
     let indent = 6.0 * GRID;
     let about = lesson.about.spoken().to_owned();
     let about = ui.painter().layout(about, theme::regular(theme::BODY), look.quiet, wide - indent - GRID);
-    let (rect, response) = ui.allocate_exact_size(vec2(wide, 5.0 * GRID + about.size().y), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(wide, 4.75 * GRID + about.size().y), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.spoken()));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
@@ -292,9 +294,9 @@ fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
     let left = rect.left() + indent;
     let middle = pos2(rect.left() + 0.5 * indent, rect.center().y);
     painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);
-    let title = pos2(left, rect.top() + 2.5 * GRID);
+    let title = pos2(left, rect.top() + 2.25 * GRID);
     painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.spoken(), theme::strong(18.0), look.text);
-    painter.galley(pos2(left, rect.top() + 4.0 * GRID), about, look.quiet);
+    painter.galley(pos2(left, rect.top() + 3.75 * GRID), about, look.quiet);
     response.clicked()
 }
 
