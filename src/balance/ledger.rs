@@ -16,6 +16,9 @@ use crate::time::Time;
 /// An atom that so many workers failed to trace makes the run fail.
 const MOST_FAILURES: u8 = 3;
 
+/// For so many beats a long delay is remembered, and up to twice as many.
+const MEMORY: u32 = 256;
+
 /// What the parent knows of nodes and atoms.
 #[derive(Debug)]
 pub(super) struct Ledger {
@@ -28,8 +31,11 @@ pub(super) struct Ledger {
     /// No other atom can be lost before this time.
     next_lost: Time,
     failures: BTreeMap<Atom, u8>,
-    /// How long messages have taken at most of late.
-    delay: Duration,
+    /// How long messages have taken at most, in this stretch of time and in the one before: one that was held up for long does
+    /// not count for ever.
+    delays: [Duration; 2],
+    /// When the next stretch begins.
+    forgets: Time,
 }
 
 #[derive(Clone, Debug)]
@@ -59,7 +65,8 @@ impl Ledger {
             pool: Vec::new(),
             next_lost: Time::ZERO,
             failures: BTreeMap::new(),
-            delay: Duration::ZERO,
+            delays: [Duration::ZERO; 2],
+            forgets: Time::ZERO + beat * MEMORY,
         }
     }
 
@@ -95,7 +102,7 @@ impl Ledger {
         placed: &[bool],
         actions: &mut Vec<Action>,
     ) {
-        self.delay = self.delay.max(now.since(sent));
+        self.delays[0] = self.delays[0].max(now.since(sent));
         self.nodes[usize::from(node)].idle = idle;
         let mut done = Vec::new();
         for atom in holds.iter().cloned().flatten() {
@@ -140,8 +147,10 @@ impl Ledger {
 
     /// Looks who has been silent for too long, and which atoms nobody has.
     pub fn look(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
-        // A message that took very long does not count for ever.
-        self.delay = self.delay * 7 / 8;
+        if now > self.forgets {
+            self.delays = [Duration::ZERO, self.delays[0]];
+            self.forgets = now + self.beat * MEMORY;
+        }
         let lease = self.lease();
         let mut changed = false;
         for entry in self.nodes.iter_mut().filter(|entry| !entry.gone) {
@@ -185,7 +194,7 @@ impl Ledger {
     }
 
     fn lease(&self) -> Duration {
-        self.beat * LEASE + self.delay * 2
+        self.beat * LEASE + self.delays[0].max(self.delays[1]) * 2
     }
 
     /// Gives each idle node an equal part of the pool; the ring shares it on.

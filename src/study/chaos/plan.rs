@@ -45,9 +45,12 @@ impl Plan {
         header.rules.batch = *pick(&mut rng, &batches);
         header.link.latency = latency(&mut rng, calm);
         if rng.u32(0..4) == 0 {
-            header.link =
-                Link { bandwidth: Some(10f64.powf(between(&mut rng, 5.0, 8.0))), shared: rng.bool(), ..header.link };
-            header.handling = Duration::from_micros(rng.u64(0..500));
+            // Nor may what waits behind a whole picture's results.
+            let slowest = if calm { 6.5 } else { 5.0 };
+            let bandwidth = Some(10f64.powf(between(&mut rng, slowest, 8.0)));
+            header.link = Link { bandwidth, shared: rng.bool(), ..header.link };
+            let longest = if calm { 100 } else { 500 };
+            header.handling = Duration::from_micros(rng.u64(0..longest));
         }
         header.rules.beat = Rules::beat_for(header.handling, nodes);
         if rng.u32(0..4) == 0 && nodes > 1 {
