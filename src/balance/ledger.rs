@@ -241,10 +241,12 @@ impl Ledger {
     }
 
     fn tell_who_is_gone(&self, actions: &mut Vec<Action>) {
-        let gone = self.gone();
-        let there = (0..).zip(&self.nodes).filter(|(_, entry)| !entry.gone);
-        actions.extend(
-            there.map(|(node, _)| Action::Send { to: Party::Node(node), message: Message::Gone(gone.clone()) }),
-        );
+        tell_who_is_gone(self.nodes.len() as NodeId, &self.gone(), actions);
     }
+}
+
+/// Tells those who are there whom offers are to pass over.
+pub(super) fn tell_who_is_gone(nodes: NodeId, gone: &[NodeId], actions: &mut Vec<Action>) {
+    let there = (0..nodes).filter(|node| !gone.contains(node));
+    actions.extend(there.map(|node| Action::Send { to: Party::Node(node), message: Message::Gone(gone.to_vec()) }));
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::estimate;
 use super::farm::Parts;
-use super::ledger::Ledger;
+use super::ledger::{Ledger, tell_who_is_gone};
 use super::message::{Action, Event, Message, NodeId, Party};
 use super::remedy::Remedy;
 use super::strategy::{Rules, Strategy};
@@ -171,12 +171,6 @@ fn hand_out(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Acti
 
 fn hand_out_to(node: NodeId, band: Range<Atom>, actions: &mut Vec<Action>) {
     actions.push(Action::Send { to: Party::Node(node), message: Message::Band(band) });
-}
-
-/// Tells those who are there whom offers are to pass over.
-fn tell_who_is_gone(nodes: NodeId, gone: &[NodeId], actions: &mut Vec<Action>) {
-    let there = (0..nodes).filter(|node| !gone.contains(node));
-    actions.extend(there.map(|node| Action::Send { to: Party::Node(node), message: Message::Gone(gone.to_vec()) }));
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What can become of a machine: it is switched off, hangs, is cut off, and is well again; or it joins.
 
-use egui::{Align2, Popup, Rect, Response, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Popup, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::session::Session;
 use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, popup_frame};
+use super::widgets::{deeds, popup_frame};
 use crate::balance::{Condition, NodeId};
 use crate::language::{say, word};
 use crate::view::{Row, activity_word, node_name};
@@ -38,7 +38,7 @@ fn show(popup: Popup<'_>, response: &Response, session: &mut Session, node: Node
 }
 
 /// What can be done to a machine that is so, each with what it is called.
-fn deeds(condition: Condition, is_spare: bool) -> Vec<(Condition, &'static str)> {
+fn possible(condition: Condition, is_spare: bool) -> Vec<(Condition, &'static str)> {
     let (well, hung) = (Condition::Well, (Condition::Hung, word!("Let it hang", "Travar")));
     let (off, cut) =
         ((Condition::Off, word!("Switch off", "Desligar")), (Condition::CutOff, word!("Cut off", "Isolar")));
@@ -52,22 +52,8 @@ fn deeds(condition: Condition, is_spare: bool) -> Vec<(Condition, &'static str)>
 }
 
 fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
-    ui.set_width(30.0 * GRID);
     let name = node_name(node);
-    let title = RichText::new(say!("Machine {name}", "Máquina {name}"));
-    ui.label(title.font(theme::strong(theme::BODY)).color(look.text));
-    let can_fail = session.can_fail();
-    for (condition, words) in deeds(session.condition(node), session.is_spare(node)) {
-        ui.add_enabled_ui(can_fail, |ui| {
-            if button(ui, None, words, true, Weight::Quiet).clicked() {
-                session.put(node, condition);
-                ui.close();
-            }
-        });
-    }
-    let hint = if !can_fail {
-        word!("Only while a run goes on, live", "Só enquanto uma execução acontece, ao vivo")
-    } else if session.mends_losses() {
+    let hint = if session.mends_losses() {
         word!("This ring notices, and mends it", "Este anel percebe e conserta")
     } else {
         word!(
@@ -75,5 +61,10 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
             "Aqui não há remédio: a execução pode parar. O anel adaptativo tem, os prazos"
         )
     };
-    ui.add(egui::Label::new(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap());
+    let possible = possible(session.condition(node), session.is_spare(node));
+    let possible = possible.into_iter().map(|(condition, words)| (condition, words.to_owned()));
+    let title = say!("Machine {name}", "Máquina {name}");
+    if let Some(condition) = deeds(ui, &title, possible, (session.can_fail(), hint), look) {
+        session.put(node, condition);
+    }
 }

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use egui::{Label, Popup, Response, RichText, Ui};
+use egui::{Popup, Response, Ui};
 
 use super::session::Session;
-use super::theme::{self, GRID, Look};
-use super::widgets::{Weight, button, popup_frame};
+use super::theme::Look;
+use super::widgets::{deeds, popup_frame};
 use crate::balance::Party;
 use crate::language::{say, word};
 use crate::view::{Flight, flight_words};
@@ -34,26 +34,12 @@ pub fn on(response: &Response, session: &mut Session, subject: &Subject, look: L
 }
 
 fn items(ui: &mut Ui, session: &mut Session, Subject { words, way }: &Subject, look: Look) {
-    ui.set_width(34.0 * GRID);
-    let title = RichText::new(words).font(theme::strong(theme::BODY)).color(look.text);
-    ui.add(Label::new(title).wrap());
-    let can_fail = session.can_fail();
-    for seconds in SECONDS {
-        ui.add_enabled_ui(can_fail, |ui| {
-            let words = say!("Hold it up for {seconds} s", "Reter por {seconds} s");
-            if button(ui, None, &words, true, Weight::Quiet).clicked() {
-                session.delay(*way, Duration::from_secs(seconds));
-                ui.close();
-            }
-        });
+    let hold = SECONDS.map(|seconds| (seconds, say!("Hold it up for {seconds} s", "Reter por {seconds} s")));
+    let hint = word!(
+        "What is on this way, and what is sent there meanwhile, arrives then, in its order",
+        "O que está neste caminho, e o que nele se mande até lá, chega então, em ordem"
+    );
+    if let Some(seconds) = deeds(ui, words, hold, (session.can_fail(), hint), look) {
+        session.delay(*way, Duration::from_secs(seconds));
     }
-    let hint = if can_fail {
-        word!(
-            "What is on this way, and what is sent there meanwhile, arrives then, in its order",
-            "O que está neste caminho, e o que nele se mande até lá, chega então, em ordem"
-        )
-    } else {
-        word!("Only while a run goes on, live", "Só enquanto uma execução acontece, ao vivo")
-    };
-    ui.add(Label::new(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap());
 }

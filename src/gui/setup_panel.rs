@@ -51,7 +51,7 @@ impl SetupPanel {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
             // Everything is in sight in a window of 1280 × 800.
-            ui.spacing_mut().item_spacing.y = 3.0;
+            ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 3.5 * GRID;
             heading(ui, word!("Takes effect at once", "Vale de imediato"), look);
             at_once(ui, &mut draft, look);

@@ -13,10 +13,9 @@ use super::rates;
 use super::session::{Phase, Session, Stage};
 use super::theme::{self, GRID, Look};
 use super::widgets::{Weight, button, named_button, next_of, popup_frame};
-use crate::balance::Condition;
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{Landmark, Sign, SignKind, Step, landmarks, time_words};
+use crate::view::{Landmark, Sign, SignKind, Step, condition_strokes, landmarks, time_words};
 
 /// How high the panel is.
 pub const HEIGHT: f32 = 4.0 * GRID;
@@ -298,22 +297,10 @@ fn draw_sign(painter: &Painter, at: Pos2, sign: &Sign, stage: &Stage, look: Look
             }
         }
         SignKind::Condition(node, condition) => {
-            // As in the timeline: a cross, an hourglass, a wire that is cut; and a tick for one that is well.
-            let strokes: &[[[f32; 2]; 2]] = match condition {
-                Condition::Off => &[[[-3.5, -4.0], [3.5, 3.0]], [[-3.5, 3.0], [3.5, -4.0]]],
-                Condition::Hung => &[
-                    [[-3.0, -4.0], [3.0, -4.0]],
-                    [[3.0, -4.0], [-3.0, 3.0]],
-                    [[-3.0, 3.0], [3.0, 3.0]],
-                    [[3.0, 3.0], [-3.0, -4.0]],
-                ],
-                Condition::CutOff => {
-                    &[[[-5.0, 0.0], [-2.0, 0.0]], [[2.0, 0.0], [5.0, 0.0]], [[-1.5, 3.0], [1.5, -3.5]]]
-                }
-                Condition::Well => &[[[-3.5, -0.5], [-1.0, 2.5]], [[-1.0, 2.5], [4.0, -4.0]]],
-            };
-            for stroke in strokes {
-                painter.line_segment(stroke.map(|point| above + point.into()), Stroke::new(1.75, own(node)));
+            const REACH: f32 = 3.6;
+            for stroke in condition_strokes(condition) {
+                let points = stroke.map(|point| above + REACH * egui::Vec2::from(point));
+                painter.line_segment(points, Stroke::new(1.75, own(node)));
             }
         }
         SignKind::Latency => {

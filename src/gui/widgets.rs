@@ -5,12 +5,13 @@ use std::ops::RangeInclusive;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    Color32, Context, DragValue, Frame, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextEdit,
-    TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Context, DragValue, Frame, Key, Label, Layout, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::icons::{self, Icon};
 use super::theme::{self, GRID, Look};
+use crate::language::word;
 
 /// What a painted view is called, and what there is to be seen in it, for those who cannot see it.
 pub fn describe(response: &Response, name: &str, seen: impl Fn() -> String) {
@@ -217,6 +218,34 @@ pub fn number<N: egui::emath::Numeric>(
         response
     })
     .inner
+}
+
+/// The content of a menu of what can be done to a machine or a message, where anything can; returns what was chosen.
+pub fn deeds<T>(
+    ui: &mut Ui,
+    title: &str,
+    deeds: impl IntoIterator<Item = (T, String)>,
+    (is_possible, hint): (bool, &str),
+    look: Look,
+) -> Option<T> {
+    ui.set_width(34.0 * GRID);
+    let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
+    ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(title));
+    let mut chosen = None;
+    for (deed, words) in deeds {
+        ui.add_enabled_ui(is_possible, |ui| {
+            if button(ui, None, &words, true, Weight::Quiet).clicked() {
+                chosen = Some(deed);
+                ui.close();
+            }
+        });
+    }
+    let never = word!("Only while a run goes on, live", "Só enquanto uma execução acontece, ao vivo");
+    let hint = RichText::new(if is_possible { hint } else { never });
+    let hint = Label::new(hint.font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
+    // A menu would stretch its lines.
+    ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(hint));
+    chosen
 }
 
 /// A title, and below it what there is to say.

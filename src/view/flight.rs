@@ -95,7 +95,7 @@ impl Flight {
     /// it is lost.
     pub fn shown(&self) -> Range<Time> {
         let length = self.whole_way().mul_f64(self.lost.map_or(1.0, f64::from));
-        self.sent..self.sent + length + self.held.map_or(Duration::ZERO, |(_, by)| by)
+        self.sent..self.sent + length + self.held_for()
     }
 
     /// It is lost: at its end, if nobody is there to receive it, else half-way, or where it is drawn if that is further.
@@ -115,9 +115,14 @@ impl Flight {
         if self.lost.is_some() && now >= self.shown().end { self.presence(now) } else { 0.0 }
     }
 
+    /// How long it is held up in all.
+    fn held_for(&self) -> Duration {
+        self.held.map_or(Duration::ZERO, |(_, by)| by)
+    }
+
     /// How long it is drawn if it arrives, and is not held up.
     fn whole_way(&self) -> Duration {
-        let way = self.arrives.since(self.sent).saturating_sub(self.held.map_or(Duration::ZERO, |(_, by)| by));
+        let way = self.arrives.since(self.sent).saturating_sub(self.held_for());
         way.max(self.cargo.shortest().mul_f64(self.rate))
     }
 
@@ -129,8 +134,7 @@ impl Flight {
 
     /// When the last of its trail is gone at the latest, however fast time goes.
     pub(super) fn gone_at_last(&self) -> Time {
-        let held = self.held.map_or(Duration::ZERO, |(_, by)| by);
-        self.arrives.max(self.sent + self.cargo.shortest() + held) + self.cargo.fade().max(CROSS)
+        self.arrives.max(self.sent + self.cargo.shortest() + self.held_for()) + self.cargo.fade().max(CROSS)
     }
 
     /// When the last of its fading trail is gone.

@@ -8,7 +8,9 @@ use super::nodes::rows;
 use super::place::Place;
 use super::sharing::Sharing;
 use super::state::RunState;
-use super::words::{activity_word, atoms_words, count, counted, duration, fraction, node_name, percent, rate_words};
+use super::words::{
+    activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent, rate_words,
+};
 use crate::balance::{Condition, NodeId, Party};
 use crate::language::{decimal, say, word};
 use crate::picture::Atom;
@@ -194,11 +196,8 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
 
 /// What a message is, in a few words.
 pub fn flight_words(flight: &Flight) -> String {
-    let name = |party| match party {
-        Party::Parent => word!("the parent", "o pai").into(),
-        Party::Node(node) => node_name(node).to_string(),
-    };
-    let (from, to, atoms) = (name(flight.from), name(flight.to), atoms_words(flight.cargo.atoms()));
+    let [from, to] = [flight.from, flight.to].map(party_name);
+    let atoms = atoms_words(flight.cargo.atoms());
     let words = match &flight.cargo {
         Cargo::Band(_) => say!("{atoms} for {to}, its band", "{atoms} para {to}, sua faixa"),
         Cargo::Request => say!("{from} asks {to} for atoms", "{from} pede átomos ao pai"),

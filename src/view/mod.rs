@@ -110,6 +110,7 @@ pub use steps::{About, Landmark, Step, landmarks, step};
 pub use timeline::{LanePlan, Quad, Timeline, axis, timeline, timeline_at};
 pub use tones::{Layer, picture_pixels};
 pub use tradeoff::{Drawn, Tradeoff};
+pub use trouble::condition_strokes;
 pub use unfinished::unfinished_words;
 pub use why::{record_words, share_words};
 pub use window::TimeWindow;

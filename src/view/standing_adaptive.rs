@@ -3,6 +3,7 @@
 use super::hang::hangs;
 use super::node::NodeState;
 use super::place::Place;
+use super::sentences;
 use super::standing::{self, Machine, computing, only, under_way};
 use super::state::RunState;
 use super::still::{all_still, why};
@@ -44,14 +45,7 @@ fn besides(state: &RunState, there: &[Machine<'_>]) -> Option<String> {
             let who = names(many);
             say!("{who} have retired", "{who} foram dispensadas")
         }
-        ([], [], [one]) => {
-            let who = node_name(*one);
-            say!("{who} sleeps until somebody needs it", "{who} dorme até que precisem dela")
-        }
-        ([], [], many) => {
-            let who = names(many);
-            say!("{who} sleep until somebody needs them", "{who} dormem até que precisem delas")
-        }
+        ([], [], asleep) => sentences::retired(state, asleep),
         ([], [node, ..], _) => {
             let (name, why) = (node_name(*node), why(&state.nodes()[usize::from(*node)]));
             if state.has(Remedy::Copies) {

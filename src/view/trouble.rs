@@ -1,6 +1,6 @@
 //! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
 
-use super::display::{Hue, Ink};
+use super::display::Hue;
 use super::lane::Lane;
 use super::timeline::{LanePlan, Quad, Timeline};
 use super::window::TimeWindow;
@@ -44,8 +44,10 @@ pub(super) fn troubles(
         }
         let (x, reach) = (plan.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
         if (0.0..=plan.width).contains(&x) && reach > 2.0 {
-            let middle = [(x + reach + 2.0).min(plan.width - reach), middle];
-            sign(condition, middle, reach, &mut drawn.lines);
+            let [x, y] = [(x + reach + 2.0).min(plan.width - reach), middle];
+            let at = |[u, v]: [f32; 2]| [x + u * reach, y + v * reach];
+            let strokes = condition_strokes(condition).iter();
+            drawn.lines.extend(strokes.map(|&[from, to]| (at(from), at(to), Hue::Text.full())));
         }
     }
 }
@@ -63,10 +65,11 @@ fn dashes([left, right]: [f32; 2], [top, bottom]: [f32; 2], quads: &mut Vec<Quad
     }
 }
 
-/// The sign of what begins here: the same as at the machine in the ring, but for a cross in the place of a switch.
-fn sign(condition: Condition, [x, y]: [f32; 2], reach: f32, lines: &mut Vec<([f32; 2], [f32; 2], Ink)>) {
-    let strokes: &[[[f32; 2]; 2]] = match condition {
-        Condition::Well => &[],
+/// The strokes of a condition's sign, within 1.3 of its middle: the same as at the machine in the ring, but for a cross in the place
+/// of a switch, and a tick for one that is well.
+pub fn condition_strokes(condition: Condition) -> &'static [[[f32; 2]; 2]] {
+    match condition {
+        Condition::Well => &[[[-1.0, -0.1], [-0.3, 0.7]], [[-0.3, 0.7], [1.1, -1.1]]],
         Condition::Off => &[[[-1.0, -1.0], [1.0, 1.0]], [[-1.0, 1.0], [1.0, -1.0]]],
         Condition::Hung => &[
             [[-0.8, -1.0], [0.8, -1.0]],
@@ -75,9 +78,7 @@ fn sign(condition: Condition, [x, y]: [f32; 2], reach: f32, lines: &mut Vec<([f3
             [[0.8, 1.0], [-0.8, -1.0]],
         ],
         Condition::CutOff => &[[[-1.3, 0.0], [-0.5, 0.0]], [[0.5, 0.0], [1.3, 0.0]], [[-0.3, 0.9], [0.3, -0.9]]],
-    };
-    let at = |[u, v]: [f32; 2]| [x + u * reach, y + v * reach];
-    lines.extend(strokes.iter().map(|&[from, to]| (at(from), at(to), Hue::Text.full())));
+    }
 }
 
 #[cfg(test)]

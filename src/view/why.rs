@@ -7,7 +7,7 @@ use super::sentences;
 use super::sharing::Sharing;
 use super::standing::PIPE;
 use super::state::RunState;
-use super::words::{atoms_words, count, duration, node_name};
+use super::words::{atoms_words, count, duration, node_name, party_name};
 use crate::balance::{NodeId, Party, Remedy};
 use crate::language::{say, word};
 use crate::record::{Record, What};
@@ -51,11 +51,7 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
         What::LatencySet { latency } => sentences::latency(state, *latency),
         What::Condition { node, .. } => mishap::condition(state, *node),
         What::Link { one, other, cut } => {
-            let name = |party: &Party| match party {
-                Party::Parent => word!("the parent", "o pai").into(),
-                Party::Node(node) => node_name(*node).to_string(),
-            };
-            let (one, other) = (name(one), name(other));
+            let (one, other) = (party_name(*one), party_name(*other));
             if *cut {
                 say!("The link between {one} and {other} is cut", "A ligação entre {one} e {other} foi cortada")
             } else {

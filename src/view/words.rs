@@ -3,13 +3,21 @@
 use std::time::Duration;
 
 use super::node::Activity;
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Party};
 use crate::language::{Language, comma, decimal, say, word};
 use crate::time::Time;
 
 /// A node's name for people: its number from 1.
 pub fn node_name(node: NodeId) -> u32 {
     u32::from(node) + 1
+}
+
+/// A party's name for people.
+pub(super) fn party_name(party: Party) -> String {
+    match party {
+        Party::Parent => word!("the parent", "o pai").into(),
+        Party::Node(node) => node_name(node).to_string(),
+    }
 }
 
 /// A count with its thousands apart: `6 144`, with a narrow space that does not break.

@@ -26,6 +26,17 @@ fn conditions(window: &Window) -> Vec<(u16, Condition)> {
     })
 }
 
+/// Presses the right button at a point.
+fn press_right(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    window.step();
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        window.step();
+    }
+}
+
 fn is_seen(window: &Window, words: &str) -> bool {
     session(window).stage().narrator().events().any(|(_, told)| told.contains(words))
 }
@@ -65,13 +76,7 @@ fn the_ring_view_has_the_same_menu() {
     let mut window = open_adaptive();
     let ring = window.get_by_label("The ring").rect();
     let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
-    window.hover_at(top);
-    window.step();
-    for pressed in [true, false] {
-        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
-        window.event(egui::Event::PointerButton { pos: top, button, pressed, modifiers });
-        window.step();
-    }
+    press_right(&mut window, top);
     press(&mut window, "Let it hang");
     until(&mut window, "a machine that hangs", |window| conditions(window) == [(0, Condition::Hung)]);
 }
@@ -124,13 +129,7 @@ fn a_message_is_held_up_by_its_menu() {
     key(&mut window, Key::Space);
     let ([x, y], from, to) = message(&window).expect("time stands still");
     let at = ring.min + egui::vec2(x, y);
-    window.hover_at(at);
-    window.step();
-    for pressed in [true, false] {
-        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
-        window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
-        window.step();
-    }
+    press_right(&mut window, at);
     press(&mut window, "Hold it up for 5 s");
     key(&mut window, Key::Space);
     let held = |window: &Window| {

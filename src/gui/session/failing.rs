@@ -4,19 +4,17 @@ use std::time::Duration;
 
 use super::{Phase, Session};
 use crate::balance::{Condition, NodeId, Party, Remedy};
-use crate::view::Sharing;
+use crate::view::{NodeState, Sharing};
 
 impl Session {
     /// How a node's machine is: of a recorded run at the shown moment, else now.
     pub fn condition(&self, node: NodeId) -> Condition {
-        let state = if self.is_recorded() { self.stage.state() } else { self.stage.latest() };
-        state.nodes().get(usize::from(node)).map_or(Condition::Well, |node| node.condition)
+        self.machine(node).map_or(Condition::Well, |machine| machine.condition)
     }
 
     /// Whether a node's seat is empty, so that its machine may join.
     pub fn is_spare(&self, node: NodeId) -> bool {
-        let state = if self.is_recorded() { self.stage.state() } else { self.stage.latest() };
-        state.nodes().get(usize::from(node)).is_some_and(|node| node.spare)
+        self.machine(node).is_some_and(|machine| machine.spare)
     }
 
     /// Whether anything can become of machines: the run goes on, and is no recorded one.
@@ -49,6 +47,11 @@ impl Session {
     pub fn toggle_condition(&mut self, node: NodeId, condition: Condition) {
         let is_so = self.condition(node) == condition || self.is_spare(node);
         self.put(node, if is_so { Condition::Well } else { condition });
+    }
+
+    fn machine(&self, node: NodeId) -> Option<&NodeState> {
+        let state = if self.is_recorded() { self.stage.state() } else { self.stage.latest() };
+        state.nodes().get(usize::from(node))
     }
 
     fn sharing(&self) -> Sharing {
