@@ -80,7 +80,7 @@ fn walls_stand() {
         (&["crossbeam_channel", "std::thread"], &["src/driver/", "src/gui/session/"]),
         (
             &["Instant::now", "ThreadTime"],
-            &["src/driver/", "src/gui/session/", "src/cli/", "src/study/rivals.rs", "src/study/looks.rs"],
+            &["src/driver/", "src/gui/session/", "src/cli/", "src/study/rivals.rs", "src/study/preview_time.rs"],
         ),
         (&["glow::", "rfd::"], &["src/gui/"]),
     ];

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::message::{Action, Event, Message, NodeId, Party};
-use super::solo;
+use super::static_node;
 use super::work::Work;
 use crate::picture::Atom;
 use crate::time::Time;
@@ -48,13 +48,13 @@ impl Parts {
 /// A node of a farm: one on its own that asks for more.
 #[derive(Debug)]
 pub(super) struct Node {
-    solo: solo::Node,
+    solo: static_node::Node,
 }
 
 impl Node {
     /// A node with this work, which is none yet.
     pub fn new(work: Work) -> Self {
-        Self { solo: solo::Node::new(work) }
+        Self { solo: static_node::Node::new(work) }
     }
 
     /// Answers `event`, which happens at `now`, by appending to `actions`.

@@ -13,7 +13,7 @@ mod parent;
 mod queue;
 mod remedy;
 pub mod ring;
-mod solo;
+mod static_node;
 mod strategy;
 mod work;
 

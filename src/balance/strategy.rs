@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::message::{Action, Event, NodeId};
 use super::remedy::Remedies;
 use super::work::Work;
-use super::{adaptive, farm, ring, solo};
+use super::{adaptive, farm, ring, static_node};
 use crate::picture::Division;
 use crate::time::Time;
 
@@ -144,7 +144,7 @@ pub struct Node {
 
 #[derive(Debug)]
 enum Role {
-    Solo(solo::Node),
+    Solo(static_node::Node),
     Farm(farm::Node),
     Ring(ring::Node),
     Adaptive(Box<adaptive::Node>),
@@ -155,7 +155,7 @@ impl Node {
     pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
         let work = Work::new(rules.batch);
         let role = match rules.strategy {
-            Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(solo::Node::new(work)),
+            Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(static_node::Node::new(work)),
             Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::Node::new(work)),
             Strategy::Ring => Role::Ring(ring::Node::new(id, nodes, rules.part, work)),
             Strategy::Adaptive => Role::Adaptive(Box::new(adaptive::Node::new(id, nodes, rules))),

@@ -1,12 +1,12 @@
 //! The arguments, and the sentences that say what is wrong with them.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{ArgGroup, Parser, Subcommand};
 
-use super::sharing::Sharing;
-use crate::balance::Remedy;
+use crate::balance::{Remedy, Strategy};
 use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -243,6 +243,25 @@ impl QualityArgs {
     pub fn quality(&self) -> Quality {
         let Self { samples, threshold, depth, cutoff, .. } = *self;
         Quality { samples, threshold, max_depth: depth, cutoff, ..Quality::default() }
+    }
+}
+
+/// What shares the atoms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sharing {
+    By(Strategy),
+    /// Rayon's work stealing.
+    Rayon,
+}
+
+impl FromStr for Sharing {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == Driver::WorkStealing.name() {
+            return Ok(Self::Rayon);
+        }
+        text.parse().map(Self::By).map_err(|error: String| format!("{error}, rayon"))
     }
 }
 

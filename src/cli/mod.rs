@@ -6,7 +6,7 @@ mod inspect;
 mod lesson;
 mod render;
 mod report;
-mod sharing;
+mod run_header;
 mod study;
 
 use std::env;

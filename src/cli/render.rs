@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 
 use super::args::RenderArgs;
 use super::report::Report;
-use super::sharing;
+use super::run_header;
 use super::{Failure, check_outputs, open, print, progress};
 use crate::driver::{Run, Update, Whole, probe};
 use crate::picture::{Frame, write_png};
@@ -34,7 +34,7 @@ struct Outcome {
 
 pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let opened = open(&args.scene)?;
-    let header = sharing::header(args, &opened).map_err(Failure::Refused)?;
+    let header = run_header::header(args, &opened).map_err(Failure::Refused)?;
     let outputs: Vec<&Path> =
         [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&args.scene, &outputs)?;

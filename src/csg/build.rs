@@ -1,8 +1,8 @@
 //! Solids are compiled: what can never be seen is left out, and every composition is brought into the form in which a
 //! ray needs least work.
 
-use super::compiled::{Kind, Node, Tree};
 use super::merge::Operation;
+use super::tree::{Kind, Node, Tree};
 use super::{Leaf, Reduction, Reductions, Solid};
 use crate::geometry::{Aabb, split};
 

@@ -3,21 +3,21 @@
 
 mod build;
 mod coincidence;
-mod compiled;
-mod figure;
 mod merge;
+mod passes;
 mod primitive;
 mod quadratic;
-mod reduction;
 mod shape;
 mod solid;
 mod span;
+mod span_diagram;
 mod torus;
+mod tree;
 
-pub use compiled::{Dropped, Hit, Stack, Start, Tree, rank};
-pub use figure::{Figure, What};
 pub use merge::{Event, Operation};
+pub use passes::{Reduction, Reductions};
 pub use primitive::{Primitive, QuadricCoefficients};
-pub use reduction::{Reduction, Reductions};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
+pub use span_diagram::{Figure, What};
+pub use tree::{Dropped, Hit, Stack, Start, Tree, rank};

@@ -17,38 +17,38 @@
 //! A recorded run has no parties any more: its records are known, and threads trace its picture again.
 
 mod clock;
-mod firsts;
-mod guarded;
-mod jobs;
-mod losses;
-mod measured;
+mod dedup;
+mod endpoint;
+mod failures;
 mod meter;
 mod node_thread;
 mod pace;
 mod pair_threads;
+mod panic_guard;
 mod parent_thread;
-mod perform;
-mod port;
 mod probe;
+mod render_all;
+mod render_tiled;
+mod render_timed;
 mod retrace;
+mod retrace_plan;
 mod run;
-mod setting;
+mod run_context;
+mod run_to_end;
 mod shared;
 mod sim_thread;
 mod stealing;
-mod strips;
 mod supervisor;
-mod whole;
 mod worker;
 
-pub use measured::Measured;
 pub use pace::{auto_pace, cores};
-pub use perform::perform;
 pub use probe::{Probe, probe};
+pub use render_all::{RAY, Whole};
+pub use render_tiled::trace_strips;
+pub use render_timed::Measured;
 pub use retrace::Retrace;
 pub use run::Run;
-pub use strips::trace_strips;
-pub use whole::{RAY, Whole};
+pub use run_to_end::run_to_end;
 
 use std::ops::Range;
 

@@ -6,8 +6,8 @@
 use std::mem;
 use std::time::Duration;
 
-use super::port::Port;
-use super::setting::Setting;
+use super::endpoint::Port;
+use super::run_context::Setting;
 use super::shared::Inboxes;
 use super::supervisor::Threads;
 use super::worker::{Duties, Worker, take_pixels};

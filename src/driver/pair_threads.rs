@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use crossbeam_channel::Receiver;
 
+use super::endpoint::{Incoming, Port, Stopped};
 use super::node_thread::Handler;
-use super::port::{Incoming, Port, Stopped};
-use super::setting::Setting;
+use super::run_context::Setting;
 use super::shared::{Content, Inboxes, Order, Parcel};
 use super::supervisor::Threads;
 use super::worker::{Duties, Worker};

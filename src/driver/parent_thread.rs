@@ -5,9 +5,9 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::firsts::Firsts;
+use super::dedup::Firsts;
+use super::endpoint::{Incoming, Port, Stopped};
 use super::meter::Meter;
-use super::port::{Incoming, Port, Stopped};
 use super::{TracePixels, Update};
 use crate::balance::{Action, Event, Message, NodeId, Parent, estimate};
 use crate::picture::{Atom, Colour, Division, Size};

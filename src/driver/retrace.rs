@@ -7,8 +7,8 @@ use std::thread;
 
 use crossbeam_channel::{Receiver, Sender};
 
-use super::jobs::plan;
 use super::pace::cores;
+use super::retrace_plan::plan;
 use super::supervisor::{Supervisor, Threads};
 use super::worker::trace_pieces;
 use super::{TracePixels, Update};

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
-use super::setting::Setting;
+use super::run_context::Setting;
 use super::shared::{Inboxes, Shared};
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};

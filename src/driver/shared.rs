@@ -8,7 +8,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use super::losses::Losses;
+use super::failures::Losses;
 use crate::balance::{Event, Message, NodeId, Party};
 use crate::picture::{Atom, Colour, Division};
 use crate::runlog::{Driver, Header};

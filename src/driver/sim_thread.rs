@@ -8,9 +8,9 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use super::firsts::Firsts;
-use super::port::FLUSH;
-use super::whole::Whole;
+use super::dedup::Firsts;
+use super::endpoint::FLUSH;
+use super::render_all::Whole;
 use super::{TracePixels, Update};
 use crate::balance::{Message, Party};
 use crate::picture::{Atom, Division};

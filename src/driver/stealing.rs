@@ -19,7 +19,7 @@ use std::time::Duration;
 use crossbeam_channel::Receiver;
 use rayon_core::{FnContext, ThreadBuilder, ThreadPoolBuilder};
 
-use super::setting::Setting;
+use super::run_context::Setting;
 use super::shared::{Inboxes, Parcel, Shared};
 use super::supervisor::Threads;
 use super::worker::{Duties, Worker};

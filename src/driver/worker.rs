@@ -7,9 +7,9 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::guarded::Guarded;
+use super::endpoint::{Incoming, Port, Stopped};
 use super::meter::{Batch, Meter};
-use super::port::{Incoming, Port, Stopped};
+use super::panic_guard::Guarded;
 use super::shared::Order;
 use super::{TracePixels, Update};
 use crate::balance::{Condition, Event, NodeId, Strategy};

@@ -1,44 +1,12 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
 
-mod accuracy;
 mod app;
-mod canvas_texture;
-mod compare;
-mod focus;
-mod frames;
-mod gallery;
-mod help;
-mod history;
-mod icons;
-mod inspector;
-mod keys;
-mod learn;
-mod machine_menu;
-mod message_menu;
-mod nodes_panel;
-mod notice;
-mod opening;
-mod paint;
-mod picture_panel;
-mod picture_view;
-mod places;
-mod preset;
-mod rates;
-mod ring_panel;
-mod row_places;
-mod save_bar;
-mod save_kinds;
+mod input;
+mod pages;
+mod panels;
 mod session;
 mod settings;
-mod setup_panel;
-mod tempo;
-mod theme;
-mod time_panel;
-mod timeline_panel;
-mod top_bar;
 mod widgets;
-mod words_panel;
-mod zoom;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -46,11 +14,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub use app::App;
-pub use opening::Opening;
-pub use preset::Preset;
+pub use session::opening::Opening;
 pub use session::{Phase, Session, Stage};
 pub use settings::Settings;
-pub use tempo::Tempo;
+pub use settings::pace::Tempo;
+pub use settings::speed_preset::Preset;
 
 use crate::language::Language;
 

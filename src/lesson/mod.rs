@@ -1,11 +1,11 @@
 //! What is taught: a lesson is a text file with runs in virtual time, steps through them, questions to be answered before
 //! one sees, and claims that are true of the runs.
 
-mod checked;
 mod claim;
 mod file;
 mod moment;
 mod perform;
+mod validate;
 mod words;
 
 pub use claim::{Claim, Figure};

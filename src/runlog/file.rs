@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Header, RunLog, check};
+use super::{Header, RunLog, validate};
 use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 use crate::sentence::shown;
@@ -98,7 +98,7 @@ impl RunLog {
         };
         let header = parse_first(&first).map_err(|why| wrong(1, why))?;
         let mut records: Vec<Record> = Vec::new();
-        let mut checker = check::Checker::new(&header);
+        let mut checker = validate::Checker::new(&header);
         for (line, text) in (2..).zip(lines) {
             let record: Record = match text {
                 Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, what_is_wrong(&error)))?,
@@ -139,7 +139,7 @@ fn parse_first(text: &str) -> Result<Header, String> {
         ));
     }
     let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| what_is_wrong(&error))?;
-    check::header(&first.header)?;
+    validate::header(&first.header)?;
     Ok(first.header)
 }
 

@@ -1,18 +1,18 @@
 //! A run as it is kept: what it was asked to do, what happened, and what that amounts to.
 
-mod caption;
-mod check;
 #[cfg(test)]
 pub(crate) mod examples;
 mod file;
 mod header;
 mod log;
 mod messages;
-mod tally;
+mod metadata;
+mod metrics;
+mod validate;
 
-pub use caption::Caption;
 pub use file::{LogError, is_run_file};
 pub use header::{Driver, Header, Link};
 pub use log::RunLog;
 pub use messages::Messages;
-pub use tally::Tally;
+pub use metadata::Caption;
+pub use metrics::Tally;

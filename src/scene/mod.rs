@@ -1,8 +1,9 @@
 //! What is drawn: solids, materials, lights and a camera, read from a scene file.
 
-mod checked;
 mod file;
 mod resolve;
+mod syntax;
+mod validate;
 mod viewpoint;
 
 pub use file::Opened;
@@ -33,7 +34,7 @@ pub struct Scene {
 
 /// Who looks, from where to where; y is up unless `up` says otherwise.
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields, try_from = "file::CameraFields")]
+#[serde(deny_unknown_fields, try_from = "syntax::CameraFields")]
 pub struct Camera {
     /// Where the camera is.
     pub eye: DVec3,
@@ -52,19 +53,19 @@ pub enum Light {
     /// Shines from a point in all directions; distance does not weaken it.
     Point {
         /// Where it is.
-        #[serde(deserialize_with = "checked::vector")]
+        #[serde(deserialize_with = "validate::vector")]
         position: DVec3,
         /// Its intensity.
-        #[serde(deserialize_with = "checked::light", default = "white")]
+        #[serde(deserialize_with = "validate::light", default = "white")]
         colour: DVec3,
     },
     /// Shines from infinitely far, as the sun does.
     Directional {
         /// Where its light goes.
-        #[serde(deserialize_with = "checked::direction")]
+        #[serde(deserialize_with = "validate::direction")]
         direction: DVec3,
         /// Its intensity.
-        #[serde(deserialize_with = "checked::light", default = "white")]
+        #[serde(deserialize_with = "validate::light", default = "white")]
         colour: DVec3,
     },
 }
@@ -74,25 +75,25 @@ pub enum Light {
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
     /// What it reflects of ambient and diffuse light: red, green and blue, 0 to 1.
-    #[serde(deserialize_with = "checked::colour")]
+    #[serde(deserialize_with = "validate::colour")]
     pub colour: DVec3,
     /// Ambient reflection, 0 to 1.
-    #[serde(deserialize_with = "checked::fraction")]
+    #[serde(deserialize_with = "validate::fraction")]
     pub ka: f64,
     /// Diffuse reflection, 0 to 1.
-    #[serde(deserialize_with = "checked::fraction")]
+    #[serde(deserialize_with = "validate::fraction")]
     pub kd: f64,
     /// Specular reflection, of lights (Phong) and of other solids, 0 to 1.
-    #[serde(deserialize_with = "checked::fraction")]
+    #[serde(deserialize_with = "validate::fraction")]
     pub ks: f64,
     /// Transmission, 0 to 1.
-    #[serde(deserialize_with = "checked::fraction")]
+    #[serde(deserialize_with = "validate::fraction")]
     pub kt: f64,
     /// Phong's exponent: the larger, the smaller the highlight.
-    #[serde(deserialize_with = "checked::exponent")]
+    #[serde(deserialize_with = "validate::exponent")]
     pub n: f64,
     /// Index of refraction; that of air is 1.
-    #[serde(deserialize_with = "checked::index_of_refraction")]
+    #[serde(deserialize_with = "validate::index_of_refraction")]
     pub ior: f64,
 }
 

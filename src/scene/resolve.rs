@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::file::{SceneFile, SolidFields, Transform};
+use super::syntax::{SceneFile, SolidFields, Transform};
 use super::{Material, Scene};
 use crate::csg::{Primitive, QuadricCoefficients, Solid};
 use crate::geometry::{rotation, turn_y_to};

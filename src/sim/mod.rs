@@ -1,12 +1,12 @@
 //! Machines and links as they are emulated, and whole runs in virtual time: the same protocol, the same records, no
 //! thread and no clock, so that the same run gives the same records to the byte.
 
-mod event;
+mod event_queue;
+mod failures;
 mod faults;
 mod link;
-mod losses;
 mod machine;
-mod party;
+mod sim_node;
 mod simulation;
 mod trial;
 

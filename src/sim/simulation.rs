@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::time::Duration;
 
-use super::event::{Future, Happening, Mail};
+use super::event_queue::{Future, Happening, Mail};
 use super::faults::Faults;
 use super::link::{Link, Wire};
-use super::party::Party as Machinery;
+use super::sim_node::Party as Machinery;
 use crate::balance::{Action, Condition, Event, Message, NodeId, Parent, Party, Rules, estimate};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, What};

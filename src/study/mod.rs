@@ -2,10 +2,11 @@
 
 pub mod accuracy;
 mod chaos;
-mod looks;
+mod fixture;
 mod needs;
 mod paper;
 mod peer;
+mod preview_time;
 mod progress;
 mod random;
 mod remedies;
@@ -13,7 +14,6 @@ mod rivals;
 mod scale;
 mod scale_report;
 mod stability;
-mod workbench;
 
 pub use accuracy::accuracy;
 pub use chaos::chaos;
@@ -90,6 +90,11 @@ use say;
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
+}
+
+/// Formats a number that may be missing: an en dash stands for none.
+fn optional(value: Option<f64>, places: usize) -> String {
+    value.map_or("–".into(), |value| format!("{value:.places$}"))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::looks::{Looks, picture};
+use super::preview_time::{Looks, picture};
 use super::progress::Progress;
 use super::{Study, Tell, median, say};
 use crate::csg::{Reduction, Reductions};

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use super::fixture::{Workbench, cost_of};
 use super::progress::Progress;
-use super::workbench::{Workbench, cost_of};
 use super::{Study, Tell, median};
 use crate::balance::Strategy;
-use crate::driver::{cores, perform};
+use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Tally};
 use crate::scene::Opened;
@@ -104,7 +104,7 @@ impl Sample {
     #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
     fn take(bench: &Workbench, header: &Header) -> Result<Self, String> {
         let (begun, before) = (Instant::now(), context_switches());
-        let log = perform(&bench.tracer, header, &[])?;
+        let log = run_to_end(&bench.tracer, header, &[])?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
         let makespan = Tally::of(&log).makespan().unwrap_or_default().as_secs_f64();

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::fixture::{Costs, STRATEGIES, Workbench, simulate};
 use super::progress::{Progress, Tell};
-use super::workbench::{Costs, STRATEGIES, Workbench, simulate};
 use crate::balance::Rules;
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, Link};

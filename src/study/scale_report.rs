@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use super::fixture::STRATEGIES;
 use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, Row, SIZE, measure, node_counts};
-use super::workbench::STRATEGIES;
 use super::{Study, Tell};
 use crate::balance::Strategy;
 use crate::scene::Opened;

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::path::{Path, RayKind, Watch};
+use super::observer::{Lit, Met, Note, Path, RayKind, Watch};
 use super::{Scratch, Tracer};
 use crate::csg::{Figure, Start};
 use crate::geometry::Ray;
@@ -41,66 +41,10 @@ pub struct RayNotes {
     pub too_deep: f64,
 }
 
-/// What a ray met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
-    /// The solid and its face, and where a ray starts that goes on from there.
-    pub start: Start,
-    /// The primitive's number for its surface (which material it has).
-    pub tag: u32,
-    /// The solid is entered; else left.
-    pub enters: bool,
-    /// Of length 1, on the side that the ray came from.
-    pub normal: DVec3,
-}
-
-/// What a light adds where a ray ends.
-#[derive(Clone, Debug)]
-pub struct Lit {
-    /// The light's place in the scene's list.
-    pub light: usize,
-    /// What part of its intensity arrives.
-    pub arriving: f64,
-    /// The light that arrives: Il.
-    pub coming: DVec3,
-    /// Kd (N·L), by the surface's colour.
-    pub diffuse: DVec3,
-    /// Ks (S·R)ⁿ
-    pub specular: f64,
-}
-
-/// What is known of a ray.
-pub(super) enum Note {
-    Background(DVec3),
-    Met {
-        met: Met,
-        ambient: DVec3,
-        inside: usize,
-    },
-    Lit(Lit),
-    TooDeep(f64),
-    /// What was left out of the whole sample, and how many rays these were.
-    LeftOut(f64, u64),
-    /// Of all samples: whether the pixel is the mean of all of them, or of all but the first four.
-    FirstCount(bool),
-}
-
 impl RayNotes {
     /// What it brings, but for what comes by rays that start at its end.
     pub fn colour(&self) -> DVec3 {
         self.lights.iter().fold(self.ambient, |sum, lit| sum + lit.coming * (lit.diffuse + lit.specular))
-    }
-}
-
-impl Lit {
-    /// Kd Il (N·L)
-    pub fn diffuse(&self) -> DVec3 {
-        self.coming * self.diffuse
-    }
-
-    /// Ks Il (S·R)ⁿ
-    pub fn specular(&self) -> DVec3 {
-        self.coming * self.specular
     }
 }
 

@@ -1,22 +1,23 @@
 //! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
 
-mod branches;
 mod bvh;
 mod camera;
-mod compiled;
+mod compiled_scene;
 mod explain;
-mod hit;
+mod intersect;
 mod media;
-mod path;
+mod observer;
+mod paths;
 mod pattern;
 mod preview;
+mod ray_queue;
+mod scene_stats;
 mod shade;
-mod world;
 
-pub use compiled::Compiled;
-pub use explain::{Explained, Lit, Met, RayNotes};
-pub use path::{Path, RayKind, step_for};
+pub use explain::{Explained, RayNotes};
+pub use observer::{Lit, Met, Path, RayKind};
 pub use preview::Preview;
+pub use scene_stats::Compiled;
 pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
@@ -29,10 +30,9 @@ use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
 use camera::Camera;
-use explain::Note;
-use path::Watch;
+use compiled_scene::World;
+use observer::{Note, Watch};
 use pattern::Pattern;
-use world::World;
 
 /// How many rays of each kind were traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -176,4 +176,11 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
         }
     }
     (sum / f64::from(count), false)
+}
+
+/// A step in scan order at which about so many pixels of a picture are looked at.
+///
+/// An odd one seldom divides a width, so that the pixels are in many columns.
+pub fn step_for(size: Size, looked_at: u32) -> u32 {
+    (size.pixels() / looked_at) | 1
 }

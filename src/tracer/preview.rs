@@ -2,7 +2,7 @@
 //!
 //! Its pixels are those of the picture itself and are never traced again, so that it costs the picture nothing.
 
-use super::path::Nobody;
+use super::observer::Nobody;
 use super::{RayCounts, Scratch, Tracer};
 use crate::picture::{Colour, Size};
 

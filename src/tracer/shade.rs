@@ -4,12 +4,11 @@
 
 use glam::DVec3;
 
-use super::branches::{Branch, Branches};
-use super::explain::{Lit, Met, Note};
-use super::hit::{Memory, has_turned_at};
+use super::compiled_scene::Finish;
+use super::intersect::{Memory, has_turned_at};
 use super::media::{Media, MediaSets, Medium};
-use super::path::{Path, RayKind, Watch};
-use super::world::Finish;
+use super::observer::{Lit, Met, Note, Path, RayKind, Watch};
+use super::ray_queue::{Branch, Branches};
 use super::{RayCounts, Tracer};
 use crate::csg::{Hit, Start, rank};
 use crate::geometry::Ray;

@@ -65,7 +65,7 @@ pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {
 
 /// What the notice below the top bar says.
 pub fn notice(window: &Window) -> String {
-    session(window).notice().map(|notice| notice.text().to_owned()).unwrap_or_default()
+    session(window).notice().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
 /// Presses the button of this name.

@@ -1,13 +1,13 @@
 #![doc = include_str!("README.md")]
 
-mod duties;
-mod gauge;
 mod helping;
 mod node;
 mod offering;
 mod route;
 mod share;
 mod sleepers;
+mod speed_estimate;
+mod timers;
 
 pub use node::Node;
 pub use route::Ring;

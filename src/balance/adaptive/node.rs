@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use super::gauge::Gauge;
 use super::route::Ring;
 use super::sleepers::Sleepers;
+use super::speed_estimate::Gauge;
 use crate::balance::message::{Action, Event, Help, Message, NodeId, Party};
 use crate::balance::remedy::{Remedies, Remedy};
 use crate::balance::strategy::Rules;

@@ -2,10 +2,10 @@
 
 use egui::{Context, Theme, ViewportCommand};
 
-use super::super::history::Gesture;
-use super::super::keys::Command;
-use super::super::theme::Look;
 use super::App;
+use crate::gui::input::keys::Command;
+use crate::gui::settings::undo::Gesture;
+use crate::gui::widgets::theme::Look;
 use crate::language::{say, word};
 use crate::time::Time;
 use crate::view::{About, Step, node_name};

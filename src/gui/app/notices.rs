@@ -2,9 +2,9 @@
 
 use egui::{Context, Pos2, vec2};
 
-use super::super::notice::{self, Click};
-use super::super::theme::GRID;
 use super::App;
+use crate::gui::panels::notice::{self, Click};
+use crate::gui::widgets::theme::GRID;
 
 impl App {
     /// Shows what is being made or read, or the last notice.
@@ -17,7 +17,7 @@ impl App {
                 self.session.stop_making();
             }
         } else if let Some(notice) = self.session.notice().cloned() {
-            match notice.show(ctx, at) {
+            match notice::show(&notice, ctx, at) {
                 Some(Click::Close) => self.session.close_notice(),
                 Some(Click::Reload) => self.session.reload(),
                 None => {}

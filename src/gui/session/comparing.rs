@@ -2,27 +2,18 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::time::Duration;
 
 use super::super::settings::Settings;
 use super::Session;
-use super::jobs::{Done, Jobs};
+use super::job_result::{Compared, Done, Grown, Growth, Pictured};
+use super::jobs::Jobs;
 use crate::balance::Strategy;
 use crate::driver::Whole;
 use crate::palette::Rgb;
-use crate::picture::Colour;
 use crate::runlog::{Driver, Tally};
 use crate::sim::{Change, PixelCosts, Trial};
 use crate::tracer::Tracer;
 use crate::view::Contender;
-
-/// A picture that is traced once for all trials of it.
-pub struct Pictured {
-    /// All pixels in scan order.
-    pub pixels: Vec<Colour>,
-    /// What each costs the reference machine, by its rays.
-    pub costs: PixelCosts,
-}
 
 /// What a comparison is of.
 #[derive(Clone)]
@@ -71,39 +62,6 @@ impl Tracing {
     pub fn give_up(&self) {
         self.is_given_up.store(true, Ordering::Relaxed);
     }
-}
-
-/// How well strategies do with more and more machines.
-pub struct Growth {
-    /// By strategy: what comes of more and more machines.
-    pub of: Vec<(Strategy, Vec<Grown>)>,
-    /// How long one machine at full speed takes.
-    pub alone: Duration,
-    /// The last machine is a slow one.
-    pub slow: Option<f64>,
-}
-
-/// A run of so many machines.
-#[derive(Clone, Copy, Debug)]
-pub struct Grown {
-    /// How many.
-    pub machines: usize,
-    /// How many times as long one machine at full speed would take.
-    pub speedup: f64,
-    /// The ideal makespan over this one.
-    pub efficiency: f64,
-}
-
-/// What has come of a comparison.
-pub enum Compared {
-    /// The traced picture.
-    Picture(Arc<Pictured>),
-    /// A trial, by its number.
-    Run(u64, Box<Contender>),
-    /// How strategies do with more machines.
-    Growth(Growth),
-    /// Nothing comes, for this reason.
-    Failed(String),
 }
 
 /// What is known of the picture beforehand.

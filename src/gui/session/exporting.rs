@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use crossbeam_channel::{Sender, TryRecvError, bounded};
 
 use super::Session;
-use super::jobs::{Done, told};
+use super::job_result::Done;
+use super::jobs::told;
 use crate::driver::{Whole, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::{Language, say};

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::notice::Notice;
-use super::super::opening::Opening;
 use super::super::settings::Settings;
-use super::jobs::{FileChange, Prepared, Recorded};
+use super::Notice;
+use super::job_result::{FileChange, Prepared, Recorded};
+use super::opening::Opening;
 use super::performer::Performer;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};

@@ -3,142 +3,19 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, SystemTime};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
-use super::super::opening::Opening;
-use super::super::settings::Settings;
-use super::comparing::Compared;
-use super::measuring::Finding;
-use super::moving::Moved;
-use super::teaching::Taught;
-use crate::driver::{RAY, probe};
+use super::job_result::{Done, FileChange, Purpose};
+use super::preview::thumbnail;
 use crate::language::{Language, say, word};
-use crate::lesson::Lesson;
 use crate::output::OutputError;
-use crate::palette::Rgb;
-use crate::picture::{Frame, Quality, Size, srgb8, write_png};
-use crate::runlog::{Driver, RunLog};
-use crate::scene::{Opened, Scene};
-use crate::tracer::{Scratch, Tracer};
-use crate::view::{Inspected, Known};
-
-/// What a job has come to.
-pub enum Done {
-    /// The job of this number has read and compiled what was asked for, or says why not.
-    Ready(u64, Result<Ready, String>),
-    /// A file is written: a sentence says where, or why not.
-    Saved(Result<String, String>),
-    /// What the job of this number makes is done to this part, 0 to 1.
-    Progress(u64, f64),
-    /// What the job of this number makes is made: a sentence says where, or why not.
-    Made(u64, Result<String, String>),
-    /// The user has chosen a file in the system's dialog; `None` if not.
-    Chosen(Purpose, Option<PathBuf>),
-    /// A small picture of a scene, by the scene's name or path; or why there is none.
-    Thumbnail(String, Result<Thumbnail, String>),
-    /// The job of this number has found out something about speed and accuracy.
-    Found(u64, Finding),
-    /// What has come of a comparison, and the number of its job.
-    Compared(u64, Compared),
-    /// A lesson that was opened, to be prepared.
-    ToTeach(Arc<Lesson>),
-    /// A lesson, or a sentence that says why it cannot be shown, and the number of its job.
-    Lesson(u64, Result<Taught, String>),
-    /// A pixel, with all that is known of it; nothing if there is no such pixel.
-    Inspected(Option<Box<Inspected>>),
-    /// What is about seen by a camera that was moved.
-    Moved(Moved),
-    /// The file that is open has changed, or is gone.
-    FileChanged(PathBuf, FileChange),
-}
-
-/// What a path is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// To be opened.
-    Open,
-    /// A lesson, to be taken.
-    Learn,
-    /// To be written.
-    Save,
-}
-
-/// What happened to a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileChange {
-    /// Somebody has written to it.
-    Written,
-    /// It is not there any more.
-    Gone,
-}
-
-/// What can be shown at once.
-pub enum Ready {
-    /// A scene, compiled.
-    Scene(Prepared),
-    /// A recorded run, and what traces its picture again.
-    Run(Recorded),
-    /// A lesson, to be prepared.
-    Lesson(Arc<Lesson>),
-}
-
-/// A scene, compiled for a picture.
-#[derive(Clone)]
-pub struct Prepared {
-    /// The scene.
-    pub opened: Arc<Opened>,
-    /// What traces it.
-    pub tracer: Arc<Tracer>,
-    /// What its picture will about look like.
-    pub preview: Arc<[Rgb]>,
-    /// Of the picture that it is compiled for.
-    pub size: Size,
-    /// Of the picture that it is compiled for.
-    pub quality: Quality,
-    /// The estimated CPU time of the whole picture, traced by threads that rest after each atom.
-    cpu: Duration,
-    /// The estimated time of the whole picture in virtual time.
-    virtual_time: Duration,
-}
-
-/// A recorded run.
-#[derive(Clone)]
-pub struct Recorded {
-    /// Its records.
-    pub log: Arc<RunLog>,
-    /// Its scene.
-    pub opened: Arc<Opened>,
-    /// What traces its picture again.
-    pub tracer: Arc<Tracer>,
-    /// What its picture will about look like.
-    pub preview: Arc<[Rgb]>,
-    /// What is known of all of it.
-    pub known: Arc<Known>,
-}
-
-impl Prepared {
-    /// Whether it is compiled for the picture that is set.
-    pub fn is_for(&self, settings: &Settings) -> bool {
-        (self.size, self.quality) == (settings.size, settings.quality)
-    }
-
-    /// The estimated time of the whole picture on the reference machine at full pace.
-    pub fn work(&self, driver: Driver) -> Duration {
-        if driver == Driver::Sim { self.virtual_time } else { self.cpu }
-    }
-}
-
-/// A small picture.
-pub struct Thumbnail {
-    /// Its size.
-    pub size: Size,
-    /// Its pixels, three bytes each.
-    pub rgb: Vec<u8>,
-}
+use crate::picture::{Size, write_png};
+use crate::runlog::RunLog;
+use crate::scene::Opened;
+use crate::view::Inspected;
 
 /// Starts jobs and gets what they come to.
 pub struct Jobs {
@@ -162,49 +39,6 @@ impl Jobs {
     /// What jobs have come to since.
     pub fn done(&self) -> Vec<Done> {
         self.receiver.try_iter().collect()
-    }
-
-    /// Reads and compiles what `read` gives; returns the job's number.
-    pub fn prepare(
-        &mut self,
-        read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
-        settings: &Settings,
-    ) -> u64 {
-        let number = self.number();
-        let (size, quality, division) = (settings.size, settings.quality, settings.division());
-        let language = Language::spoken();
-        self.start("prepare", move || {
-            language.speak();
-            let ready = read().and_then(|opening| match opening {
-                Opening::Scene(opened) => {
-                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
-                    let found = probe(&tracer, division, PROBE);
-                    let cpu = found.whole_with_rests(&tracer, division);
-                    let virtual_time = RAY.mul_f64(found.rays as f64);
-                    let preview = guess(&tracer);
-                    Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
-                }
-                Opening::Run(log) => {
-                    check_size(log.header.size)?;
-                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                    let unread = |error| {
-                        say!(
-                            "The run's own scene cannot be read: {error}",
-                            "A cena da própria execução não pode ser lida: {error}"
-                        )
-                    };
-                    let opened = opened.map_err(unread)?;
-                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                    let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
-                    let known = Arc::new(Known::of(&log));
-                    let preview = guess(&tracer);
-                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
-                }
-                Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
-            });
-            Done::Ready(number, ready)
-        });
-        number
     }
 
     /// Writes a picture of these pixels.
@@ -311,51 +145,8 @@ impl Jobs {
     }
 }
 
-/// How much of a picture is traced to know what the whole will cost.
-const PROBE: Duration = Duration::from_millis(120);
-
 /// How often a file that is watched is looked at.
 const LOOK: Duration = Duration::from_millis(700);
-
-/// With a preview that is begun, and made finer until it has every `finest`th pixel or takes longer than `limit`.
-#[expect(clippy::disallowed_methods, reason = "how long a user waits is no matter of the run's clock")]
-pub(super) fn with_preview(mut tracer: Tracer, finest: u32, limit: Duration) -> Tracer {
-    let begun = Instant::now();
-    loop {
-        tracer.refine();
-        let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= finest);
-        // The next step takes three times as long as all before it.
-        if is_fine || 4 * begun.elapsed() > limit {
-            return tracer;
-        }
-    }
-}
-
-/// All pixels as the preview has them.
-pub(super) fn guess(tracer: &Tracer) -> Arc<[Rgb]> {
-    let (width, height) = (tracer.size().width(), tracer.size().height());
-    let Some(preview) = tracer.preview() else { return Arc::default() };
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places.map(|(x, y)| srgb8(preview.guess(x, y))).collect()
-}
-
-/// How long a preview may take, so that it does not keep its user waiting.
-const PREVIEW: Duration = Duration::from_millis(200);
-
-/// Where most of the picture is known beforehand, there is little for the nodes to do.
-const FINEST: u32 = 4;
-
-/// Whether a window can hold a recorded picture.
-fn check_size(size: Size) -> Result<(), String> {
-    let most = Settings::LONGEST_SIDE * Settings::LONGEST_SIDE;
-    if size.pixels() <= most {
-        return Ok(());
-    }
-    Err(say!(
-        "This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels",
-        "A imagem desta execução, de {size} pixels, é grande demais para a janela, que mostra até {most} pixels"
-    ))
-}
 
 /// What a file looked like; `None` if there is none.
 fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
@@ -368,13 +159,4 @@ pub(super) fn told(path: &Path, saved: Result<(), OutputError>, language: Langua
     let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let shown = shown.display();
     saved.map(|()| say!("Saved to {shown}", "Salvo em {shown}")).map_err(|error| error.to_string())
-}
-
-fn thumbnail(scene: &Scene) -> Thumbnail {
-    // Neither side is 0, and there are few pixels.
-    let size = Size::new(400, 300).expect("a possible size");
-    let tracer = Tracer::new(scene, size, Quality { samples: 2, ..Quality::default() });
-    let mut pixels = Vec::new();
-    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
-    Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() }
 }

@@ -5,25 +5,11 @@ use std::sync::Arc;
 use crossbeam_channel::{TryRecvError, bounded};
 
 use super::Session;
-use super::jobs::{Done, Jobs, Prepared};
-use crate::picture::{Frame, Quality, Size};
+use super::job_result::{Done, Finding, Prepared};
+use super::jobs::Jobs;
+use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::study::accuracy::{MOST, Point, Reference, measure, size_for};
-use crate::tracer::Compiled;
-
-/// What has been found out about speed and accuracy.
-pub enum Finding {
-    /// What the scene needs, and how many rays there are on each level of its trees of rays.
-    Needs(Compiled, Vec<u64>),
-    /// So many of the [`Reference::STEPS`] pictures of the reference have been begun.
-    Begun(usize),
-    /// What pictures are compared with.
-    Reference(Reference),
-    /// The quality at this place is measured; its picture comes only the first time.
-    Point(usize, Point, Option<Frame>),
-    /// Nothing more comes; a sentence says why, if that is too soon.
-    Over(Result<(), String>),
-}
+use crate::study::accuracy::{MOST, Reference, measure, size_for};
 
 impl Session {
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.

@@ -6,10 +6,15 @@ mod exporting;
 mod failing;
 mod files;
 mod inspecting;
-pub mod jobs;
+mod job_result;
+mod jobs;
 mod measuring;
 mod moving;
+mod notice;
+pub mod opening;
 mod performer;
+mod preparing;
+mod preview;
 mod stage;
 mod teaching;
 mod timing;
@@ -18,10 +23,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::history::{Gesture, History};
-use super::notice::Notice;
-use super::opening::Opening;
 use super::settings::Settings;
+use super::settings::undo::{Gesture, History};
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::language::say;
@@ -29,19 +32,22 @@ use crate::palette::Rgb;
 use crate::runlog::Header;
 use crate::scene::{Camera, Opened};
 use crate::time::Time;
+use opening::Opening;
 
-pub use comparing::{Compared, Grown, Growth, Known, Pictured, Subject, Tracing};
+pub use comparing::{Known, Subject, Tracing};
 pub use exporting::Export;
 use exporting::Making;
 use inspecting::Inspecting;
-pub use jobs::{Done, Prepared, Purpose, Recorded};
-use jobs::{Jobs, Ready};
-pub use measuring::Finding;
-pub use moving::Moved;
+use job_result::Ready;
+pub use job_result::{
+    Compared, Done, Finding, Grown, Growth, Moved, Pictured, Prepared, Purpose, Recorded, Taught, Thumbnail,
+};
+use jobs::Jobs;
 use moving::Moving;
+pub use notice::{Notice, NoticeKind};
 use performer::Performer;
 pub use stage::{Phase, Stage};
-pub use teaching::{Preparing, Taught};
+pub use teaching::Preparing;
 
 /// What the window shows, what is set, and what goes on in the background.
 pub struct Session {

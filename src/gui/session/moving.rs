@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::super::opening::Opening;
 use super::Session;
-use super::jobs::{Done, Jobs, guess, with_preview};
+use super::job_result::{Done, Moved};
+use super::jobs::Jobs;
+use super::opening::Opening;
+use super::preview::{guess, with_preview};
 use crate::language::word;
-use crate::palette::Rgb;
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Tracer;
@@ -23,14 +24,6 @@ pub(super) struct Moving {
     /// The run that starts anew from there is being prepared.
     is_settled: bool,
     shown: Option<Arc<Moved>>,
-}
-
-/// What is about seen by a camera that moves.
-pub struct Moved {
-    /// Width and height.
-    pub size: Size,
-    /// All pixels in scan order.
-    pub pixels: Arc<[Rgb]>,
 }
 
 /// A camera that rests for so long, in seconds, is where it is meant to be.

@@ -4,20 +4,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::Session;
-use super::jobs::{Done, Jobs, Recorded, guess};
+use super::job_result::{Done, Recorded, Taught};
+use super::jobs::Jobs;
+use super::preview::guess;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
 use crate::view::Known;
-
-/// A lesson whose runs have been run.
-pub struct Taught {
-    /// What it says.
-    pub lesson: Arc<Lesson>,
-    /// Its runs, by name.
-    runs: Vec<(String, Recorded)>,
-    /// By step: what its claims came to.
-    pub values: Vec<Vec<Option<f64>>>,
-}
 
 /// A lesson that is being prepared.
 pub struct Preparing {

@@ -1,7 +1,7 @@
 //! What was changed, in words.
 
-use super::super::tempo::Tempo;
 use super::Settings;
+use super::pace::Tempo;
 use crate::language::{comma, decimal, say, word};
 use crate::picture::Quality;
 use crate::runlog::Driver;

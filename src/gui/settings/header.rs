@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use super::super::tempo::Tempo;
 use super::Settings;
+use super::pace::Tempo;
 use crate::balance::{NodeId, Rules, Strategy};
 use crate::driver::auto_pace;
 use crate::runlog::{Caption, Driver, Header, Link};

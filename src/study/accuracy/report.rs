@@ -12,7 +12,7 @@ use super::scene::{Entry, Found};
 use super::{Point, Reference};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality};
-use crate::study::{median, say};
+use crate::study::{median, optional, say};
 
 /// The report, in Markdown.
 pub(super) fn report(found: &[Found], ring: &Ring) -> String {
@@ -215,9 +215,4 @@ fn knobs(quality: &Quality) -> String {
 /// A number with at most three figures.
 fn short(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().map_or_else(|_| value.to_string(), |short| short.to_string())
-}
-
-/// A number that may not be known.
-pub(super) fn optional(value: Option<f64>, places: usize) -> String {
-    value.map_or("–".into(), |value| format!("{value:.places$}"))
 }

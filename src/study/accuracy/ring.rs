@@ -5,8 +5,8 @@ use std::time::Duration;
 use super::sharing::{NODES, Run, Shared, Transfer, run, usual};
 use crate::picture::Size;
 use crate::scene::Opened;
+use crate::study::fixture::Workbench;
 use crate::study::progress::Progress;
-use crate::study::workbench::Workbench;
 
 /// Runs a scene.
 const SEEDS: u64 = 40;

@@ -4,10 +4,9 @@ use std::fmt::Write;
 
 use super::charts::MANY;
 use super::fit::log_correlation;
-use super::report::optional;
 use super::ring::{LATENCIES, Ring};
 use super::sharing::{NODES, WHOLE};
-use crate::study::{median, say};
+use crate::study::{median, optional, say};
 
 /// The chapter on the ring.
 pub(super) fn ring(text: &mut String, ring: &Ring) {

@@ -11,7 +11,7 @@ use crate::picture::Atom;
 use crate::record::{Record, What};
 use crate::runlog::{Driver, Header, Link, Tally};
 use crate::sim::Sim;
-use crate::study::workbench::{Costs, Workbench};
+use crate::study::fixture::{Costs, Workbench};
 use crate::time::Time;
 
 /// Machines of a ring.

@@ -1,9 +1,9 @@
 //! The article's charts anew, and others.
 
-use super::super::workbench::STRATEGIES;
 use super::article::{self, PACKETS, SERIAL};
 use super::rows::Row;
 use crate::balance::Strategy;
+use crate::study::fixture::STRATEGIES;
 use crate::view::{Axis, Bar, Bars, CHART_SIZE, Chart, Mark, Scale, Series, Style, series_hue};
 
 /// What a figure's chart is of: one kind of rows.

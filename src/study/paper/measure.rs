@@ -4,13 +4,13 @@ use std::iter;
 use std::time::Duration;
 
 use super::super::progress::Progress;
-use super::super::workbench::{Costs, STRATEGIES, Workbench, simulate, twin};
 use super::article::{ATOM, NETWORK, Network, SERIAL, slow_speed, times_ideal};
 use super::rows::{About, Row, middle};
 use crate::balance::Strategy;
-use crate::driver::{cores, perform};
+use crate::driver::{cores, run_to_end};
 use crate::runlog::{Driver, Header, Tally};
 use crate::scenario::{Command, Script, square_wave};
+use crate::study::fixture::{Costs, STRATEGIES, Workbench, simulate, twin};
 use crate::time::Time;
 
 /// Runs of the same kind on threads, of which the middle one counts.
@@ -74,7 +74,7 @@ impl<'a> Measuring<'a> {
             for ((about, header, script), rows) in kinds.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
                 progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
-                let log = perform(&self.bench.tracer, &header, script)?;
+                let log = run_to_end(&self.bench.tracer, &header, script)?;
                 // Rayon's rules are not ours to simulate; and when threads obey a script is not quite when it says.
                 let has_twin = header.driver == Driver::Threads && script.is_empty();
                 let twin = if has_twin { Some(twin(&log)?) } else { None };

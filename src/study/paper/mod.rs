@@ -10,9 +10,9 @@ mod rows;
 
 use std::time::Duration;
 
+use super::fixture::{Workbench, cost_of};
 use super::progress::Progress;
 use super::rivals::{self, Needs};
-use super::workbench::{Workbench, cost_of};
 use super::{Study, Tell};
 use crate::driver::cores;
 use crate::picture::{Quality, Size};

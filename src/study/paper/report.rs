@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::super::rivals::Needs;
-use super::super::workbench::STRATEGIES;
 use super::Found;
 use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
 use super::charts::select;
@@ -13,6 +12,7 @@ use super::division::Division;
 use super::measure::RUNS;
 use super::rows::Row;
 use crate::balance::Strategy;
+use crate::study::fixture::STRATEGIES;
 use crate::study::say;
 
 /// The report, in Markdown.

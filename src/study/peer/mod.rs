@@ -4,7 +4,7 @@
 //! a step makes agree is what its cause had made differ. No pixel is left out, not even at edges, since both programs
 //! send their rays through the same points.
 
-mod bored;
+mod bored_cylinder;
 mod povray;
 mod report;
 mod step;
@@ -17,7 +17,7 @@ use crate::output::as_file_name;
 use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
-use bored::Bore;
+use bored_cylinder::Bore;
 use povray::PovRay;
 use step::Step;
 
@@ -49,7 +49,7 @@ struct Row {
 /// A sentence, if POV-Ray is not installed or failed, or a picture could not be kept.
 pub fn peer(scenes: &[Opened], size: Size, tell: Tell<'_>) -> Result<Study, String> {
     let povray = PovRay::find()?;
-    let bored = bored::scene()?;
+    let bored = bored_cylinder::scene()?;
     let bore = Bore::of(&bored.scene, size);
     let mut progress = Progress::new((scenes.len() + 1) * Step::ALL.len(), tell);
     let mut study = Study::new("peer");

@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use super::super::progress::Progress;
 use super::super::say;
-use super::super::workbench::{Costs, simulate, weighted};
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Link};
+use crate::study::fixture::{Costs, simulate, weighted};
 use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
 
 /// How many machines.

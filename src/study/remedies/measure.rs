@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::super::median;
 use super::super::progress::Progress;
-use super::super::workbench::{Workbench, cost_of, simulate};
 use super::cases::{Case, cases, throttled};
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
-use crate::driver::{cores, perform};
+use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Link, Tally};
 use crate::scene::Opened;
+use crate::study::fixture::{Workbench, cost_of, simulate};
 
 /// How long a run in virtual time takes all machines together at full speed, and about how long one on threads does.
 const RUN: Duration = Duration::from_millis(1200);
@@ -147,7 +147,7 @@ fn on_threads(scene: &Opened, case: &Case, rivals: &[Rival], progress: &mut Prog
             progress.next(&format!("on threads: {}, {}", case.name, rival.name()));
             let driver = if rival == Rival::Rayon { Driver::WorkStealing } else { Driver::Threads };
             let header = Header { driver, pace, cores: cores(), ..header(&bench, case, 50, rival) };
-            runs.push(Tally::of(&perform(&bench.tracer, &header, &(case.script)(run))?));
+            runs.push(Tally::of(&run_to_end(&bench.tracer, &header, &(case.script)(run))?));
         }
     }
     Ok(rivals.iter().zip(&runs).map(|(&rival, runs)| row(case, Driver::Threads, 0.0, rival, runs)).collect())

@@ -12,7 +12,7 @@ use crate::record::What;
 use crate::runlog::{Driver, Header, Link, Tally};
 use crate::scenario::{Command, Script, square_wave};
 use crate::sim::Sim;
-use crate::study::workbench::{Costs, weighted};
+use crate::study::fixture::{Costs, weighted};
 use crate::time::Time;
 use crate::view::Scale;
 

@@ -1,6 +1,7 @@
 //! One pixel: what made its colour and what took its time. The tree of its rays is the article's Figure 3, the spans along
 //! one of them are its Figure 2, and the terms are those of its equation (§3).
 
+mod format;
 mod rays;
 mod spans;
 mod terms;
@@ -10,7 +11,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::display::{Anchor, Hue, Ink, Mark, Point, TextSize};
+use super::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::csg::Figure;
 use crate::language::word;
 use crate::palette::{Rgb, mix};

@@ -1,13 +1,13 @@
 //! The tree of rays (Figure 3): the eye above, and below each ray's end the rays that start there.
 
-use super::super::display::{Anchor, Hue, Mark, Point, TextSize};
-use super::super::stroke::dashes;
-use super::super::words::count;
-use super::words::{kind_word, share_words};
+use super::format::{kind_word, share_words};
 use super::{Inspected, cut, edge, label, line};
 use crate::language::{say, word};
 use crate::palette::text_on;
 use crate::tracer::{RayKind, RayNotes};
+use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
+use crate::view::draw::polyline::dashes;
+use crate::view::text::format::count;
 
 /// The tree as it is drawn.
 #[derive(Clone, Debug, PartialEq)]

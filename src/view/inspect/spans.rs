@@ -1,13 +1,13 @@
 //! The spans along a ray (Figure 2): a row for each solid that it passes, and below it what the solid is made of.
 
-use super::super::display::{Anchor, Hue, Mark};
-use super::super::needs::shape_names;
-use super::super::scale::{Axis, Ruler};
-use super::super::words::count;
-use super::words::number;
+use super::format::{number, passes_nothing};
 use super::{Inspected, cut, edge, label, line, shown};
 use crate::csg::{Figure, Operation, What};
 use crate::language::{say, word};
+use crate::view::charts::axis::{Axis, Ruler};
+use crate::view::draw::display_list::{Anchor, Hue, Mark};
+use crate::view::text::format::count;
+use crate::view::text::scene_stats::shape_names;
 
 /// The spans as they are drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,11 +160,6 @@ impl Inspected {
             }
         }
     }
-}
-
-/// There are no stays.
-pub(super) fn passes_nothing() -> &'static str {
-    word!("It passes no solid.", "Não passa por nenhum sólido.")
 }
 
 /// A stay that ends nearer to where the drawing begins, in parts of its distances, only touches that place.

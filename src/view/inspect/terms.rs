@@ -4,11 +4,11 @@
 
 use glam::DVec3;
 
-use super::super::display::{Anchor, Hue, Mark, Point};
-use super::words::share_words;
+use super::format::share_words;
 use super::{Inspected, brightness, label, line, shown, swatch};
 use crate::language::{decimal, word};
 use crate::tracer::RayKind;
+use crate::view::draw::display_list::{Anchor, Hue, Mark, Point};
 
 /// A term of the equation of one ray.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::super::words::{count, counted};
-use super::spans::passes_nothing;
+use super::format::{kind_word, number, passes_nothing, share_words};
 use super::{Inspected, shown};
-use crate::language::{comma, decimal, say, word};
+use crate::language::{decimal, say, word};
 use crate::tracer::{RayKind, RayNotes};
+use crate::view::text::format::{count, counted};
 
 impl Inspected {
     /// Why the pixel took as long as it did: its rays, its samples, and what was left out.
@@ -227,42 +227,6 @@ fn big(number: u64) -> String {
 
 fn several_rays(number: u64) -> String {
     counted(u32::try_from(number).unwrap_or(u32::MAX), word!("ray", "raio"))
-}
-
-/// How a ray came.
-pub(super) fn kind_word(kind: RayKind) -> &'static str {
-    match kind {
-        RayKind::Primary => word!("primary", "primário"),
-        RayKind::Shadow => word!("to a light", "a uma luz"),
-        RayKind::Reflected => word!("reflected", "refletido"),
-        RayKind::Refracted => word!("through a surface", "através de uma superfície"),
-    }
-}
-
-/// A part of a whole, as exactly as it matters: `88 %`, `2.1 %`, `0.03 %`.
-pub(super) fn share_words(part: f64) -> String {
-    let percent = 100.0 * part;
-    match percent.abs() {
-        0.0 => "0 %".into(),
-        0.0..0.005 => word!("< 0.01 %", "< 0,01 %").into(),
-        0.005..0.095 => format!("{} %", decimal(percent, 2)),
-        0.095..9.95 => format!("{} %", decimal(percent, 1)),
-        _ => format!("{percent:.0} %"),
-    }
-}
-
-/// A distance to four digits or so.
-pub(super) fn number(value: f64) -> String {
-    match value.abs() {
-        f64::INFINITY if value < 0.0 => "−∞".into(),
-        f64::INFINITY => "∞".into(),
-        0.0 => "0".into(),
-        0.001..10.0 => decimal(value, 3),
-        10.0..100.0 => decimal(value, 2),
-        100.0..100_000.0 => decimal(value, 1),
-        _ => comma(format!("{value:.2e}")),
-    }
-    .replace('-', "−")
 }
 
 #[cfg(test)]

@@ -1,0 +1,8 @@
+//! Keys, menus, and what the pointer selects.
+
+pub mod keys;
+pub mod machine_menu;
+pub mod message_menu;
+pub mod rate_menu;
+pub mod selection;
+pub mod zoom;

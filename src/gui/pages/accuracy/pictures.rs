@@ -1,0 +1,190 @@
+//! A picture beside the reference, or how far it is from it.
+
+use egui::{Align2, Color32, ColorImage, Event, Key, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui};
+use egui::{EventFilter, WidgetInfo, pos2, vec2};
+
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{self, choice};
+use crate::language::{comma, say, word};
+use crate::palette::Rgb;
+use crate::picture::{Frame, srgb8};
+use crate::view::{ERRORS, false_colours, place_of_error, ramp};
+
+/// What is shown of a point, and its textures.
+pub struct Pictures {
+    shown: Shown,
+    /// Where the reference begins, as a share of the width.
+    divider: f32,
+    textures: Option<Textures>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shown {
+    Both,
+    Difference,
+}
+
+/// The pictures of one point.
+struct Textures {
+    /// Of which point of which measurement.
+    of: (u64, usize),
+    picture: TextureHandle,
+    reference: TextureHandle,
+    difference: TextureHandle,
+}
+
+impl Default for Pictures {
+    fn default() -> Self {
+        Self { shown: Shown::Both, divider: 0.5, textures: None }
+    }
+}
+
+/// What stands above and below the picture, in points.
+const AROUND: f32 = 10.0 * GRID;
+
+impl Pictures {
+    /// Shows the picture of a point, no higher than `height` with all that belongs to it; `of` tells it from others.
+    pub fn show(&mut self, ui: &mut Ui, of: (u64, usize), picture: &Frame, reference: &Frame, height: f32) {
+        let look = Look::of(ui.ctx());
+        let all = [
+            (
+                Shown::Both,
+                word!("Beside the reference", "Com a referência"),
+                word!(
+                    "Drag the line: left of it the chosen quality, right of it the reference",
+                    "Arrastar a linha: à esquerda a qualidade escolhida, à direita a referência"
+                ),
+            ),
+            (
+                Shown::Difference,
+                word!("Difference", "Diferença"),
+                word!("How far each pixel is from the reference", "O quanto cada pixel difere da referência"),
+            ),
+        ];
+        if let Some(shown) = choice(ui, self.shown, &all) {
+            self.shown = shown;
+        }
+        let size = vec2(picture.size().width() as f32, picture.size().height() as f32);
+        let room = vec2(ui.available_width(), (height - AROUND).max(8.0 * GRID));
+        let shown = size * (room.x / size.x).min(room.y / size.y);
+        let (place, response) = ui.allocate_exact_size(shown, Sense::click_and_drag());
+        let textures = match self.textures.take().filter(|textures| textures.of == of) {
+            Some(textures) => textures,
+            None => Textures::new(ui, of, picture, reference),
+        };
+        match self.shown {
+            Shown::Both => {
+                self.move_divider(ui, &response, place);
+                self.both(ui, &textures, place, look);
+                let value = f64::from(100.0 * self.divider);
+                let name = word!("Divider of the pictures", "Divisória das imagens");
+                response.widget_info(|| WidgetInfo::slider(true, value, name));
+                response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
+                ui.add_space(legend_height());
+            }
+            Shown::Difference => {
+                whole(ui, &textures.difference, place, 0.0..1.0);
+                let name = word!("Difference from the reference", "Diferença da referência");
+                widgets::describe(&response, name, || word!("in false colour", "em cores falsas").into());
+                legend(ui, place.width(), look);
+            }
+        }
+        self.textures = Some(textures);
+    }
+
+    fn move_divider(&mut self, ui: &Ui, response: &egui::Response, place: Rect) {
+        if let Some(at) = response.interact_pointer_pos() {
+            self.divider = (at.x - place.left()) / place.width();
+        }
+        if response.has_focus() {
+            let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+            let pressed = |wanted| {
+                let is_it = |event: &Event| matches!(event, Event::Key { key, pressed: true, .. } if *key == wanted);
+                ui.input(|input| input.events.iter().filter(|event| is_it(event)).count()) as f32
+            };
+            self.divider += 0.05 * (pressed(Key::ArrowRight) - pressed(Key::ArrowLeft));
+        }
+        self.divider = self.divider.clamp(0.0, 1.0);
+    }
+
+    fn both(&self, ui: &Ui, textures: &Textures, place: Rect, look: Look) {
+        whole(ui, &textures.reference, place, 0.0..1.0);
+        whole(ui, &textures.picture, place, 0.0..self.divider);
+        let x = place.left() + place.width() * self.divider;
+        let painter = ui.painter_at(place);
+        // Seen on bright pictures and on dark ones.
+        painter.vline(x, place.y_range(), Stroke::new(4.0, Color32::from_black_alpha(160)));
+        painter.vline(x, place.y_range(), Stroke::new(2.0, Color32::WHITE));
+        painter.circle(pos2(x, place.center().y), 9.0, look.accent, Stroke::new(2.0, Color32::WHITE));
+        let top = place.top() + GRID;
+        let [left, right] = [place.with_max_x(x), place.with_min_x(x)].map(|side| painter.with_clip_rect(side));
+        let [chosen, reference] = word!(["chosen", "reference"], ["escolhida", "referência"]);
+        label(&left, pos2(place.left() + GRID, top), Align2::LEFT_TOP, chosen);
+        label(&right, pos2(place.right() - GRID, top), Align2::RIGHT_TOP, reference);
+    }
+}
+
+impl Textures {
+    fn new(ui: &Ui, of: (u64, usize), picture: &Frame, reference: &Frame) -> Self {
+        let size = [picture.size().width() as usize, picture.size().height() as usize];
+        // Pixels are what one looks at here.
+        let load = |name: &str, pixels: Vec<Rgb>| {
+            let image = ColorImage::new(size, pixels.into_iter().map(theme::colour).collect());
+            ui.ctx().load_texture(name, image, TextureOptions::NEAREST)
+        };
+        let shown = |frame: &Frame| frame.pixels().iter().map(|&pixel| srgb8(pixel)).collect();
+        Self {
+            of,
+            picture: load("chosen", shown(picture)),
+            reference: load("reference", shown(reference)),
+            difference: load("difference", false_colours(picture, reference)),
+        }
+    }
+}
+
+/// Paints a part of a texture, in shares of its width, where the whole would be in `place`.
+fn whole(ui: &Ui, texture: &TextureHandle, place: Rect, part: std::ops::Range<f32>) {
+    let x = |share: f32| place.left() + place.width() * share;
+    let shown = Rect::from_x_y_ranges(x(part.start)..=x(part.end), place.y_range());
+    let uv = Rect::from_min_max(pos2(part.start, 0.0), pos2(part.end, 1.0));
+    ui.painter().image(texture.id(), shown, uv, Color32::WHITE);
+}
+
+/// Words on a picture.
+fn label(painter: &egui::Painter, at: egui::Pos2, anchor: Align2, text: &str) {
+    let galley = painter.layout_no_wrap(text.into(), theme::regular(theme::SMALL), Color32::WHITE);
+    let place = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(150));
+    painter.galley(place.min, galley, Color32::WHITE);
+}
+
+fn legend_height() -> f32 {
+    4.0 * GRID
+}
+
+/// The ramp of errors, with some of them beside it.
+fn legend(ui: &mut Ui, width: f32, look: Look) {
+    const STEPS: usize = 64;
+    let (place, response) = ui.allocate_exact_size(vec2(width, legend_height()), Sense::hover());
+    widgets::describe(&response, word!("Colours of errors", "Cores dos erros"), || {
+        word!("from 0.001 to 1, on a logarithmic scale", "de 0,001 a 1, em escala logarítmica").into()
+    });
+    let bar = place.with_max_y(place.top() + GRID);
+    let at = |share: f64| bar.left() + bar.width() * share as f32;
+    for i in 0..STEPS {
+        let [from, to] = [i, i + 1].map(|i| i as f64 / STEPS as f64);
+        let step = Rect::from_x_y_ranges(at(from)..=at(to) + 0.5, bar.y_range());
+        ui.painter().rect_filled(step, 0.0, theme::colour(ramp((from + to) / 2.0)));
+    }
+    let font = theme::regular(theme::SMALL);
+    for (i, error) in ERRORS.into_iter().enumerate() {
+        let number = comma(error.to_string());
+        let (text, anchor) = match i {
+            0 => (say!("error {number}", "erro {number}"), Align2::LEFT_TOP),
+            _ if i + 1 == ERRORS.len() => (say!("{number} (linear light)", "{number} (luz linear)"), Align2::RIGHT_TOP),
+            _ => (number, Align2::CENTER_TOP),
+        };
+        ui.painter().text(pos2(at(place_of_error(error)), bar.bottom() + 3.0), anchor, text, font.clone(), look.quiet);
+    }
+}

@@ -1,0 +1,207 @@
+//! What can be added to a comparison: another strategy, or a run with one thing changed.
+
+use std::time::Duration;
+
+use egui::{
+    Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
+
+use crate::balance::{NodeId, Remedy, Strategy};
+use crate::gui::settings::Settings;
+use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{Weight, button, named_button, popup_frame};
+use crate::language::{say, word};
+use crate::sim::{Change, Trial};
+use crate::time::Time;
+use crate::view::{change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words};
+
+/// A menu of strategies; returns what was chosen.
+pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Change> {
+    if strategies.is_empty() {
+        return None;
+    }
+    let opener = named_button(
+        ui,
+        None,
+        word!("Add a run", "Acrescentar uma execução"),
+        Some(word!("Add …", "Acrescentar …")),
+        Weight::Quiet,
+    );
+    let changes = strategies.iter().map(|&strategy| (Change::Strategy(strategy), false)).collect();
+    menu(&opener, |ui| row(ui, "", changes, look))
+}
+
+/// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
+/// changed from the shown time on, too, if the run goes on then: until then both runs are the same.
+pub fn changes(
+    ui: &mut Ui,
+    letter: char,
+    trial: &Trial,
+    now: Option<Time>,
+    has_room: bool,
+    look: Look,
+) -> Option<Change> {
+    let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
+    let (icon, words) =
+        if has_room { (None, Some(word!("Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
+    let opener = named_button(ui, icon, &name, words, Weight::Quiet).on_hover_text(&name);
+    let nodes = trial.header.speeds.len();
+    menu(&opener, |ui| {
+        // Which machine: the last, unless somebody has gone on to another.
+        let id = opener.id.with("machine");
+        let last = nodes.saturating_sub(1);
+        let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
+        let mut chosen = None;
+        for (group, changes) in possible(trial) {
+            chosen = chosen.or(row(ui, group, changes, look));
+        }
+        ui.horizontal(|ui| {
+            heading(ui, word!("A machine", "Uma máquina"), look);
+            let before = button(
+                ui,
+                Some(Icon::StepBack),
+                word!("The machine before", "A máquina anterior"),
+                false,
+                Weight::Quiet,
+            );
+            if before.clicked() {
+                node = (node + last) % nodes;
+            }
+            let number = RichText::new(node_name(node as NodeId).to_string());
+            ui.label(number.font(theme::strong(theme::BODY)).color(look.text));
+            if button(ui, Some(Icon::StepOn), word!("The next machine", "A próxima máquina"), false, Weight::Quiet)
+                .clicked()
+            {
+                node = (node + 1) % nodes;
+            }
+        });
+        ui.data_mut(|data| data.insert_temp(id, node));
+        let node = node as NodeId;
+        let speeds = [0.0, 0.01, 0.05, 0.1, 0.5, 1.0];
+        let at_first = trial.header.speeds[usize::from(node)];
+        let always = values(&speeds, at_first, |speed| Change::Speed(node, speed));
+        chosen = chosen.or(row(ui, word!("all along", "o tempo todo"), always, look));
+        if let Some(now) = now {
+            let at = time_words(now, 1.0);
+            let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
+            chosen = chosen.or(row(ui, &say!("from {at} on", "a partir de {at}"), later, look));
+        }
+        chosen
+    })
+}
+
+/// A change, and whether it is so already.
+type Choice = (Change, bool);
+
+/// What can be changed, by what it is about.
+fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
+    let header = &trial.header;
+    let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
+    let lacks = |remedy| (Change::Without(remedy), !header.rules.remedies.has(remedy));
+    let remedies = if header.rules.strategy == Strategy::Adaptive { Remedy::ALL.map(lacks).into() } else { Vec::new() };
+    let mut machines = values(&[1, 2, 3, 4, 5, 8, 16, 32], header.speeds.len(), Change::Nodes);
+    if header.speeds.iter().any(|&speed| speed < 1.0) {
+        machines.push((Change::Equal, false));
+    }
+    let atoms = [5, 20, 50, 200, 1000, 5000].into_iter();
+    let atoms: Vec<_> = atoms.filter(|pixels| header.size.pixels() / pixels <= Settings::MOST_ATOMS).collect();
+    let atoms = values(&atoms, header.division.atom_pixels(), Change::Atom);
+    let ms = Duration::from_millis;
+    let latencies = values(&[0, 5, 40, 200, 1000].map(ms), header.link.latency, Change::Latency);
+    let handlings = values(&[0, 2, 20, 100].map(ms), header.handling, Change::Handling);
+    vec![
+        (word!("Strategy", "Estratégia"), strategies.into()),
+        (word!("Without", "Sem"), remedies),
+        (word!("Machines", "Máquinas"), machines),
+        (word!("Pixels in an atom", "Pixels por átomo"), atoms),
+        (word!("A message takes", "Uma mensagem leva"), latencies),
+        (word!("The parent takes", "O pai leva"), handlings),
+    ]
+}
+
+/// What something can be, ascending, and among it what it is.
+fn values<T: Copy + PartialOrd>(offered: &[T], present: T, change: impl Fn(T) -> Change) -> Vec<Choice> {
+    let (below, from) = offered.split_at(offered.partition_point(|value| *value < present));
+    let above = from.iter().filter(|value| **value > present);
+    let choice = |value: &T| (change(*value), false);
+    below.iter().map(choice).chain([(change(present), true)]).chain(above.map(choice)).collect()
+}
+
+/// A menu that closes when something is chosen.
+fn menu(opener: &Response, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
+    let popup = Popup::from_toggle_button_response(opener).frame(popup_frame(&opener.ctx));
+    let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
+        ui.set_width(80.0 * GRID);
+        ui.spacing_mut().item_spacing = vec2(GRID / 2.0, 0.0);
+        let chosen = content(ui);
+        if chosen.is_some() {
+            ui.close();
+        }
+        chosen
+    });
+    shown.and_then(|shown| shown.inner)
+}
+
+/// What a row is about.
+fn heading(ui: &mut Ui, words: &str, look: Look) {
+    let (rect, _) = ui.allocate_exact_size(vec2(17.0 * GRID, 4.0 * GRID), Sense::hover());
+    let galley = ui.painter().layout_no_wrap(words.to_owned(), theme::regular(theme::SMALL), look.quiet);
+    ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, look.quiet);
+}
+
+/// Changes of one thing, in a line, or in two.
+fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Change> {
+    let mut chosen = None;
+    if !changes.is_empty() {
+        ui.horizontal_top(|ui| {
+            if !group.is_empty() {
+                heading(ui, group, look);
+            }
+            // Whatever needs a second line stands below the first, not below the heading.
+            ui.horizontal_wrapped(|ui| {
+                for (change, is_so) in changes {
+                    if item(ui, change, is_so, look).clicked() {
+                        chosen = Some(change);
+                    }
+                }
+            });
+        });
+    }
+    chosen
+}
+
+/// Says only what its row does not say.
+fn short(change: Change) -> String {
+    match change {
+        Change::Nodes(nodes) => nodes.to_string(),
+        Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
+        Change::Atom(pixels) => count(pixels),
+        Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!("no time", "nada").to_owned(),
+        Change::Latency(time) | Change::Handling(time) => duration(time),
+        Change::Without(remedy) => remedy_name(remedy).to_owned(),
+        Change::Strategy(_) | Change::Equal => change_words(change),
+    }
+}
+
+/// A change to press; what is so already only stands out.
+fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look) -> Response {
+    let galley = ui.painter().layout_no_wrap(short(change), theme::regular(theme::BODY), look.text);
+    let sense = if is_so { Sense::hover() } else { Sense::click() };
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), sense);
+    let (role, now) = if is_so { (Role::Label, word!(", now", ", agora")) } else { (Role::Button, "") };
+    response.widget_info(|| WidgetInfo::labeled(role, true, change_words(change) + now));
+    if is_so {
+        let stroke = Stroke::new(1.5, look.accent);
+        ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 2.0)), 6.0, stroke, StrokeKind::Inside);
+    } else if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 6.0, look.raised);
+    }
+    let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(place, galley, look.text);
+    match change {
+        Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy)),
+        _ if is_so => response.on_hover_text(word!("As it is now", "Como está agora")),
+        _ => response,
+    }
+}

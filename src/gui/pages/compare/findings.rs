@@ -1,0 +1,217 @@
+//! What comes of a comparison: when who did what, where the time went, how strategies grow, and why two runs differ.
+
+use egui::{RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+
+use super::columns::letter;
+use super::growth::{self, Measure};
+use super::{Entry, lanes};
+use crate::gui::session::Growth;
+use crate::gui::widgets;
+use crate::gui::widgets::paint::{Inks, paint};
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::language::{say, word};
+use crate::time::Time;
+use crate::view::{Account, Named, contrast, count, duration, fraction, spent, spent_height, spent_words};
+
+/// What is shown of all runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Tab {
+    /// A lane a machine, on one axis of time.
+    #[default]
+    Lanes,
+    /// Where the time went.
+    Spent,
+    /// What comes of more machines.
+    Growth(Measure),
+}
+
+/// What is chosen.
+#[derive(Default)]
+pub struct Findings {
+    tab: Tab,
+    /// The runs of which is told why they differ.
+    pub pair: [usize; 2],
+}
+
+impl Findings {
+    /// Whether it is to be known how strategies grow.
+    pub fn wants_growth(&self) -> bool {
+        matches!(self.tab, Tab::Growth(_))
+    }
+
+    /// The height that they want of so much, the same whatever is shown.
+    pub fn height(all: f32) -> f32 {
+        (0.47 * all).clamp(30.0 * GRID, 52.0 * GRID)
+    }
+
+    /// Shows them in what room there is. Returns the time that somebody points to with a button down.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        entries: &mut [Entry],
+        growth: Option<&Growth>,
+        now: Time,
+        length: Time,
+        look: Look,
+    ) -> Option<Time> {
+        let mut sought = None;
+        let area = ui.available_rect_before_wrap();
+        let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID);
+        let left = area.with_max_x(area.right() - right - 3.0 * GRID);
+        let right = area.with_min_x(area.right() - right);
+        ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
+            let tabs = [
+                (
+                    Tab::Lanes,
+                    word!("Timelines", "Linhas do tempo"),
+                    word!("Who did what and when", "Quem fez o quê e quando"),
+                ),
+                (
+                    Tab::Spent,
+                    word!("Where the time went", "Para onde foi o tempo"),
+                    word!("Work, waiting, messages", "Trabalho, espera, mensagens"),
+                ),
+                (
+                    Tab::Growth(Measure::Speedup),
+                    "Speedup",
+                    word!("With one machine to eight", "Com uma a oito máquinas"),
+                ),
+                (
+                    Tab::Growth(Measure::Efficiency),
+                    word!("Efficiency", "Eficiência"),
+                    word!("With one machine to eight", "Com uma a oito máquinas"),
+                ),
+            ];
+            if let Some(tab) = widgets::choice(ui, self.tab, &tabs) {
+                self.tab = tab;
+            }
+            ui.add_space(GRID);
+            match self.tab {
+                Tab::Lanes => sought = lanes::show(ui, entries, now, length, look),
+                Tab::Spent => where_time_went(ui, entries, look),
+                Tab::Growth(measure) => growth::show(ui, growth, entries, measure, look),
+            }
+        });
+        ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look));
+        sought
+    }
+
+    /// Why two of them differ, and the figures of both.
+    fn why(&self, ui: &mut Ui, entries: &[Entry], look: Look) {
+        let known = |place: usize| {
+            let contender = entries.get(place)?.contender.as_ref()?;
+            Some((letter(place), contender))
+        };
+        let (Some((a, one)), Some((b, other))) = (known(self.pair[0]), known(self.pair[1])) else { return };
+        let heading = say!("{a} and {b}: why they differ", "{a} e {b}: por que diferem");
+        ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
+        ui.add_space(GRID / 2.0);
+        ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
+            let text = match (&one.account, &other.account) {
+                (Some(first), Some(second)) => {
+                    contrast(Named { name: &one.name, account: first }, Named { name: &other.name, account: second })
+                }
+                _ => {
+                    let name = if one.account.is_none() { &one.name } else { &other.name };
+                    say!(
+                        "{name} never ends: a machine that stands still keeps its atoms.",
+                        "{name} nunca termina: uma máquina parada fica com seus átomos."
+                    )
+                }
+            };
+            ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
+            ui.add_space(GRID);
+            figures(ui, [(a, one.account.as_ref()), (b, other.account.as_ref())], look);
+        });
+    }
+}
+
+/// A row a figure, a column a run.
+fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
+    /// What it is called, what it is, and how much.
+    type Figure = ([&'static str; 2], fn(&Account) -> String);
+    let all: [Figure; 7] = [
+        (word!(["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]), |account| {
+            duration(account.makespan)
+        }),
+        (
+            word!(
+                ["shared perfectly", "Had all machines worked until the end"],
+                ["divisão perfeita", "Se todas as máquinas trabalhassem até o fim"]
+            ),
+            |account| duration(account.ideal),
+        ),
+        (
+            word!(
+                ["efficiency", "The time if it were shared perfectly, over the time"],
+                ["eficiência", "O tempo da divisão perfeita sobre o tempo"]
+            ),
+            |account| fraction(account.efficiency()),
+        ),
+        (
+            word!(
+                ["messages to share", "Bands, requests, parts, offers and atoms given away"],
+                ["mensagens de divisão", "Faixas, pedidos, partes, ofertas e átomos cedidos"]
+            ),
+            |account| count(account.messages.sharing() as u32),
+        ),
+        (
+            word!(
+                [
+                    "messages with results",
+                    "What a machine has traced goes to the parent in small batches, so that one sees the picture grow. A slow \
+                     machine's atoms go one by one: the more of them it traces, the more messages, whoever shares",
+                ],
+                [
+                    "mensagens de resultados",
+                    "O que uma máquina calculou vai ao pai em pequenos lotes, para que se veja a imagem crescer. Os átomos de \
+                     uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
+                ]
+            ),
+            |account| count(account.messages.results as u32),
+        ),
+        (
+            word!(["atoms given away", "From one machine to another"], ["átomos cedidos", "De uma máquina a outra"]),
+            |account| count(account.messages.atoms_moved as u32),
+        ),
+        (
+            word!(
+                ["alone at the end", "While only one machine still traced"],
+                ["sozinha no fim", "Enquanto só uma máquina ainda calculava"]
+            ),
+            |account| duration(account.last.alone),
+        ),
+    ];
+    let font = theme::regular(theme::SMALL);
+    let row = |ui: &mut Ui, name: &str, values: [String; 2]| {
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
+        ui.spacing_mut().item_spacing.y = 0.0;
+        widgets::describe(&response, name, || values.join("; "));
+        let painter = ui.painter();
+        painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font.clone(), look.quiet);
+        for (value, right) in values.into_iter().zip([11.0 * GRID, 0.0]) {
+            let at = pos2(rect.right() - GRID - right, rect.center().y);
+            painter.text(at, egui::Align2::RIGHT_CENTER, value, font.clone(), look.text);
+        }
+        response
+    };
+    row(ui, "", runs.map(|(letter, _)| letter.to_string()));
+    for ([name, hint], of) in all {
+        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), of))).on_hover_text(hint);
+    }
+}
+
+/// Bars of what the machines' time was spent on.
+fn where_time_went(ui: &mut Ui, entries: &[Entry], look: Look) {
+    let names: Vec<String> =
+        (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name())).collect();
+    let accounts = entries.iter().map(|entry| entry.contender.as_ref()?.account.as_ref());
+    let runs: Vec<(&str, &Account)> =
+        names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
+    ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
+        let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        widgets::describe(&response, word!("Where the time went", "Para onde foi o tempo"), || spent_words(&runs));
+        paint(ui.painter(), rect.min, &spent(&runs, rect.width()), &Inks { look, nodes: &[] });
+    });
+}

@@ -1,0 +1,227 @@
+//! Scenes to choose from, as small pictures; and a path, a dialog, or a file dropped on the window for all others.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Align2, Color32, ColorImage, Label, Rect, RichText, ScrollArea, Sense, StrokeKind};
+use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
+
+use crate::gui::panels::save_bar::resolve;
+use crate::gui::session::Thumbnail;
+use crate::gui::session::{Purpose, Session};
+use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{Weight, button, path_field};
+use crate::language::{say, word};
+use crate::scene::BUILT_IN;
+
+/// The page of scenes.
+#[derive(Default)]
+pub struct Gallery {
+    open: bool,
+    wants_focus: bool,
+    path: String,
+    trouble: Option<String>,
+    tiles: Vec<Tile>,
+}
+
+struct Tile {
+    /// A name or a path.
+    scene: String,
+    picture: Picture,
+}
+
+enum Picture {
+    Pending,
+    There(TextureHandle),
+    /// Why there is none.
+    None(String),
+}
+
+impl Gallery {
+    /// Opens the page, and has small pictures made of what is new, or closes it.
+    pub fn toggle(&mut self, session: &Session) {
+        self.open = !self.open;
+        (self.wants_focus, self.trouble) = (self.open, None);
+        if !self.open {
+            return;
+        }
+        let known = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
+        let recent = session.recent().iter().filter(|path| path.ends_with(".ron")).cloned();
+        let mut scenes: Vec<_> = known.chain(recent).collect();
+        for old in std::mem::take(&mut self.tiles) {
+            // A file may have changed since.
+            let built_in = BUILT_IN.iter().any(|(name, _)| *name == old.scene);
+            if built_in && matches!(old.picture, Picture::There(_)) {
+                scenes.retain(|scene| *scene != old.scene);
+                self.tiles.push(old);
+            }
+        }
+        self.tiles.extend(scenes.iter().map(|scene| Tile { scene: scene.clone(), picture: Picture::Pending }));
+        if !scenes.is_empty() {
+            session.jobs().thumbnails(scenes);
+        }
+    }
+
+    /// Whether the page is to be shown.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Closes it.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Takes in a small picture.
+    pub fn take_thumbnail(&mut self, ctx: &egui::Context, scene: &str, made: Result<Thumbnail, String>) {
+        if let Some(tile) = self.tiles.iter_mut().find(|tile| tile.scene == scene) {
+            tile.picture = match made {
+                Ok(Thumbnail { size, rgb }) => {
+                    let image = ColorImage::from_rgb([size.width() as usize, size.height() as usize], &rgb);
+                    Picture::There(ctx.load_texture(scene, image, TextureOptions::LINEAR))
+                }
+                Err(why) => Picture::None(why),
+            };
+        }
+    }
+
+    /// Takes in what was chosen in the system's dialog.
+    pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
+        match chosen {
+            Some(path) => {
+                self.open = false;
+                session.open(&path.to_string_lossy());
+            }
+            None => {
+                let trouble = word!(
+                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
+                    "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
+                );
+                self.trouble = Some(trouble.into());
+            }
+        }
+    }
+
+    /// Shows the page.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let look = Look::of(ui.ctx());
+        self.path_row(ui, session, look);
+        if let Some(trouble) = &self.trouble {
+            let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(look.trouble);
+            ui.add(Label::new(text).wrap());
+        }
+        ui.add_space(GRID);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.tiles(ui, session, look));
+    }
+
+    fn path_row(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(word!("Scenes", "Cenas")).font(theme::strong(theme::LARGE)).color(look.text));
+            ui.add_space(GRID);
+            let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
+            let hint = word!(
+                "path of a scene, a lesson (.ron) or a run (.anel)",
+                "caminho de uma cena, lição (.ron) ou execução (.anel)"
+            );
+            let name = word!("What to open", "O que abrir");
+            let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);
+            if field.changed {
+                self.trouble = None;
+            }
+            if button(ui, None, word!("Open", "Abrir"), true, Weight::Primary).clicked() || field.entered {
+                match resolve(&self.path, std::env::home_dir()) {
+                    Ok(path) => {
+                        self.open = false;
+                        session.open(&path.to_string_lossy());
+                    }
+                    Err(why) => self.trouble = Some(why),
+                }
+            }
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
+                let directory = std::env::current_dir().unwrap_or_default();
+                session.jobs().choose(Purpose::Open, directory.join("scene"));
+            }
+            if button(ui, Some(Icon::Close), word!("Close scenes", "Fechar cenas"), false, Weight::Quiet).clicked() {
+                self.open = false;
+            }
+        });
+        ui.horizontal(|ui| {
+            let text = word!("Or drop a file on the window.", "Ou soltar um arquivo na janela.");
+            ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
+            let last =
+                session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
+            let name = word!("Open the run saved last", "Abrir a última execução salva");
+            if let Some(last) = last
+                && button(ui, None, name, true, Weight::Quiet).on_hover_text(&last).clicked()
+            {
+                self.open = false;
+                session.open(&last);
+            }
+        });
+    }
+
+    fn tiles(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+        const LEAST: f32 = 34.0 * GRID;
+        const GAP: f32 = 2.0 * GRID;
+        let room = ui.available_width() - GRID;
+        let columns = (((room + GAP) / (LEAST + GAP)) as usize).clamp(1, 5);
+        let width = (room + GAP) / columns as f32 - GAP;
+        let (height, caption) = (width * 0.75, 4.0 * GRID);
+        let lines = self.tiles.len().div_ceil(columns);
+        let (area, _) = ui.allocate_exact_size(vec2(room, lines as f32 * (height + caption + GAP)), Sense::hover());
+        let mut opened = None;
+        for (i, tile) in self.tiles.iter().enumerate() {
+            let corner =
+                area.min + vec2((i % columns) as f32 * (width + GAP), (i / columns) as f32 * (height + caption + GAP));
+            let place = Rect::from_min_size(corner, vec2(width, height + caption));
+            let response = ui.interact(place, ui.scope_id().with(("tile", &tile.scene)), Sense::click());
+            let name = name_of(&tile.scene);
+            let open = say!("Open {name}", "Abrir {name}");
+            response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &open));
+            let picture = place.with_max_y(place.top() + height);
+            let painter = ui.painter();
+            painter.rect_filled(picture, 6.0, look.raised);
+            match &tile.picture {
+                Picture::There(texture) => {
+                    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                    painter.image(texture.id(), picture, whole, Color32::WHITE);
+                }
+                Picture::Pending => {
+                    let (at, font) = (picture.center(), theme::regular(theme::SMALL));
+                    let words = word!("is being traced …", "sendo calculada …");
+                    painter.text(at, Align2::CENTER_CENTER, words, font, look.quiet);
+                }
+                Picture::None(why) => {
+                    let font = theme::regular(theme::SMALL);
+                    let colour = look.trouble;
+                    let galley = painter.layout(why.clone(), font, colour, width - 2.0 * GRID);
+                    painter.with_clip_rect(picture).galley(picture.min + vec2(GRID, GRID), galley, colour);
+                }
+            }
+            let on = session.header().scene == name;
+            let line = match (on, response.hovered() || response.has_focus()) {
+                (_, true) => Some((2.0, look.accent)),
+                (true, false) => Some((2.0, look.text)),
+                _ => None,
+            };
+            if let Some((width, colour)) = line {
+                painter.rect_stroke(picture, 6.0, egui::Stroke::new(width, colour), StrokeKind::Outside);
+            }
+            let at = pos2(place.left(), place.bottom() - caption / 2.0);
+            painter.text(at, Align2::LEFT_CENTER, &name, theme::strong(theme::BODY), look.text);
+            if response.on_hover_text(&tile.scene).clicked() {
+                opened = Some(tile.scene.clone());
+            }
+        }
+        if let Some(scene) = opened {
+            self.open = false;
+            session.open(&scene);
+        }
+    }
+}
+
+/// A scene's name, without directories and ending.
+fn name_of(scene: &str) -> String {
+    let stem = Path::new(scene).file_stem();
+    stem.map_or_else(|| scene.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

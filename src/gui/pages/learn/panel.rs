@@ -1,0 +1,187 @@
+//! The step of a lesson: what is said, what is asked, and the way on.
+
+use std::ops::Range;
+
+use egui::{Align, Color32, FontId, Label, Layout, RichText, TextStyle, Ui, UiBuilder, Vec2, vec2};
+
+use super::course::Course;
+use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{Weight, button, named_button};
+use crate::language::{say, word};
+use crate::lesson::Question;
+
+/// What is to be done.
+pub enum Asked {
+    /// The step before.
+    Back,
+    /// The next step.
+    Next,
+    /// The question's answer.
+    Answer(usize),
+    /// The lesson is over.
+    Leave,
+}
+
+/// Whatever is said, it is not lower.
+const LEAST: f32 = 11.0 * GRID;
+/// Between two answers, and between two rows of them.
+const GAP: Vec2 = vec2(GRID, GRID / 2.0);
+
+/// How high the panel is, of this width. Where there is room enough, it has room for what is said once a question is
+/// answered, so that nothing moves then.
+pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
+    let (width, gap) = (width - buttons(ui, course), ui.spacing().item_spacing.y);
+    let high = |text: &str, font: FontId| {
+        ui.painter().layout(text.to_owned(), font, Color32::PLACEHOLDER, width).size().y + gap
+    };
+    let said = course.say();
+    let mut all =
+        high(&heading(course), theme::regular(theme::SMALL)) + high(said, theme::strong(size(said, width, ui)));
+    if let Some((question, answer)) = course.question() {
+        let is_high = ui.ctx().content_rect().height() > 700.0;
+        all += GRID / 2.0 + high(question.question.spoken(), theme::strong(theme::BODY));
+        if is_high || answer.is_some() {
+            all += high(question.because.spoken(), theme::regular(theme::BODY));
+            all += checked(ui, course).map_or(0.0, |checked| high(&checked, theme::regular(theme::SMALL)));
+        }
+        all += rows(ui, width, question).len() as f32 * (4.0 * GRID + GAP.y) + gap;
+    }
+    all.max(LEAST)
+}
+
+/// How wide the part is in which the buttons stand, and what is before it.
+fn buttons(ui: &Ui, course: &Course) -> f32 {
+    // Two icons, the way on with its icon, and what is between them.
+    2.0 * GRID + 4.0 * GRID + 4.0 * GRID + (6.0 * GRID + wide(ui, next(course))) + 2.0 * ui.spacing().item_spacing.x
+}
+
+/// How wide these words are on a button.
+fn wide(ui: &Ui, words: &str) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    ui.painter().layout_no_wrap(words.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
+/// Which answers stand in each row, also once they are marked.
+fn rows(ui: &Ui, width: f32, question: &Question) -> Vec<Range<usize>> {
+    let mut rows: Vec<Range<usize>> = Vec::new();
+    let mut x = 0.0;
+    for (place, answer) in question.answers.iter().enumerate() {
+        let words = answer.spoken();
+        let forms = [format!("{} {words}", place + 1), marked(words, true), marked(words, false)];
+        let wide = forms.iter().map(|form| wide(ui, form)).fold(0.0, f32::max) + 3.0 * GRID;
+        match rows.last_mut() {
+            Some(row) if x + wide <= width => row.end = place + 1,
+            _ => {
+                rows.push(place..place + 1);
+                x = 0.0;
+            }
+        }
+        x += wide + GAP.x;
+    }
+    rows
+}
+
+/// An answer once one is given.
+fn marked(answer: &str, is_right: bool) -> String {
+    if is_right { say!("Right: {answer}", "Certo: {answer}") } else { say!("Not so: {answer}", "Não: {answer}") }
+}
+
+/// What the step's claims came to, unless the picture needs the room more.
+fn checked(ui: &Ui, course: &Course) -> Option<String> {
+    course.checked().filter(|_| ui.ctx().content_rect().height() > 560.0)
+}
+
+/// What leads on.
+fn next(course: &Course) -> &'static str {
+    if course.is_over() { word!("Other lessons", "Outras lições") } else { word!("Next", "Avançar") }
+}
+
+fn heading(course: &Course) -> String {
+    let (title, number, all) = (course.title(), course.step() + 1, course.steps());
+    say!("{title} · step {number} of {all}", "{title} · passo {number} de {all}")
+}
+
+/// Shows the step.
+pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
+    let look = Look::of(ui.ctx());
+    let mut asked = None;
+    let area = ui.available_rect_before_wrap();
+    let left = area.with_max_x(area.right() - buttons(ui, course));
+    let right = area.with_min_x(left.right() + 2.0 * GRID);
+    ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
+        ui.label(RichText::new(heading(course)).font(theme::regular(theme::SMALL)).color(look.quiet));
+        let said = RichText::new(course.say()).font(theme::strong(size(course.say(), left.width(), ui)));
+        ui.add(Label::new(said.color(look.text)).wrap());
+        if let Some((question, answer)) = course.question() {
+            ui.add_space(GRID / 2.0);
+            let words = RichText::new(question.question.spoken()).font(theme::strong(theme::BODY)).color(look.text);
+            ui.add(Label::new(words).wrap());
+            asked = answers(ui, course);
+            if answer.is_some() {
+                let because = RichText::new(question.because.spoken());
+                ui.add(Label::new(because.font(theme::regular(theme::BODY)).color(look.text)).wrap());
+                if let Some(checked) = checked(ui, course) {
+                    let checked = RichText::new(checked).font(theme::regular(theme::SMALL)).color(look.quiet);
+                    ui.add(Label::new(checked).wrap());
+                }
+            }
+        }
+    });
+    ui.scope_builder(UiBuilder::new().max_rect(right), |ui| {
+        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+            let leave = word!("Leave the lesson", "Sair da lição");
+            if button(ui, Some(Icon::Close), leave, false, Weight::Quiet).clicked() {
+                asked = Some(Asked::Leave);
+            }
+            ui.add_enabled_ui(!course.waits(), |ui| {
+                let next = button(ui, Some(Icon::Next), next(course), true, Weight::Primary);
+                if next.on_hover_text("Page ↓").clicked() {
+                    asked = Some(Asked::Next);
+                }
+            });
+            ui.add_enabled_ui(course.step() > 0, |ui| {
+                let back = button(ui, Some(Icon::Back), word!("Back", "Voltar"), false, Weight::Quiet);
+                if back.on_hover_text(word!("Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
+                    asked = Some(Asked::Back);
+                }
+            });
+        });
+    });
+    asked
+}
+
+/// The answers; once one is given, which is right.
+fn answers(ui: &mut Ui, course: &Course) -> Option<Asked> {
+    let (question, answer) = course.question()?;
+    let mut asked = None;
+    let mut one = |ui: &mut Ui, place: usize| {
+        let words = question.answers[place].spoken();
+        let (shown, weight) = match answer {
+            Some(_) if place == question.right => (marked(words, true), Weight::On),
+            Some(given) if place == given => (marked(words, false), Weight::Quiet),
+            _ => (format!("{} {words}", place + 1), Weight::Quiet),
+        };
+        ui.add_enabled_ui(answer.is_none() || place == question.right, |ui| {
+            if named_button(ui, None, words, Some(&shown), weight).clicked() {
+                asked = Some(Asked::Answer(place));
+            }
+        });
+    };
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = GAP;
+        for row in rows(ui, ui.available_width(), question) {
+            ui.horizontal(|ui| row.for_each(|place| one(ui, place)));
+        }
+    });
+    asked
+}
+
+/// How large what is said is written: in two lines, if it can be.
+fn size(said: &str, width: f32, ui: &Ui) -> f32 {
+    let lines = |size: f32| {
+        let galley = ui.painter().layout(said.to_owned(), theme::strong(size), Color32::PLACEHOLDER, width);
+        galley.rows.len()
+    };
+    [20.0, 18.0].into_iter().find(|&size| lines(size) <= 2).unwrap_or(theme::BODY)
+}

@@ -1,0 +1,13 @@
+//! The panels around a run.
+
+pub mod inspector;
+pub mod narration;
+pub mod nodes;
+pub mod notice;
+pub mod picture;
+pub mod ring;
+pub mod save_bar;
+pub mod setup;
+pub mod time;
+pub mod timeline;
+pub mod top_bar;

@@ -1,0 +1,119 @@
+//! A sentence that floats over the panels: what was done, what went wrong, what can be done about it.
+
+use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, ProgressBar, RichText, Stroke, Ui};
+
+use crate::gui::session::{Notice, NoticeKind};
+use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{Weight, button};
+use crate::language::{say, word};
+use crate::view::fraction;
+
+/// What was pressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Click {
+    /// Away with it.
+    Close,
+    /// Read the scene's file again.
+    Reload,
+}
+
+/// Shows a notice with its lower right corner at `at`, and returns what was pressed.
+pub fn show(notice: &Notice, ctx: &Context, at: Pos2) -> Option<Click> {
+    let look = Look::of(ctx);
+    floating(ctx, at, |ui| {
+        let colour = if notice.kind == NoticeKind::Trouble { look.trouble } else { look.text };
+        let text = RichText::new(&notice.text).font(theme::regular(theme::BODY)).color(colour);
+        ui.scope(|ui| {
+            let buttons = if notice.kind == NoticeKind::Changed { 17.0 } else { 6.0 };
+            ui.set_max_width(widest(ui) - buttons * GRID);
+            ui.add(Label::new(text).wrap());
+        });
+        let name = word!("Reload", "Recarregar");
+        let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Weight::Primary).clicked();
+        let close = word!("Close notice", "Fechar aviso");
+        let close = button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked();
+        if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
+    })
+}
+
+/// Says that something is being read and compiled.
+pub fn loading(ctx: &Context, at: Pos2, name: &str) {
+    let look = Look::of(ctx);
+    floating(ctx, at, |ui| {
+        ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
+        let text = say!("{name} is being read and compiled …", "{name} está sendo lida e compilada …");
+        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
+    });
+}
+
+/// Says what is being made, for how many seconds already, and what part of it is done; returns whether that is to end.
+pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64)) -> bool {
+    let look = Look::of(ctx);
+    floating(ctx, at, |ui| {
+        let text = say!("{name} is being made", "{name} está sendo feito");
+        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
+        let done = fraction(part);
+        let done = left(secs, part).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
+        ui.visuals_mut().extreme_bg_color = look.hairline;
+        let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
+        ui.add(bar);
+        ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
+        button(ui, None, word!("Cancel", "Cancelar"), true, Weight::Quiet).clicked()
+    })
+}
+
+/// How long it will still take, as soon as that can be told.
+fn left(secs: f64, part: f64) -> Option<String> {
+    let left = (secs / part - secs).ceil();
+    if secs < 1.5 || part < 0.01 || left < 1.0 {
+        return None;
+    }
+    let minutes = (left / 60.0).round();
+    Some(if left < 90.0 {
+        say!("about {left} s left", "faltam uns {left} s")
+    } else {
+        say!("about {minutes} min left", "faltam uns {minutes} min")
+    })
+}
+
+/// Over everything else, so that nothing moves away under somebody's hand when it comes or goes: its lower right corner
+/// is here.
+fn floating<T>(ctx: &Context, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T {
+    let look = Look::of(ctx);
+    let frame = Frame::NONE.fill(look.raised).stroke(Stroke::new(1.0, look.hairline)).corner_radius(8.0);
+    let area = Area::new(Id::unique("notice")).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM).fixed_pos(at);
+    let shown = area.show(ctx, |ui| {
+        frame.inner_margin(egui::vec2(1.5 * GRID, GRID)).show(ui, |ui| ui.horizontal(content).inner).inner
+    });
+    shown.inner
+}
+
+/// How wide a notice can be.
+fn widest(ui: &Ui) -> f32 {
+    (ui.ctx().content_rect().width() - 8.0 * GRID).min(72.0 * GRID)
+}
+
+/// Says, over everything, that a file can be dropped.
+pub fn drop_here(ui: &Ui) {
+    let look = Look::of(ui.ctx());
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));
+    let area = ui.ctx().content_rect();
+    painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
+    let frame = area.shrink(3.0 * GRID);
+    painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
+    let text = word!("Drop a scene or a recorded run", "Soltar uma cena ou uma execução gravada");
+    painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_takes_long_says_how_long_still() {
+        assert_eq!(left(10.0, 0.25).as_deref(), Some("about 30 s left"));
+        assert_eq!(left(60.0, 0.25).as_deref(), Some("about 3 min left"));
+        assert_eq!([left(1.0, 0.25), left(10.0, 0.0), left(10.0, 1.0)], [None, None, None]);
+    }
+}

@@ -1,0 +1,119 @@
+//! The ring.
+
+use egui::{Align2, Painter, Rect, Sense, Ui};
+
+use crate::balance::NodeId;
+use crate::gui::input::machine_menu;
+use crate::gui::input::message_menu;
+use crate::gui::input::selection::Focus;
+use crate::gui::session::Session;
+use crate::gui::widgets;
+use crate::gui::widgets::paint::{Inks, paint};
+use crate::gui::widgets::theme::{self, Look};
+use crate::language::{say, word};
+use crate::view::{
+    About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
+    ring, ring_at, small_print, time_words,
+};
+
+/// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
+pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    let (stage, now) = (session.stage(), session.now());
+    let state = stage.state();
+    widgets::describe(&response, word!("The ring", "O anel"), || {
+        let told = |node| {
+            let (name, does) = (node_name(node), activity_word(state.activity(node, now)));
+            say!("{name} is {does}", "{name} está {does}")
+        };
+        let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| told(node)).collect();
+        nodes.join(", ")
+    });
+    let look = Look::of(ui.ctx());
+    let inks = Inks { look, nodes: &stage.colours };
+    let painter = ui.painter_at(rect.expand(4.0));
+    let drawn = Overlay {
+        outcome: stage.result().map(|result| result.outcome),
+        selected: focus.node(),
+        lit: lit.nodes.clone(),
+        message: lit.message,
+    };
+    paint(&painter, rect.min, &ring(state, &drawn, now, rect.size().into()), &inks);
+
+    let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
+    let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at));
+    let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at));
+    if response.clicked() {
+        match (message, spot) {
+            (Some(message), _) => focus.toggle(About::Message(message.id)),
+            (None, Some(Spot::Node(node))) => focus.toggle(About::Node(node)),
+            (None, _) => focus.selected = None,
+        }
+    }
+    match (message, spot) {
+        (Some(message), _) => focus.hover(About::Message(message.id)),
+        (None, Some(Spot::Node(node))) => focus.hover(About::Node(node)),
+        (None, _) => {}
+    }
+    // Messages fly over everything else.
+    let more = match (message, spot) {
+        (Some(message), _) => Some((flight_words(message), Vec::new())),
+        (None, Some(Spot::Node(node))) => {
+            let name = node_name(node);
+            Some((say!("Machine {name}", "Máquina {name}"), node_words(state, node, now)))
+        }
+        (None, Some(Spot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
+        (None, None) => None,
+    };
+    if response.secondary_clicked() {
+        let subject = match (message, spot) {
+            (Some(message), _) => Some(Subject::Message(message.into())),
+            (None, Some(Spot::Node(node))) => Some(Subject::Node(node)),
+            (None, _) => None,
+        };
+        ui.data_mut(|data| data.insert_temp(response.id, subject));
+    }
+    if state.finished().is_none() {
+        corner(&painter, rect, small_print(state), look);
+    }
+    // For a room there is no bar at the top that tells it.
+    if Look::is_strong(painter.ctx()) {
+        let time = time_words(stage.lasted(), stage.grain());
+        let font = theme::strong(theme::LARGE);
+        painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
+    }
+    match ui.data(|data| data.get_temp::<Option<Subject>>(response.id)).flatten() {
+        Some(Subject::Node(node)) => machine_menu::on(&response, session, node, look),
+        Some(Subject::Message(message)) => message_menu::on(&response, session, &message, look),
+        None => {}
+    }
+    if let Some((title, lines)) = more {
+        response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
+    }
+}
+
+/// What the menu is about.
+#[derive(Clone)]
+enum Subject {
+    Node(NodeId),
+    Message(message_menu::Subject),
+}
+
+/// What there is to know of the drawing itself, in its lower right corner.
+fn corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
+    let galley = |line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet);
+    let galleys: Vec<_> = lines.into_iter().map(galley).collect();
+    // Where the corner is narrow the second line would run into the lowest node's label.
+    let room = rect.width() / 2.0 - 64.0;
+    // And where it is low, a third line into the label above that; where it is very low, any line.
+    let most = match rect.height() {
+        height if height < 200.0 => 0,
+        height if height < 360.0 => 2,
+        _ => usize::MAX,
+    };
+    let mut corner = rect.right_bottom();
+    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(most) {
+        corner.y -= galley.size().y;
+        painter.galley(corner - egui::vec2(galley.size().x, 0.0), galley, look.quiet);
+    }
+}

@@ -1,0 +1,219 @@
+//! What can be saved: its names, and the name of its file.
+
+use crate::language::word;
+use crate::output::as_file_name;
+use crate::picture::Size;
+use crate::runlog::Header;
+
+/// What is saved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// The picture as the tracer made it.
+    #[default]
+    Render,
+    /// The picture in the colours of who traced it.
+    Owners,
+    /// The picture in the colours of what its atoms cost.
+    Costs,
+    /// The picture in the colours of when its atoms came.
+    Arrival,
+    /// As it is shown, between the render and a layer.
+    Blend,
+    /// The picture at another size, traced anew.
+    Large,
+    /// The ring as it is shown.
+    Ring,
+    /// The timeline of all of the run.
+    Timeline,
+    /// The run as an animation.
+    Film,
+    /// The run's records, to be played again.
+    Run,
+    /// The run's records as a table.
+    Table,
+    /// The run's records for Perfetto.
+    Chrome,
+    /// Where the time of the compared runs went.
+    Bars,
+    /// The compared runs as a table.
+    Rows,
+}
+
+impl Kind {
+    /// Those of a run: pictures, then drawings, then records.
+    pub const OF_RUN: [Self; 12] = [
+        Self::Render,
+        Self::Owners,
+        Self::Costs,
+        Self::Arrival,
+        Self::Blend,
+        Self::Large,
+        Self::Ring,
+        Self::Timeline,
+        Self::Film,
+        Self::Run,
+        Self::Table,
+        Self::Chrome,
+    ];
+
+    /// Those of runs that are compared, and the run that is their subject.
+    pub const OF_COMPARISON: [Self; 3] = [Self::Bars, Self::Rows, Self::Run];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Render => word!("render", "imagem"),
+            Self::Owners => word!("owners", "donas"),
+            Self::Costs => word!("costs", "custos"),
+            Self::Arrival => word!("arrival", "chegada"),
+            Self::Blend => word!("blend", "mistura"),
+            Self::Large => word!("any size", "ampliada"),
+            Self::Ring => word!("ring", "anel"),
+            Self::Timeline => word!("timeline", "linha do tempo"),
+            Self::Film => word!("animation", "filme"),
+            Self::Run => word!("run", "execução"),
+            Self::Table | Self::Rows => word!("table", "tabela"),
+            Self::Chrome => "Perfetto",
+            Self::Bars => word!("bars", "barras"),
+        }
+    }
+
+    /// What it is, in a sentence.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Render => word!("The picture as it was traced", "A imagem como foi traçada"),
+            Self::Owners => {
+                word!("The picture in the colours of who traced it", "A imagem nas cores de quem a traçou")
+            }
+            Self::Costs => word!("The picture in the colours of what it cost", "A imagem nas cores do que custou"),
+            Self::Arrival => word!("The picture in the colours of when it came", "A imagem nas cores de quando chegou"),
+            Self::Blend => word!("The picture as it is blended now", "A imagem misturada como está agora"),
+            Self::Large => {
+                word!(
+                    "The picture at any size and quality, traced anew",
+                    "A imagem em qualquer tamanho e qualidade, traçada de novo"
+                )
+            }
+            Self::Ring => word!("The ring as it is shown: SVG, or PNG", "O anel como está: SVG, ou PNG"),
+            Self::Timeline => {
+                word!("The timeline of all of the run: SVG, or PNG", "A linha do tempo de toda a execução: SVG, ou PNG")
+            }
+            Self::Film => word!("The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
+            Self::Run => word!(
+                "All records of the run, to be played again",
+                "Todos os registros da execução, para vê-la de novo"
+            ),
+            Self::Table => word!("All records of the run: CSV", "Todos os registros da execução: CSV"),
+            Self::Chrome => {
+                word!("What each machine did, for ui.perfetto.dev", "O que cada máquina fez, para ui.perfetto.dev")
+            }
+            Self::Bars => word!(
+                "Where the time of the compared runs went: SVG, or PNG",
+                "Para onde foi o tempo das execuções comparadas: SVG, ou PNG"
+            ),
+            Self::Rows => word!("A row for each compared run: CSV", "Uma linha por execução comparada: CSV"),
+        }
+    }
+
+    /// What its file is, in capitals.
+    pub fn format(self) -> &'static str {
+        match self.ending() {
+            "png" => "PNG",
+            "svg" => "SVG",
+            "gif" => "GIF",
+            "csv" => "CSV",
+            "json" => "JSON",
+            _ => "ANEL",
+        }
+    }
+
+    /// How the name of its file ends.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Render | Self::Owners | Self::Costs | Self::Arrival | Self::Blend | Self::Large => "png",
+            Self::Ring | Self::Timeline | Self::Bars => "svg",
+            Self::Film => "gif",
+            Self::Run => "anel",
+            Self::Table | Self::Rows => "csv",
+            Self::Chrome => "json",
+        }
+    }
+
+    /// A name for its file, which says what is saved; a picture that is traced anew is so `large`.
+    pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
+        let scene = as_file_name(&header.scene);
+        let of_run = format!("-{}-{}", header.strategy_name(), header.speeds.len());
+        let what = match self {
+            Self::Render | Self::Large => String::new(),
+            Self::Owners => "-owners".into(),
+            Self::Costs => "-costs".into(),
+            Self::Arrival => "-arrival".into(),
+            Self::Blend => "-blend".into(),
+            Self::Run | Self::Film | Self::Table => of_run,
+            Self::Ring => of_run + "-moment",
+            Self::Timeline => of_run + "-timeline",
+            Self::Chrome => of_run + "-perfetto",
+            Self::Bars | Self::Rows => "-comparison".into(),
+        };
+        let size = header.size.to_string();
+        let size = if self == Self::Large { large } else { &size };
+        let is_whole = done || matches!(self, Self::Large | Self::Bars | Self::Rows);
+        let unfinished = if is_whole { "" } else { "-unfinished" };
+        format!("{scene}-{size}{what}{unfinished}.{}", self.ending())
+    }
+}
+
+/// The largest size of this shape that a 4K screen holds.
+pub fn four_k([width, height]: [u32; 2]) -> [u32; 2] {
+    let scale = (3840.0 / f64::from(width)).min(2160.0 / f64::from(height));
+    [width, height].map(|side| (f64::from(side) * scale).round() as u32)
+}
+
+/// Whether two sizes have one shape, but for a pixel.
+pub fn is_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
+    let (width, height) = (f64::from(width), f64::from(height));
+    (width * f64::from(h) / f64::from(w) - height).abs() <= 1.0
+        || (height * f64::from(w) / f64::from(h) - width).abs() <= 1.0
+}
+
+/// A side of a picture that is traced anew is at most so long.
+pub const LONGEST_SIDE: u32 = 16_384;
+
+/// The size of a picture that is traced anew.
+///
+/// # Errors
+/// A sentence, if there can be none.
+pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
+    Size::new(width.min(LONGEST_SIDE), height.min(LONGEST_SIDE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::settings::Settings;
+
+    #[test]
+    fn a_larger_picture_keeps_its_shape() {
+        assert_eq!(four_k([640, 480]), [2880, 2160]);
+        assert_eq!(four_k([1600, 900]), [3840, 2160]);
+        assert_eq!(four_k([2000, 100]), [3840, 192]);
+        assert!(is_shape([641, 480], [2885, 2160]) && is_shape([640, 480], [333, 250]));
+        assert!(!is_shape([640, 480], [3840, 2160]) && !is_shape([640, 480], [480, 640]));
+    }
+
+    #[test]
+    fn a_name_says_what_is_saved() {
+        let header = Settings::default().header("my scene", "", Default::default(), 2);
+        let named = |kind: Kind, done| kind.file_name(&header, done, "3840x2160");
+        assert_eq!(named(Kind::Render, true), "my-scene-640x480.png");
+        assert_eq!(named(Kind::Owners, false), "my-scene-640x480-owners-unfinished.png");
+        assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
+        assert_eq!(named(Kind::Large, false), "my-scene-3840x2160.png");
+        assert_eq!(named(Kind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
+        assert_eq!(named(Kind::Bars, false), "my-scene-640x480-comparison.svg");
+        for kinds in [&Kind::OF_RUN[..], &Kind::OF_COMPARISON] {
+            let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
+            assert_eq!(names.len(), kinds.len(), "no two are the same");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! A scene compiled to only what it needs.
+
+use glam::DVec3;
+
+use super::bvh::Bvh;
+use super::media::Medium;
+use super::scene_stats::Given;
+use crate::csg::{Reduction, Reductions, Solid, Surface, Tree};
+use crate::scene::{Light, Material, Scene};
+
+#[derive(Debug)]
+pub(super) struct World {
+    pub tree: Tree,
+    /// The roots with bounds.
+    pub bounded: Bvh,
+    /// The roots without.
+    pub unbounded: Vec<u32>,
+    pub background: DVec3,
+    pub lights: Vec<Light>,
+    /// The solids that transmit and that the eye is in.
+    pub eye_media: Vec<Medium>,
+    pub finishes: Vec<Finish>,
+    /// What the scene's file has.
+    pub given: Given,
+    /// Solids that were proved empty.
+    pub dropped: usize,
+}
+
+/// A material with its constants multiplied out.
+#[derive(Debug)]
+pub(super) struct Finish {
+    /// Ka Ia times the colour.
+    pub ambient: DVec3,
+    /// Kd times the colour.
+    pub diffuse: DVec3,
+    pub ks: f64,
+    pub kt: f64,
+    pub exponent: Exponent,
+    pub ior: f64,
+}
+
+/// Phong's exponent: whole ones, the usual case, need no logarithm.
+#[derive(Debug)]
+pub(super) enum Exponent {
+    Whole(i32),
+    Real(f64),
+}
+
+impl Exponent {
+    pub fn raise(&self, base: f64) -> f64 {
+        match *self {
+            Self::Whole(n) => base.powi(n),
+            Self::Real(n) => base.powf(n),
+        }
+    }
+}
+
+impl World {
+    pub fn new(scene: &Scene, reductions: Reductions) -> Self {
+        let mut tree = Tree::new(reductions);
+        let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
+        let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
+        for solid in &scene.solids {
+            if reductions.has(Reduction::Apart) {
+                split(solid, scene, &mut solids);
+            } else {
+                solids.push(solid);
+            }
+        }
+        for solid in solids {
+            let Some((root, bounds)) = tree.add(solid) else {
+                dropped += 1;
+                continue;
+            };
+            if bounds.is_finite() {
+                bounded.push((root, bounds));
+            } else {
+                unbounded.push(root);
+            }
+            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
+            let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
+            if let Some(material) = transmitting.filter(|_| solid.holds(scene.camera.eye)) {
+                eye_media.push(Medium { root, ior: material.ior });
+            }
+        }
+        tree.finish();
+        Self {
+            tree,
+            bounded: if reductions.has(Reduction::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
+            unbounded,
+            background: scene.background,
+            lights: scene.lights.clone(),
+            eye_media,
+            finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient, reductions)).collect(),
+            given: Given::of(&scene.solids),
+            dropped,
+        }
+    }
+
+    pub fn finish(&self, surface: Surface) -> &Finish {
+        &self.finishes[self.tree.leaf(surface).tag as usize]
+    }
+}
+
+/// Takes unions apart where nobody can tell: an opaque union seen from outside looks like its parts one by one, and
+/// each of them has closer bounds.
+fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
+    match solid {
+        Solid::Union(solids) if is_opaque(solid, scene) && !solid.holds(scene.camera.eye) => {
+            solids.iter().for_each(|solid| split(solid, scene, parts));
+        }
+        _ => parts.push(solid),
+    }
+}
+
+fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
+    match solid {
+        Solid::Placed { tag, .. } => scene.materials[*tag as usize].kt == 0.0,
+        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+            solids.iter().all(|solid| is_opaque(solid, scene))
+        }
+    }
+}
+
+impl Finish {
+    fn new(material: &Material, ambient: DVec3, reductions: Reductions) -> Self {
+        let Material { colour, ka, kd, ks, kt, n, ior } = *material;
+        Self {
+            ambient: colour * ambient * ka,
+            diffuse: colour * kd,
+            ks,
+            kt,
+            exponent: if n.fract() == 0.0 && reductions.has(Reduction::Powers) {
+                Exponent::Whole(n as i32)
+            } else {
+                Exponent::Real(n)
+            },
+            ior,
+        }
+    }
+}

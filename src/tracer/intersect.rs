@@ -1,0 +1,147 @@
+//! What a ray meets among all solids.
+//!
+//! What traces is compiled twice, watched and not (see [`super::observer`]). Functions with one caller in the source then
+//! have two, and the compiler would no longer take them in by itself, which costs 3 to 4 %: so it is told to.
+
+use super::bvh::Pending;
+use super::compiled_scene::World;
+use super::media::Medium;
+use crate::csg::{Hit, Stack, Start, rank};
+use crate::geometry::Ray;
+
+/// What finding a hit needs of memory, kept from ray to ray.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    spans: Stack,
+    boxes: Pending,
+    surfaces: Vec<Transparent>,
+    media: Vec<u32>,
+}
+
+/// A surface that lets light through, on the way of a shadow ray.
+#[derive(Debug)]
+struct Transparent {
+    t: f64,
+    root: u32,
+    enters: bool,
+    kt: f64,
+}
+
+/// Whether a ray is on its way back at the distance `t`: it turned where it starts and is still there.
+pub(super) fn has_turned_at(start: Option<Start>, ray: &Ray, t: f64) -> bool {
+    start.is_some_and(|start| start.turned) && t <= ray.tolerance(0.0)
+}
+
+impl World {
+    /// The nearest boundary on `ray`, and the root that it bounds.
+    #[inline(always)]
+    pub fn nearest(&self, ray: &Ray, start: Option<Start>, memory: &mut Memory) -> Option<(u32, Hit)> {
+        let Memory { spans, boxes, .. } = memory;
+        let mut nearest: Option<(u32, Hit)> = None;
+        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
+            Some(hit) => {
+                let slack = ray.tolerance(hit.t);
+                let is_nearer = nearest.is_none_or(|(other, best)| {
+                    if (hit.t - best.t).abs() > slack {
+                        return hit.t < best.t;
+                    }
+                    let turned = has_turned_at(start, ray, hit.t);
+                    let (this, other) = (rank(root, hit.enters, turned), rank(other, best.enters, turned));
+                    if turned { this > other } else { this < other }
+                });
+                if is_nearer {
+                    nearest = Some((root, hit));
+                    hit.t + slack
+                } else {
+                    t_max
+                }
+            }
+            None => t_max,
+        };
+        let mut t_max = f64::INFINITY;
+        for &root in &self.unbounded {
+            t_max = test(root, t_max);
+        }
+        self.bounded.visit(ray, t_max, boxes, test);
+        nearest
+    }
+
+    /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
+    /// every surface between two media on the way, 0 behind anything that does not transmit.
+    #[inline(always)]
+    pub fn light_arriving(&self, ray: &Ray, start: Start, media: &[Medium], t_max: f64, memory: &mut Memory) -> f64 {
+        let Memory { spans, boxes, surfaces, media: inside } = memory;
+        let mut arriving = 1.0;
+        surfaces.clear();
+        let mut test = |root: u32, t_max: f64| {
+            self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
+                let kt = self.finish(hit.surface).kt;
+                surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
+                arriving = if kt > 0.0 { arriving } else { 0.0 };
+                kt > 0.0
+            });
+            if arriving > 0.0 { t_max } else { -1.0 }
+        };
+        for &root in &self.unbounded {
+            if test(root, t_max) < 0.0 {
+                return 0.0;
+            }
+        }
+        self.bounded.visit(ray, t_max, boxes, test);
+        if arriving == 0.0 || surfaces.is_empty() {
+            return arriving;
+        }
+        inside.clear();
+        inside.extend(media.iter().map(|medium| medium.root));
+        passing(surfaces, inside, ray, start.turned)
+    }
+
+    /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
+    /// transmits nothing, else at `t_max`. Unlike [`World::light_arriving`] it goes on from the first that it finds to
+    /// the nearest.
+    pub fn light_ends(&self, ray: &Ray, start: Start, t_max: f64, memory: &mut Memory) -> f64 {
+        let Memory { spans, boxes, .. } = memory;
+        let mut end = t_max;
+        let mut test = |root: u32, t_max: f64| {
+            self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
+                let passes = self.finish(hit.surface).kt > 0.0;
+                if !passes {
+                    end = hit.t;
+                }
+                passes
+            });
+            end
+        };
+        let mut t_max = t_max;
+        for &root in &self.unbounded {
+            t_max = test(root, t_max);
+        }
+        self.bounded.visit(ray, t_max, boxes, test);
+        end
+    }
+}
+
+/// What part of light passes these surfaces, of which those inside a medium that stands before theirs are not there.
+/// `inside` are the roots that the ray is in where it starts; it may have `turned` there.
+fn passing(surfaces: &mut [Transparent], inside: &mut Vec<u32>, ray: &Ray, turned: bool) -> f64 {
+    surfaces.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
+    let touch = |a: &Transparent, b: &Transparent| b.t - a.t <= ray.tolerance(b.t);
+    let mut part = 1.0;
+    for together in surfaces.chunk_by_mut(touch) {
+        let turned = turned && together[0].t <= ray.tolerance(0.0);
+        together.sort_unstable_by_key(|surface| rank(surface.root, surface.enters, turned));
+        if turned {
+            together.reverse();
+        }
+        for &mut Transparent { root, enters, kt, .. } in together {
+            if !inside.iter().any(|&other| other < root) {
+                part *= kt;
+            }
+            inside.retain(|&other| other != root);
+            if enters {
+                inside.push(root);
+            }
+        }
+    }
+    part
+}

@@ -1,0 +1,294 @@
+//! Where the machines' time went: what they traced, what they waited for, and who kept all others waiting.
+
+use std::time::Duration;
+
+use crate::balance::{Condition, Message, NodeId, Party};
+use crate::picture::atoms_in;
+use crate::record::{Record, What};
+use crate::runlog::{Messages, RunLog, Tally};
+use crate::time::Time;
+use crate::view::state::lane::{Lane, Stay};
+use crate::view::state::lanes::Lanes;
+use crate::view::state::scheduler::Sharing;
+
+/// What a run that came to its end amounts to, and where its time went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Account {
+    /// How the atoms were shared.
+    pub sharing: Sharing,
+    /// From the first band sent to the last atom placed.
+    pub makespan: Duration,
+    /// How long it would have taken, had the work been shared perfectly.
+    pub ideal: Duration,
+    /// From when on the machines' speeds together are how much: how many reference machines they are worth.
+    pub powers: Vec<(Duration, f64)>,
+    /// Where the time of all machines went.
+    pub spent: Spent,
+    /// What was said.
+    pub messages: Messages,
+    /// Whoever traced the last atom.
+    pub last: Last,
+    /// How long messages waited at the parent, all of them together.
+    pub waited_at_parent: Duration,
+    /// How long the parent sampled the picture before it gave bands.
+    pub estimating: Duration,
+}
+
+/// The machine that traced the last atom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Last {
+    /// Which.
+    pub node: NodeId,
+    /// Its speed at the end.
+    pub speed: f64,
+    /// How long no other traced any more.
+    pub alone: Duration,
+    /// How many atoms it traced.
+    pub traced: u32,
+    /// How many it gave to others.
+    pub gave: u32,
+}
+
+/// Seconds of all machines: a run of eight machines has eight in each second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// Atoms were traced.
+    pub tracing: f64,
+    /// Until the first atom was begun.
+    pub starting: f64,
+    /// Between atoms: offers, requests and atoms were on their way.
+    pub asking: f64,
+    /// A worker was made to stand still.
+    pub standing: f64,
+    /// After the last atom of a machine, while others still traced, and until the picture was complete.
+    pub waiting: f64,
+}
+
+impl Spent {
+    /// All of it.
+    pub fn sum(&self) -> f64 {
+        self.parts().iter().sum()
+    }
+
+    /// The parts, in the order of the fields.
+    pub fn parts(&self) -> [f64; 5] {
+        [self.tracing, self.starting, self.asking, self.standing, self.waiting]
+    }
+
+    /// What one machine spent until `end`.
+    fn of(lane: &Lane, end: Time) -> Self {
+        let (Some(first), Some(last)) = (lane.bars().first(), lane.bars().last()) else {
+            let starting = lane.stays().last().filter(|(_, stay)| *stay == Stay::Waits).map_or(Time::ZERO, |_| end);
+            return Self { starting: starting.secs(), waiting: end.since(starting).as_secs_f64(), ..Self::default() };
+        };
+        let stood = |from: Time, to: Time| -> f64 {
+            let overlap = |&(start, until): &(Time, Option<Time>)| {
+                until.unwrap_or(end).min(to).since(start.max(from)).as_secs_f64()
+            };
+            lane.pauses().iter().map(overlap).sum()
+        };
+        let traced: f64 = lane.bars().iter().map(|bar| bar.to.since(bar.from).as_secs_f64()).sum();
+        let stood_tracing: f64 = lane.bars().iter().map(|bar| stood(bar.from, bar.to)).sum();
+        let (begun, done) = (first.from.min(end), last.to.min(end));
+        let between = done.since(begun).as_secs_f64() - traced;
+        let stood_between = stood(begun, done) - stood_tracing;
+        Self {
+            tracing: (traced - stood_tracing).max(0.0),
+            starting: begun.secs(),
+            asking: (between - stood_between).max(0.0),
+            standing: stood_tracing + stood_between,
+            waiting: end.since(done).as_secs_f64(),
+        }
+    }
+}
+
+impl Account {
+    /// The account of a run; `None` unless its picture was completed.
+    pub fn of(log: &RunLog) -> Option<Self> {
+        Self::new(log, &Lanes::of(log))
+    }
+
+    /// The same, where what each machine did is known already.
+    pub(crate) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
+        let tally = Tally::of(log);
+        let (makespan, ideal) = (tally.makespan()?, tally.ideal()?);
+        let end = log.records().iter().rfind(|record| record.what == What::Finished)?.at;
+        let mut spent = Spent::default();
+        for lane in lanes.lanes().iter().map(|lane| Spent::of(lane, end)) {
+            spent.tracing += lane.tracing;
+            spent.starting += lane.starting;
+            spent.asking += lane.asking;
+            spent.standing += lane.standing;
+            spent.waiting += lane.waiting;
+        }
+        Some(Self {
+            sharing: Sharing::of(&log.header),
+            makespan,
+            ideal,
+            powers: powers(log),
+            spent,
+            messages: tally.messages(),
+            last: last(log, lanes)?,
+            waited_at_parent: waited_at_parent(log),
+            estimating: estimating(log.records()),
+        })
+    }
+
+    /// The machines' speeds together, on the average of this time from the beginning.
+    pub fn power(&self, until: Duration) -> f64 {
+        let ends = self.powers.iter().skip(1).map(|(at, _)| *at).chain([until]);
+        let spans = self.powers.iter().zip(ends).map(|((from, power), end)| {
+            let span = end.min(until).saturating_sub(*from);
+            power * span.as_secs_f64()
+        });
+        spans.sum::<f64>() / until.as_secs_f64().max(f64::MIN_POSITIVE)
+    }
+
+    /// Ideal over makespan, at most about 1.
+    pub fn efficiency(&self) -> f64 {
+        self.ideal.as_secs_f64() / self.makespan.as_secs_f64().max(f64::MIN_POSITIVE)
+    }
+}
+
+/// From when on the machines' speeds together are how much.
+fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
+    let mut speeds = log.header.speeds.clone();
+    let mut works: Vec<bool> = (0..).zip(&speeds).map(|(node, _)| !log.header.is_spare(node)).collect();
+    let power = |speeds: &[f64], works: &[bool]| {
+        speeds.iter().zip(works).filter(|(_, works)| **works).map(|(speed, _)| speed).sum()
+    };
+    let mut powers = vec![(Duration::ZERO, power(&speeds, &works))];
+    for record in log.records() {
+        match record.what {
+            What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
+            What::Condition { node, condition } => {
+                works[usize::from(node)] = matches!(condition, Condition::Well | Condition::CutOff);
+            }
+            _ => continue,
+        }
+        powers.push((record.at.since(Time::ZERO), power(&speeds, &works)));
+    }
+    powers
+}
+
+fn last(log: &RunLog, lanes: &Lanes) -> Option<Last> {
+    let ends = (0..).zip(lanes.lanes()).map(|(node, lane)| (lane.bars().last().map_or(Time::ZERO, |bar| bar.to), node));
+    let mut ends: Vec<(Time, NodeId)> = ends.collect();
+    ends.sort_unstable();
+    let (end, node) = ends.pop()?;
+    let before = ends.pop().map_or(Time::ZERO, |(end, _)| end);
+    let mut speed = *log.header.speeds.get(usize::from(node))?;
+    let mut gave = 0;
+    for record in log.records() {
+        match &record.what {
+            What::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
+            What::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
+                gave += atoms_in(ranges);
+            }
+            _ => {}
+        }
+    }
+    let traced = lanes.lanes()[usize::from(node)].bars().len() as u32;
+    Some(Last { node, speed, alone: end.since(before), traced, gave })
+}
+
+/// The parent is busy with one message after the other; those that come meanwhile wait.
+fn waited_at_parent(log: &RunLog) -> Duration {
+    let mut arrivals: Vec<Time> = log
+        .records()
+        .iter()
+        .filter_map(|record| match &record.what {
+            What::Sent { to: Party::Parent, arrives, .. } => Some(*arrives),
+            _ => None,
+        })
+        .collect();
+    arrivals.sort_unstable();
+    let handling = log.header.handling;
+    let (mut busy_until, mut waited) = (Time::ZERO, Duration::ZERO);
+    for arrives in arrivals {
+        waited += busy_until.since(arrives);
+        busy_until = arrives.max(busy_until) + handling;
+    }
+    waited
+}
+
+fn estimating(records: &[Record]) -> Duration {
+    let at = |wanted: fn(&What) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
+    let begun = at(|what| matches!(what, What::Estimating));
+    let done = at(|what| matches!(what, What::Sent { message: Message::Band(_), .. }));
+    begun.zip(done).map_or(Duration::ZERO, |(begun, done)| done.since(begun))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::compare_runs::{Named, contrast};
+    use super::*;
+    use crate::balance::{Rules, Strategy};
+    use crate::record::Record;
+    use crate::runlog::Header;
+    use crate::view::tests::sample_runs;
+
+    fn log(strategy: Strategy, speeds: &[f64], handling: u64) -> RunLog {
+        let plain = sample_runs::header(speeds, 1200);
+        let rules = Rules { strategy, part: strategy.usual_part(plain.division, speeds.len()), ..plain.rules };
+        let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
+        let mut log = RunLog::new(header.clone());
+        log.add(sample_runs::records(&header));
+        log
+    }
+
+    proptest! {
+        #[test]
+        fn all_of_the_machines_time_is_accounted_for(
+            speeds in prop::collection::vec(0.05..1.0f64, 1..6), strategy in 0..6usize, handling in 0..20u64,
+        ) {
+            let log = log(Strategy::ALL[strategy], &speeds, handling);
+            let account = Account::of(&log).expect("it came to its end");
+            let end = log.records().iter().find(|record| record.what == What::Finished).expect("its end").at.secs();
+            let (spent, parts) = (account.spent, account.spent.parts());
+            prop_assert!((spent.sum() - end * speeds.len() as f64).abs() < 1e-6, "{spent:?}");
+            prop_assert!(parts.iter().all(|part| *part >= 0.0), "{spent:?}");
+            prop_assert!(account.efficiency() <= 1.0 + 1e-9 && account.ideal <= account.makespan);
+        }
+    }
+
+    #[test]
+    fn with_bands_the_slow_machine_is_alone_at_the_end() {
+        let bands = Account::of(&log(Strategy::Static, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
+        let Last { node, speed, alone, traced, gave } = bands.last;
+        assert_eq!((node, speed, traced, gave), (3, 0.1, 300, 0));
+        assert!(alone > bands.makespan / 2 && bands.spent.waiting > 0.5 * bands.spent.sum());
+        let ring = Account::of(&log(Strategy::Ring, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
+        assert!(ring.spent.waiting < 0.1 * ring.spent.sum(), "{ring:?}");
+        assert!(ring.makespan < bands.makespan / 2 && ring.messages.atoms_moved > 100);
+    }
+
+    #[test]
+    fn messages_wait_for_a_parent_that_is_busy() {
+        let waited =
+            |handling| Account::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
+        assert_eq!(waited(0), Duration::ZERO);
+        assert!(waited(30) > 3 * waited(5), "{:?} {:?}", waited(30), waited(5));
+    }
+
+    #[test]
+    fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
+        let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
+        let quick = Account::of(&plain).expect("it came to its end");
+        let mut records = plain.records().to_vec();
+        let half = Time(records[records.len() - 1].at.0 / 2);
+        let place = records.partition_point(|record| record.at <= half);
+        records.insert(place, Record { at: half, what: What::SpeedSet { node: 1, speed: 0.5 } });
+        let mut slowed = RunLog::new(plain.header.clone());
+        slowed.add(records);
+        let slow = Account::of(&slowed).expect("it came to its end");
+        let half = Duration::from_nanos(half.0);
+        assert_eq!(slow.power(half), 2.0);
+        assert!((slow.power(2 * half) - 1.75).abs() < 1e-9, "{}", slow.power(2 * half));
+        let slow = Account { makespan: quick.makespan.mul_f64(1.2), ..slow };
+        let told = contrast(Named { name: "One", account: &quick }, Named { name: "The other", account: &slow });
+        assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
+    }
+}

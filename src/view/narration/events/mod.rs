@@ -1,0 +1,392 @@
+//! The last events of a run as sentences. What belongs together is one event, so that no kind drowns the others.
+
+mod recovery;
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use super::event_sentences;
+use super::failure_sentences;
+use crate::balance::{Message, NodeId, Party};
+use crate::language::{say, word};
+use crate::picture::atoms_in;
+use crate::record::{Record, What};
+use crate::time::Time;
+use crate::view::state::run_state::RunState;
+use crate::view::state::scheduler::Sharing;
+use crate::view::text::format::{atoms_words, counted, fraction, node_name};
+use recovery::Mishap;
+
+/// The last events, the newest last.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Events {
+    told: VecDeque<Told>,
+}
+
+#[derive(Clone, Debug)]
+struct Told {
+    at: Time,
+    event: Event,
+    sentence: String,
+}
+
+/// What events are told by, as far as a later one may join an earlier one.
+#[derive(Clone, Debug, PartialEq)]
+enum Event {
+    Bands,
+    Offer(NodeId),
+    Transfer,
+    /// Transfers of few atoms.
+    Trickle {
+        from: NodeId,
+        to: Vec<NodeId>,
+        transfers: u32,
+        atoms: u32,
+    },
+    Retired(Vec<NodeId>),
+    /// Machines that are done with what was theirs.
+    Done(Vec<NodeId>),
+    Estimating,
+    /// What the parent of a farm has handed out so far.
+    Parts,
+    /// At most so many messages waited at the parent.
+    Jam(usize),
+    /// Whose, and the speed before somebody began to change it.
+    Speed {
+        node: NodeId,
+        before: f64,
+    },
+    Paused,
+    Latency,
+    Condition,
+    Mishap(Mishap),
+    End,
+}
+
+/// How many events are kept.
+const KEPT: usize = 64;
+/// A transfer of up to so many atoms is small.
+const SMALL: u32 = 5;
+/// Events that are alike and no further apart than this are one.
+const TOGETHER: Duration = Duration::from_secs(3);
+
+impl Events {
+    /// Takes in a record; `state` already knows it.
+    pub(crate) fn apply(&mut self, record: &Record, state: &RunState) {
+        let at = record.at;
+        match &record.what {
+            What::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
+                if !self.has(&Event::Bands) {
+                    self.tell(at, Event::Bands, event_sentences::bands(state, band));
+                }
+            }
+            What::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some() => {
+                let (who, done) = (from, message.own_offer(*from).unwrap_or_default());
+                // Later offers are told by what comes of them.
+                if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
+                    let whole = node.given.atoms == 0;
+                    self.tell(at, Event::Offer(*who), event_sentences::offer(state, *who, whole, done));
+                }
+            }
+            What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
+                self.transfer(at, *from, *to, atoms_in(ranges), state);
+            }
+            What::Sent { message: Message::Part(part), .. } if !part.is_empty() => {
+                // A part for each node is one more round.
+                let parts = state.handed_out.count;
+                if parts.is_multiple_of(state.nodes().len() as u32) {
+                    self.told.retain(|told| told.event != Event::Parts);
+                    let parts = counted(parts, word!("part", "parte"));
+                    let sentence = say!("The parent has handed out {parts} so far", "O pai já distribuiu {parts}");
+                    self.tell(at, Event::Parts, sentence);
+                }
+            }
+            What::Received { by: Party::Parent, .. } => {
+                if let Some(waiting) = jam(state, at).filter(|&waiting| !self.had_as_many(at, waiting)) {
+                    self.take(at, |event| matches!(event, Event::Jam(_)));
+                    self.tell(at, Event::Jam(waiting), event_sentences::jam(state, waiting));
+                }
+            }
+            What::AtomDone { node, .. } if is_done(state, *node) => {
+                let nodes = self.together(at, *node, |event| match event {
+                    Event::Done(nodes) => Some(nodes),
+                    _ => None,
+                });
+                let sentence = event_sentences::done(&nodes);
+                self.tell(at, Event::Done(nodes), sentence);
+            }
+            What::Estimating => self.tell(at, Event::Estimating, event_sentences::estimating().into()),
+            What::SpeedSet { node, speed } => {
+                let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
+                let same = |event: &Event| matches!(event, Event::Speed { node: other, .. } if other == node);
+                let before = match self.take(at, same) {
+                    Some(Event::Speed { before, .. }) => before,
+                    _ => machine.speed_before,
+                };
+                let sentence = event_sentences::speed(state, *node, before, *speed);
+                self.tell(at, Event::Speed { node: *node, before }, sentence);
+            }
+            What::Paused { node } => self.tell(at, Event::Paused, event_sentences::paused(state, *node)),
+            What::Resumed { node } => self.tell(at, Event::Paused, event_sentences::resumed(state, *node)),
+            What::LatencySet { latency } => {
+                self.take(at, |event| *event == Event::Latency);
+                self.tell(at, Event::Latency, event_sentences::latency(state, *latency));
+            }
+            What::Retired { node } => {
+                let nodes = self.together(at, *node, |event| match event {
+                    Event::Retired(nodes) => Some(nodes),
+                    _ => None,
+                });
+                let sentence = event_sentences::retired(state, &nodes);
+                self.tell(at, Event::Retired(nodes), sentence);
+            }
+            What::Finished => self.tell(at, Event::End, event_sentences::complete().into()),
+            What::Condition { node, .. } => self.tell(at, Event::Condition, failure_sentences::condition(state, *node)),
+            What::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
+            What::Delayed { from, to, until } => {
+                self.tell(at, Event::Condition, failure_sentences::delayed((*from, *to), until.since(at)));
+            }
+            What::Sent { .. }
+            | What::Link { .. }
+            | What::Lost { .. }
+            | What::AtomFailed { .. }
+            | What::GivenUp { .. }
+            | What::Received { .. }
+            | What::AtomStarted { .. }
+            | What::AtomDone { .. }
+            | What::Estimated { .. } => {}
+        }
+    }
+
+    /// The events and their times, the newest last.
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+        self.told.iter().map(|told| (told.at, &*told.sentence))
+    }
+
+    /// What somebody did to the run last.
+    pub(crate) fn latest_by_hand(&self) -> Option<&str> {
+        let by_hand = |told: &&Told| {
+            matches!(told.event, Event::Speed { .. } | Event::Paused | Event::Latency | Event::Condition)
+        };
+        self.told.iter().rev().find(by_hand).map(|told| &*told.sentence)
+    }
+
+    fn has(&self, event: &Event) -> bool {
+        self.told.iter().any(|told| told.event == *event)
+    }
+
+    /// Whether so many messages have waited at the parent of late.
+    fn had_as_many(&self, now: Time, waiting: usize) -> bool {
+        self.told
+            .iter()
+            .any(|told| matches!(told.event, Event::Jam(most) if most >= waiting) && now <= told.at + TOGETHER)
+    }
+
+    fn transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
+        let is_theft = state.sharing == Sharing::Stealing;
+        if atoms > SMALL && is_theft {
+            return self.tell(at, Event::Transfer, event_sentences::theft(to, from, atoms));
+        }
+        if atoms > SMALL {
+            let giver = node_name(from);
+            let slow =
+                state.nodes().get(usize::from(from)).filter(|node| node.runs() && event_sentences::is_slow(node));
+            let giver = slow.map_or(giver.to_string(), |node| {
+                let speed = fraction(node.speed);
+                say!("{giver}, slow at {speed},", "{giver}, lenta a {speed},")
+            });
+            let (atoms, to) = (atoms_words(atoms), node_name(to));
+            let sentence = say!(
+                "{giver} gave {atoms} to {to}, which had finished",
+                "{giver} deu {atoms} a {to}, que tinha terminado"
+            );
+            return self.tell(at, Event::Transfer, sentence);
+        }
+        let same = |event: &Event| matches!(event, Event::Trickle { from: other, .. } if *other == from);
+        let (mut receivers, mut transfers, mut all) = match self.take(at, same) {
+            Some(Event::Trickle { to, transfers, atoms, .. }) => (to, transfers, atoms),
+            _ => (Vec::new(), 0, 0),
+        };
+        (transfers, all) = (transfers + 1, all + atoms);
+        if let Err(place) = receivers.binary_search(&to) {
+            receivers.insert(place, to);
+        }
+        let sentence = event_sentences::trickle((from, &receivers), (transfers, all), is_theft);
+        self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
+    }
+
+    /// The nodes of the latest event of a kind, if `node` comes soon after them, and `node`.
+    fn together(&mut self, at: Time, node: NodeId, of: impl Fn(Event) -> Option<Vec<NodeId>>) -> Vec<NodeId> {
+        let before = self.take(at, |event| of(event.clone()).is_some());
+        let mut nodes = before.and_then(of).unwrap_or_default();
+        if let Err(place) = nodes.binary_search(&node) {
+            nodes.insert(place, node);
+        }
+        nodes
+    }
+
+    /// Takes out the latest event of a kind, if it is so fresh that what comes now belongs to it.
+    fn take(&mut self, now: Time, kind: impl Fn(&Event) -> bool) -> Option<Event> {
+        let place = self.told.iter().rposition(|told| kind(&told.event) && now <= told.at + TOGETHER)?;
+        self.told.remove(place).map(|told| told.event)
+    }
+
+    /// Records of different parties may come a little out of order: events do not.
+    fn tell(&mut self, at: Time, event: Event, sentence: String) {
+        let place = self.told.iter().rposition(|told| told.at <= at).map_or(0, |before| before + 1);
+        self.told.insert(place, Told { at, event, sentence });
+        if self.told.len() > KEPT {
+            self.told.pop_front();
+        }
+    }
+}
+
+/// How many messages wait at the parent at `now`, if they are worth a word.
+pub(crate) fn jam(state: &RunState, now: Time) -> Option<usize> {
+    /// Fewer are soon handled.
+    const MANY: usize = 4;
+    if state.handling.is_zero() {
+        return None;
+    }
+    Some(state.waiting(now)).filter(|&waiting| waiting >= MANY)
+}
+
+/// Whether `node` has just traced its last atom, gets no other, and others go on.
+pub(crate) fn is_done(state: &RunState, node: NodeId) -> bool {
+    let is_last = state.nodes().get(usize::from(node)).is_some_and(|of| of.band_at.is_some() && of.left() == 0);
+    is_last && state.sharing.is_fixed() && state.nodes().iter().any(|other| other.left() > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::view::tests::sample_runs;
+
+    fn sentences(events: &Events) -> Vec<&str> {
+        events.iter().map(|(_, sentence)| sentence).collect()
+    }
+
+    /// The events of these records, at their times in ms.
+    fn told(nodes: usize, records: impl IntoIterator<Item = (u64, What)>) -> Events {
+        let (mut state, mut events) = (RunState::new(&sample_runs::header(&vec![1.0; nodes], 900)), Events::default());
+        for (ms, what) in records {
+            let record = Record { at: Time(ms * 1_000_000), what };
+            state.apply(&record);
+            events.apply(&record, &state);
+        }
+        events
+    }
+
+    fn transfer(from: NodeId, to: NodeId, atoms: u32) -> What {
+        let (from, to) = (Party::Node(from), Party::Node(to));
+        let message = Message::Transfer(std::iter::once(0..atoms).collect());
+        What::Sent { id: 0, from, to, message, bytes: 0, arrives: Time::ZERO }
+    }
+
+    proptest! {
+        #[test]
+        fn events_of_a_whole_run_are_few_and_in_order(
+            speeds in prop::collection::vec(0.02..1.0f64, 1..9), atoms in 1..400u32,
+        ) {
+            let header = sample_runs::header(&speeds, atoms);
+            let (mut state, mut events) = (RunState::new(&header), Events::default());
+            for record in sample_runs::records(&header) {
+                state.apply(&record);
+                events.apply(&record, &state);
+                prop_assert!(events.told.len() <= KEPT);
+            }
+            prop_assert!(events.told.iter().is_sorted_by_key(|told| told.at));
+            for sentence in sentences(&events) {
+                prop_assert!(sentence.chars().count() <= 95, "{sentence}");
+            }
+            prop_assert!(sentences(&events).contains(&event_sentences::complete()));
+            // Every node offers at last, and says so once.
+            for node in 0..speeds.len() as NodeId {
+                let offers = events.told.iter().filter(|told| told.event == Event::Offer(node)).count();
+                prop_assert!(offers == 1 || events.told.len() == KEPT);
+            }
+        }
+    }
+
+    #[test]
+    fn the_list_tells_who_is_slow_and_what_moved_where() {
+        let header = sample_runs::header(&[1.0, 1.0, 0.1], 600);
+        let (mut state, mut events) = (RunState::new(&header), Events::default());
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            events.apply(&record, &state);
+        }
+        let told = sentences(&events);
+        assert_eq!(told[0], "The parent gives each of 3 machines an equal band of the picture");
+        assert_eq!(told[1], "1 has finished its band and offers help round the ring");
+        assert!(told.iter().any(|told| told.starts_with("3, slow at 10 %, gave ")), "{told:#?}");
+    }
+
+    #[test]
+    fn small_transfers_of_a_machine_are_one_event() {
+        let [one, two, more] = [1, 2, 40].map(|atoms| move |from, to| transfer(from, to, atoms));
+        let events = told(8, [(0, one(6, 1)), (10, one(6, 7)), (20, one(4, 2)), (30, more(6, 3)), (40, one(6, 2))]);
+        assert_eq!(
+            sentences(&events),
+            ["5 gave 1 atom to 3", "7 gave 40 atoms to 4, which had finished", "7 gave 1 atom to 2, 3 and 8"]
+        );
+        let events = told(8, [(0, one(6, 1)), (10, two(6, 1)), (20, two(6, 3)), (9000, one(6, 1))]);
+        assert_eq!(sentences(&events), ["7 gave few atoms at a time to 2 and 4: 5 in 3 parcels", "7 gave 1 atom to 2"]);
+    }
+
+    #[test]
+    fn many_small_transfers_do_not_drown_the_rest() {
+        let small = (0..500).map(|i: u16| (u64::from(i), transfer(i % 7, i % 3 + 7, 1)));
+        let events = told(12, std::iter::once((0, transfer(0, 1, 99))).chain(small));
+        assert_eq!(events.told.len(), 8);
+        assert_eq!(sentences(&events)[0], "1 gave 99 atoms to 2, which had finished");
+    }
+
+    #[test]
+    fn machines_that_retire_together_are_one_event() {
+        let events = told(4, [2, 0, 3].map(|node| (10 * u64::from(node), What::Retired { node })));
+        assert_eq!(sentences(&events), ["1, 3 and 4 retire: their offers came back, nobody needs their help"]);
+    }
+
+    #[test]
+    fn a_dragged_slider_is_one_event() {
+        let speed = |node, percent: u64| What::SpeedSet { node, speed: percent as f64 / 100.0 };
+        let ms = Duration::from_millis;
+        let events = told(
+            3,
+            [
+                (0, speed(1, 80)),
+                (100, transfer(0, 2, 50)),
+                (200, speed(1, 30)),
+                (300, What::LatencySet { latency: ms(90) }),
+                (400, What::LatencySet { latency: ms(200) }),
+                (500, speed(2, 60)),
+                (6000, speed(1, 40)),
+                (6100, What::Paused { node: 2 }),
+                (6200, What::Resumed { node: 2 }),
+            ],
+        );
+        assert_eq!(
+            sentences(&events),
+            [
+                "1 gave 50 atoms to 3, which had finished",
+                "Machine 2 now runs at 30 %: the others will make up for it",
+                "A hop takes 200 ms now",
+                "Machine 3 now runs at 60 %: the others will make up for it",
+                "Machine 2 now runs at 40 %: it can take more work",
+                "Machine 3 is paused: the others will make up for it",
+                "Machine 3 goes on",
+            ]
+        );
+    }
+
+    #[test]
+    fn only_the_last_are_kept() {
+        let records = (0..200).map(|i| (i, transfer(0, 1, 100 + i as u32)));
+        let events = told(2, records);
+        assert_eq!(events.told.len(), KEPT);
+        assert_eq!(sentences(&events)[KEPT - 1], "1 gave 299 atoms to 2, which had finished");
+    }
+}

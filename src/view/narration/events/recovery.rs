@@ -1,0 +1,79 @@
+//! What a ring that adapts does about what is lost, late or needed: one event, however many messages it takes.
+
+use super::{Event, Events};
+use crate::balance::{Message, NodeId, Party};
+use crate::picture::atoms_in;
+use crate::time::Time;
+use crate::view::narration::failure_sentences;
+use crate::view::state::run_state::RunState;
+
+/// What is done about it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Mishap {
+    /// The ring closes round machines, or opens for them.
+    Ring,
+    /// Atoms are given out again.
+    GivenOut { to: Vec<NodeId>, atoms: u32 },
+    /// What is late at a machine is traced by others too.
+    Copies { from: NodeId, to: Vec<NodeId>, atoms: u32 },
+    /// A machine wakes others.
+    Wakes { from: NodeId, to: Vec<NodeId> },
+}
+
+impl Events {
+    /// Takes in a message to a node that may mend something.
+    pub(super) fn mend(&mut self, at: Time, (from, to): (Party, NodeId), message: &Message, state: &RunState) {
+        match (from, message) {
+            (Party::Parent, Message::Gone(_)) => {
+                // All that are there are told the same.
+                let sentence = failure_sentences::ring_changed(state, at);
+                if let Some(sentence) = sentence {
+                    self.tell(at, Event::Mishap(Mishap::Ring), sentence);
+                }
+            }
+            (Party::Parent, Message::Again(ranges)) => {
+                let before = self.take_mishap(at, |event| matches!(event, Mishap::GivenOut { .. }));
+                let (to, atoms) = match before {
+                    Some(Mishap::GivenOut { to: others, atoms }) => (with(others, to), atoms + atoms_in(ranges)),
+                    _ => (vec![to], atoms_in(ranges)),
+                };
+                let sentence = failure_sentences::given_out(&to, atoms);
+                self.tell(at, Event::Mishap(Mishap::GivenOut { to, atoms }), sentence);
+            }
+            (Party::Node(from), Message::Again(ranges)) => {
+                let is_same = |event: &Mishap| matches!(event, Mishap::Copies { from: other, .. } if *other == from);
+                let (to, atoms) = match self.take_mishap(at, is_same) {
+                    Some(Mishap::Copies { to: others, atoms, .. }) => (with(others, to), atoms + atoms_in(ranges)),
+                    _ => (vec![to], atoms_in(ranges)),
+                };
+                let sentence = failure_sentences::copies(from, &to, atoms);
+                self.tell(at, Event::Mishap(Mishap::Copies { from, to, atoms }), sentence);
+            }
+            (Party::Node(from), Message::Wake) => {
+                let is_same = |event: &Mishap| matches!(event, Mishap::Wakes { from: other, .. } if *other == from);
+                let to = match self.take_mishap(at, is_same) {
+                    Some(Mishap::Wakes { to: others, .. }) => with(others, to),
+                    _ => vec![to],
+                };
+                let sentence = failure_sentences::wakes(from, &to);
+                self.tell(at, Event::Mishap(Mishap::Wakes { from, to }), sentence);
+            }
+            _ => {}
+        }
+    }
+
+    fn take_mishap(&mut self, now: Time, is_it: impl Fn(&Mishap) -> bool) -> Option<Mishap> {
+        match self.take(now, |event| matches!(event, Event::Mishap(mishap) if is_it(mishap))) {
+            Some(Event::Mishap(mishap)) => Some(mishap),
+            _ => None,
+        }
+    }
+}
+
+/// These nodes and one more, in their order.
+fn with(mut nodes: Vec<NodeId>, node: NodeId) -> Vec<NodeId> {
+    if let Err(place) = nodes.binary_search(&node) {
+        nodes.insert(place, node);
+    }
+    nodes
+}

@@ -1,0 +1,8 @@
+//! A run in sentences: events, failures, and the state of the machines.
+
+pub mod event_sentences;
+pub mod events;
+pub mod failure_sentences;
+pub mod narrator;
+pub mod record_sentences;
+pub mod status;

@@ -1,0 +1,185 @@
+//! What a record says in a sentence, and why it came so: for whoever goes through a run event by event.
+
+use super::event_sentences;
+use super::failure_sentences;
+use super::status::PIPE;
+use crate::balance::{NodeId, Party, Remedy};
+use crate::language::{say, word};
+use crate::record::{Record, What};
+use crate::view::state::flight::{Cargo, Flight};
+use crate::view::state::run_state::RunState;
+use crate::view::state::scheduler::Sharing;
+use crate::view::text::format::{atoms_words, count, duration, node_name, party_name};
+use crate::view::text::tooltips::flight_words;
+
+/// What happened, in a sentence; `state` already knows it.
+pub fn record_words(record: &Record, state: &RunState) -> String {
+    match &record.what {
+        What::Sent { id, .. } => match state.flight(*id) {
+            Some(flight) => sent_words(flight, state),
+            None => word!("A message leaves", "Parte uma mensagem").into(),
+        },
+        What::Received { id, by } => {
+            let by = match by {
+                Party::Parent => word!("The parent", "O pai").into(),
+                Party::Node(node) => node_name(*node).to_string(),
+            };
+            match state.flight(*id).map(flight_words) {
+                Some(what) => say!("{by} handles what has arrived: {what}", "{by} atende o que chegou: {what}"),
+                None => say!("{by} handles a message", "{by} atende uma mensagem"),
+            }
+        }
+        What::Estimating => event_sentences::estimating().into(),
+        What::Estimated { .. } => word!("The parent has sampled the picture", "O pai amostrou a imagem").into(),
+        What::AtomStarted { node, atom } => {
+            let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
+            say!("{name} begins atom {atom}", "{name} começa o átomo {atom}")
+        }
+        What::AtomDone { node, atom, cost } => {
+            let (name, atom, cost) = (node_name(*node), count(atom.saturating_add(1)), duration(*cost));
+            say!(
+                "{name} has traced atom {atom}, at a cost of {cost}",
+                "{name} calculou o átomo {atom}, ao custo de {cost}"
+            )
+        }
+        What::SpeedSet { node, speed } => {
+            let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
+            event_sentences::speed(state, *node, before, *speed)
+        }
+        What::Paused { node } => event_sentences::paused(state, *node),
+        What::Resumed { node } => event_sentences::resumed(state, *node),
+        What::LatencySet { latency } => event_sentences::latency(state, *latency),
+        What::Condition { node, .. } => failure_sentences::condition(state, *node),
+        What::Link { one, other, cut } => {
+            let (one, other) = (party_name(*one), party_name(*other));
+            if *cut {
+                say!("The link between {one} and {other} is cut", "A ligação entre {one} e {other} foi cortada")
+            } else {
+                say!("The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
+            }
+        }
+        What::Delayed { from, to, until } => failure_sentences::delayed((*from, *to), until.since(record.at)),
+        What::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
+        What::AtomFailed { node, atom } => {
+            let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
+            say!("{name} fails to trace atom {atom}", "{name} não consegue calcular o átomo {atom}")
+        }
+        What::GivenUp { atom } => {
+            let atom = count(atom.saturating_add(1));
+            say!(
+                "Atom {atom} cannot be traced: the run has failed",
+                "O átomo {atom} não pode ser calculado: a execução falhou"
+            )
+        }
+        What::Retired { node } => event_sentences::retired(state, &[*node]),
+        What::Finished => event_sentences::complete().into(),
+    }
+}
+
+fn sent_words(flight: &Flight, state: &RunState) -> String {
+    match (flight.from, flight.to, &flight.cargo) {
+        (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
+            let atoms = flight.cargo.atoms();
+            let why = share_words(state, from, to, atoms).map(|why| format!(": {why}")).unwrap_or_default();
+            format!("{}{why}", event_sentences::transfer(state, from, to, atoms))
+        }
+        (Party::Node(from), _, Cargo::Offer { who }) if from == *who => event_sentences::offer(
+            state,
+            *who,
+            true,
+            state.nodes().get(usize::from(from)).map_or(0, |node| node.offered),
+        ),
+        (Party::Node(from), Party::Node(to), Cargo::Offer { who }) => {
+            let left = state.nodes().get(usize::from(from)).map_or(0, |node| waiting(node.left()));
+            let why = if left == 0 {
+                word!("no atom waits with it", "nenhum átomo espera nela")
+            } else {
+                word!("what it could give is not worth it", "o que poderia dar não vale a pena")
+            };
+            let [from, who, to] = [from, *who, to].map(node_name);
+            say!("{from} passes the offer of {who} on to {to}: {why}", "{from} repassa a oferta de {who} a {to}: {why}")
+        }
+        _ => flight_words(flight),
+    }
+}
+
+/// Why a transfer, the last thing that has happened, has so many atoms (§7); `None` where nobody has weighed anything.
+pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Option<String> {
+    if !matches!(state.sharing(), Sharing::By(_)) {
+        return None;
+    }
+    if state.has(Remedy::Speed) {
+        return Some(word!("by their speeds both end together", "por suas velocidades, terminam juntas").into());
+    }
+    let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
+    let (own, offered, waits) = (owner?.done, offerer?.offered, waiting(owner?.left()) + atoms);
+    let (from, to) = (node_name(from), node_name(to));
+    let (atoms, verb) = (atoms_words(waits), if waits == 1 { "esperava" } else { "esperavam" });
+    let waits = say!("of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
+    Some(match (own, offered) {
+        (0, 0) => {
+            say!("{waits}, half, since neither had traced any", "{waits}, a metade, pois nenhuma tinha calculado nada")
+        }
+        (_, 0) => say!(
+            "{waits}, one for a trial, since machine {to} had traced none",
+            "{waits}, um como teste, pois a máquina {to} não tinha calculado nenhum"
+        ),
+        _ => {
+            let [own, offered, sum] = [own, offered, own.saturating_add(offered)].map(count);
+            say!(
+                "{waits}, {offered}/{sum}: machine {to} had traced {offered}, machine {from} {own}",
+                "{waits}, {offered}/{sum}: a máquina {to} tinha calculado {offered}, a máquina {from}, {own}"
+            )
+        }
+    })
+}
+
+/// How many of a node's atoms nobody has begun: what is in its pipe stays there.
+fn waiting(left: u32) -> u32 {
+    left.saturating_sub(PIPE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::balance::Message;
+    use crate::view::tests::sample_runs;
+
+    #[test]
+    fn every_record_is_told_and_a_share_is_what_its_reason_says() {
+        let header = sample_runs::header(&[1.0, 0.7, 0.9, 0.5, 0.1], 900);
+        let mut state = RunState::new(&header);
+        let mut shares = 0;
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            let words = record_words(&record, &state);
+            assert!(!words.is_empty() && words.chars().count() < 190, "{words}");
+            if let What::Sent {
+                from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            } = &record.what
+            {
+                let atoms: u32 = ranges.iter().map(|range| range.len() as u32).sum();
+                let [owner, offerer] = [*from, *to].map(|node| &state.nodes()[usize::from(node)]);
+                let (own, offered) = (f64::from(owner.done), f64::from(offerer.offered));
+                let waits = f64::from(waiting(owner.left()) + atoms);
+                assert!((waits * offered / (offered + own) - f64::from(atoms)).abs() <= 0.5, "{words}");
+                assert!(words.contains(" that waited with machine "), "{words}");
+                shares += 1;
+            }
+        }
+        assert!(shares > 3);
+    }
+
+    #[test]
+    fn whoever_passes_an_offer_on_says_why() {
+        let header = sample_runs::header(&[1.0, 1.0, 1.0], 300);
+        let mut state = RunState::new(&header);
+        let mut told = Vec::new();
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            told.push(record_words(&record, &state));
+        }
+        assert!(told.iter().any(|words| words.ends_with(": no atom waits with it")), "{told:#?}");
+        assert!(told.iter().any(|words| words.starts_with("1 handles what has arrived: ")), "{told:#?}");
+    }
+}

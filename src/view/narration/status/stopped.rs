@@ -1,0 +1,61 @@
+//! Machines that stand still: why they do, with how many atoms, and what makes them go on.
+
+use super::{Machine, PIPE};
+use crate::balance::Condition;
+use crate::language::{say, word};
+use crate::view::state::node_state::NodeState;
+
+/// Every machine stands still, and has atoms.
+pub(crate) fn all_still(still: &[Machine<'_>]) -> String {
+    match still.iter().filter(|(_, node)| node.paused).count() {
+        _ if still.len() == 1 => {
+            let (why, remedy) = (why(still[0].1), remedy(still));
+            say!("The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
+        }
+        0 => word!(
+            "All machines stand still at 0 %: raise a speed and the work goes on",
+            "Todas as máquinas estão paradas a 0 %: basta aumentar uma velocidade"
+        )
+        .into(),
+        paused if paused == still.len() => word!(
+            "All machines are paused: let one go on, and so does the work",
+            "Todas as máquinas estão em pausa: basta uma continuar"
+        )
+        .into(),
+        _ => word!(
+            "All machines stand still: raise a speed or let one go on, and so does the work",
+            "Todas as máquinas estão paradas: basta aumentar uma velocidade ou uma continuar"
+        )
+        .into(),
+    }
+}
+
+/// Why a machine stands still.
+pub(crate) fn why(node: &NodeState) -> &'static str {
+    match node.condition {
+        Condition::Hung => word!("hangs", "travou"),
+        _ if node.paused => word!("is paused", "está em pausa"),
+        _ => word!("stands still at 0 %", "está parada a 0 %"),
+    }
+}
+
+/// What makes machines that stand still go on.
+pub(crate) fn remedy(still: &[Machine<'_>]) -> &'static str {
+    match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
+        (1, 0) => word!("raise its speed", "basta aumentar sua velocidade"),
+        (1, _) => word!("let it go on", "basta retomá-la"),
+        (_, 0) => word!("raise their speed", "basta aumentar sua velocidade"),
+        (all, paused) if all == paused => word!("let them go on", "basta retomá-las"),
+        _ => word!("let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
+    }
+}
+
+/// How many atoms machines have together.
+pub(crate) fn all_left(machines: &[Machine<'_>]) -> u32 {
+    machines.iter().map(|(_, node)| node.left()).sum()
+}
+
+/// How many of their atoms could be given away.
+pub(crate) fn in_queues(machines: &[Machine<'_>]) -> u32 {
+    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE)).sum()
+}

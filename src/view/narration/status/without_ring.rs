@@ -1,0 +1,237 @@
+//! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
+
+use super::stopped::{all_left, all_still, remedy, why};
+use super::{Machine, computing, has_most, only, only_one, under_way};
+use crate::balance::NodeId;
+use crate::language::{say, word};
+use crate::view::narration::event_sentences::{estimating, is_slow};
+use crate::view::state::run_state::RunState;
+use crate::view::state::scheduler::Sharing;
+use crate::view::text::format::{atoms_words, fraction, left_words, names, node_name};
+
+/// How things stand.
+pub(crate) fn without_ring(state: &RunState) -> String {
+    let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
+    let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
+    let machines = state.nodes().len();
+    let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
+    match (&*busy, &*still) {
+        _ if state.is_estimating => estimating().into(),
+        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines),
+        ([], []) if state.has_atoms_under_way() => under_way(),
+        ([], []) => super::waiting_for_the_parent(),
+        ([], still) if still.len() == machines => all_still(still),
+        ([], still) => nobody_computes(still),
+        ([only], []) if machines == 1 => only_one(only.1),
+        ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last),
+        (busy, still) => several(state, busy, still, &asking),
+    }
+}
+
+/// Nobody can get any more than they have.
+fn all_is_given_away(state: &RunState) -> bool {
+    !state.sharing.is_farm() || state.nodes().iter().any(|node| node.retired)
+}
+
+/// One machine has all atoms that are left.
+fn all_wait_for(state: &RunState, (node, last): Machine<'_>) -> String {
+    let (name, left, speed) = (node_name(node), left_words(last.left()), fraction(last.speed));
+    if state.sharing == Sharing::Stealing {
+        return only((node, last));
+    }
+    if last.done + last.left() == state.atoms() {
+        return say!(
+            "{name} computes alone: {left}; the others have nothing to do",
+            "{name} calcula sozinha: {left}; as outras não têm o que fazer"
+        );
+    }
+    let name = if is_slow(last) {
+        say!("{name}, which is slow ({speed})", "{name}, que é lenta ({speed})")
+    } else {
+        name.to_string()
+    };
+    say!("All wait for {name}: {left}", "Todas esperam por {name}: {left}")
+}
+
+/// Some machines compute.
+fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking: &[NodeId]) -> String {
+    let machines = state.nodes().len();
+    let what = if state.sharing == Sharing::Stealing { "threads" } else { word!("machines", "máquinas") };
+    let compute = computing(busy.len(), machines, what);
+    if let [(_, machine), ..] = still {
+        let (is, they) = match still.len() {
+            1 => (why(machine), "its"),
+            _ => (word!("stand still", "estão paradas"), "their"),
+        };
+        let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>());
+        let left = atoms_words(all_left(still));
+        return match state.sharing {
+            Sharing::Stealing => say!(
+                "{compute}; {who} {is}: {they} {left} can be stolen",
+                "{compute}; {who} {is}: as outras podem roubar {left}"
+            ),
+            _ => say!(
+                "{compute}; {who} {is}, and nobody takes over {they} {left}",
+                "{compute}; {who} {is} com {left}, e ninguém os assume"
+            ),
+        };
+    }
+    // Of equals the first is named.
+    let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
+    let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
+    let (left, speed) = (atoms_words(last.left()), fraction(last.speed));
+    match state.sharing {
+        Sharing::Stealing if busy.len() == machines => {
+            say!("{compute} their own atoms", "{compute} seus próprios átomos")
+        }
+        Sharing::Stealing => has_most(&compute, name),
+        sharing if sharing.is_farm() => match asking {
+            [] if !all_is_given_away(state) => {
+                say!("{compute}; whoever is done asks the parent for more", "{compute}; quem termina pede mais ao pai")
+            }
+            [] => say!(
+                "{compute} the last atoms; the parent has no more",
+                "{compute} seus últimos átomos; o pai não tem mais"
+            ),
+            some => format!("{compute}; {}", some_wait(some)),
+        },
+        _ if is_slow(last) => say!(
+            "{compute}; {name} is slow ({speed}) and has most left: {left}, which nobody takes over",
+            "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}, que ninguém assume"
+        ),
+        _ if busy.len() == machines => say!(
+            "{compute} their own bands, whatever these cost",
+            "{compute} suas próprias faixas, custem o que custarem"
+        ),
+        _ => say!(
+            "{compute}; the others are done, and nobody shares with them",
+            "{compute}; as outras terminaram, e ninguém divide com elas"
+        ),
+    }
+}
+
+/// Nobody computes, and the atoms that are left are with machines that stand still.
+fn nobody_computes(still: &[Machine<'_>]) -> String {
+    let (left, remedy, machines) = (atoms_words(all_left(still)), remedy(still), still.len());
+    match still {
+        [(node, machine)] => {
+            let (name, why) = (node_name(*node), why(machine));
+            say!(
+                "All wait for {name}, which {why} with {left}: {remedy}",
+                "Todas esperam por {name}, que {why} com {left}: {remedy}"
+            )
+        }
+        _ => say!(
+            "All wait for {machines} machines that stand still with {left}: {remedy}",
+            "Todas esperam por {machines} máquinas paradas com {left}: {remedy}"
+        ),
+    }
+}
+
+/// Nobody has atoms, and some have asked for them.
+fn waiting_for_the_parent(asking: &[NodeId], machines: usize) -> String {
+    match asking {
+        _ if machines == 1 => word!("The only machine waits for the parent", "A única máquina espera pelo pai").into(),
+        all if all.len() == machines => {
+            say!("All {machines} machines wait for the parent", "Todas as {machines} máquinas esperam pelo pai")
+        }
+        some => some_wait(some),
+    }
+}
+
+/// These have asked for atoms, and have not got any yet.
+fn some_wait(some: &[NodeId]) -> String {
+    let who = names(some);
+    match some {
+        [_] => say!("{who} waits for the parent", "{who} espera pelo pai"),
+        _ => say!("{who} wait for the parent", "{who} esperam pelo pai"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::balance::{Message, Party, Strategy};
+    use crate::record::{Record, What};
+    use crate::runlog::{Driver, Header};
+    use crate::time::Time;
+    use crate::view::tests::sample_runs;
+
+    const STATIC: Sharing = Sharing::By(Strategy::Static);
+    const FARM: Sharing = Sharing::By(Strategy::Farm);
+
+    /// How things stand where machines have so many atoms left at these speeds, and some have asked or are not needed.
+    fn stands(sharing: Sharing, machines: &[(u32, f64)], asking: &[NodeId], retired: &[NodeId]) -> String {
+        let mut header = sample_runs::header(&vec![1.0; machines.len()], 900);
+        match sharing {
+            Sharing::By(strategy) => header.rules.strategy = strategy,
+            Sharing::Stealing => header = Header { driver: Driver::WorkStealing, ..header },
+        }
+        let mut state = RunState::new(&header);
+        let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
+        let mut send = |id, from, to, message| {
+            apply(What::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO });
+            apply(What::Received { id, by: to });
+        };
+        for ((id, node), &(left, _)) in (0..).zip(0..).zip(machines) {
+            send(id, Party::Parent, Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
+        }
+        (90..).zip(asking).for_each(|(id, &node)| send(id, Party::Node(node), Party::Parent, Message::Request));
+        for (node, &(_, speed)) in (0..).zip(machines) {
+            apply(What::SpeedSet { node, speed });
+        }
+        retired.iter().for_each(|&node| apply(What::Retired { node }));
+        without_ring(&state)
+    }
+
+    #[test]
+    fn bands_stay_where_they_are() {
+        let stands = |machines: &[(u32, f64)]| stands(STATIC, machines, &[], &[]);
+        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 machines compute their own bands, whatever these cost");
+        assert_eq!(
+            stands(&[(0, 1.0), (9, 1.0), (64, 0.1)]),
+            "2 of 3 machines compute; 3 is slow (10 %) and has most left: 64 atoms, which nobody takes over"
+        );
+        assert_eq!(
+            stands(&[(0, 1.0), (9, 1.0), (9, 1.0)]),
+            "2 of 3 machines compute; the others are done, and nobody shares with them"
+        );
+        assert_eq!(stands(&[(0, 1.0), (64, 0.1)]), "All wait for 2, which is slow (10 %): 64 atoms left");
+        assert_eq!(stands(&[(0, 1.0), (64, 1.0)]), "All wait for 2: 64 atoms left");
+        assert_eq!(
+            stands(&[(0, 1.0), (64, 0.0)]),
+            "All wait for 2, which stands still at 0 % with 64 atoms: raise its speed"
+        );
+        assert_eq!(
+            stands(&[(9, 1.0), (64, 0.0)]),
+            "1 of 2 machines computes; 2 stands still at 0 %, and nobody takes over its 64 atoms"
+        );
+        assert!(stands(&[(9, 0.0), (9, 0.0)]).starts_with("All machines stand still at 0 %"));
+    }
+
+    #[test]
+    fn in_a_farm_all_depends_on_the_parent() {
+        let busy = [(5, 1.0), (5, 1.0), (5, 1.0)];
+        assert_eq!(stands(FARM, &busy, &[], &[]), "All 3 machines compute; whoever is done asks the parent for more");
+        let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &one, &[2], &[]), "2 of 3 machines compute; 3 waits for the parent");
+        assert_eq!(stands(FARM, &one, &[], &[2]), "2 of 3 machines compute the last atoms; the parent has no more");
+        let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &none, &[0, 1, 2], &[]), "All 3 machines wait for the parent");
+        assert_eq!(
+            stands(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1]),
+            "All wait for 3, which is slow (10 %): 7 atoms left"
+        );
+    }
+
+    #[test]
+    fn threads_steal_from_whoever_stands_still_too() {
+        let stands = |machines: &[(u32, f64)]| stands(Sharing::Stealing, machines, &[], &[]);
+        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
+        assert_eq!(stands(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
+        assert_eq!(
+            stands(&[(5, 1.0), (5, 0.0)]),
+            "1 of 2 threads computes; 2 stands still at 0 %: its 5 atoms can be stolen"
+        );
+    }
+}

@@ -1,0 +1,121 @@
+//! Runs beside each other: what each has come to at one time, and what it amounts to.
+
+use std::sync::Arc;
+
+use super::snapshots::{Moment, Past};
+use crate::palette::{Rgb, node_colours};
+use crate::picture::Colour;
+use crate::runlog::RunLog;
+use crate::time::Time;
+use crate::view::analysis::time_budget::Account;
+use crate::view::picture::canvas::Canvas;
+use crate::view::picture::overlay::Layer;
+use crate::view::state::lanes::Lanes;
+
+/// One of several runs that are over, at the time that is shown of all of them.
+#[derive(Clone, Debug)]
+pub struct Contender {
+    /// What it is called.
+    pub name: String,
+    /// All of it.
+    pub log: Arc<RunLog>,
+    /// What it amounts to; `None` if its picture was never completed.
+    pub account: Option<Account>,
+    /// What each machine did and when.
+    pub lanes: Lanes,
+    /// Its machines' colours.
+    pub colours: Vec<Rgb>,
+    past: Past,
+    moment: Moment,
+    canvas: Canvas,
+}
+
+impl Contender {
+    /// A run and its picture's pixels in scan order, before anything has happened.
+    pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
+        let header = &log.header;
+        let colours = node_colours(header.speeds.len());
+        let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
+        canvas.take(0..header.division.atoms(), pixels);
+        let (moment, lanes) = (Moment::new(header), Lanes::of(&log));
+        canvas.show_all(&moment.state);
+        Self { name, account: Account::new(&log, &lanes), log, lanes, colours, past: Past::default(), moment, canvas }
+    }
+
+    /// How long its records go on.
+    pub fn length(&self) -> Time {
+        self.log.end()
+    }
+
+    /// When its picture was complete; never, perhaps.
+    pub fn end(&self) -> Option<Time> {
+        self.account.as_ref().map(|account| Time::ZERO + account.makespan)
+    }
+
+    /// What is known at the shown time.
+    pub fn moment(&self) -> &Moment {
+        &self.moment
+    }
+
+    /// Shows another time.
+    pub fn show(&mut self, time: Time) {
+        let records = self.log.until(time);
+        if records == self.moment.records() {
+            return;
+        }
+        if self.past.go(&self.log, records, &mut self.moment) {
+            for atoms in self.moment.state.take_touched() {
+                self.canvas.show(atoms, &self.moment.state);
+            }
+        } else {
+            self.moment.state.take_touched();
+            self.canvas.show_all(&self.moment.state);
+        }
+    }
+
+    /// Its picture: the render (0), a layer (1) or something between.
+    pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
+        self.canvas.set_look(look, ground, &self.moment.state);
+        &mut self.canvas
+    }
+}
+
+/// When the last of them is over.
+pub fn length_of_all(contenders: &[Contender]) -> Time {
+    contenders.iter().map(Contender::length).max().unwrap_or(Time::ZERO)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::Range;
+
+    use super::*;
+    use crate::view::tests::sample_runs;
+
+    fn contender(speeds: &[f64]) -> Contender {
+        let header = sample_runs::header(speeds, 300);
+        let mut log = RunLog::new(header.clone());
+        log.add(sample_runs::records(&header));
+        let pixels = vec![[0.5; 3]; header.size.pixels() as usize];
+        Contender::new("Ring".into(), Arc::new(log), &pixels, [0; 3])
+    }
+
+    #[test]
+    fn at_each_time_a_run_shows_what_it_had_come_to() {
+        let mut shown = contender(&[1.0, 0.2]);
+        let rows = |shown: &mut Contender| -> Vec<Rgb> {
+            let all: Range<u32> = 0..shown.log.header.size.height();
+            shown.canvas((Layer::Owners, 0.0), [0; 3]).rows(all).to_vec()
+        };
+        let end = shown.length();
+        shown.show(end);
+        let (complete, done) = (rows(&mut shown), shown.moment().state.done());
+        assert_eq!((done, shown.moment().state.finished().is_some()), (300, true));
+        assert!(shown.end().is_some_and(|complete| complete <= end));
+        shown.show(Time(end.0 / 2));
+        assert!((10..290).contains(&shown.moment().state.done()));
+        assert_ne!(rows(&mut shown), complete);
+        shown.show(end);
+        assert_eq!(rows(&mut shown), complete);
+    }
+}

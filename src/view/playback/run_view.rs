@@ -1,0 +1,43 @@
+//! Everything that is known of a run by now, whatever moment is shown.
+
+use super::snapshots::Moment;
+use crate::language::Language;
+use crate::record::Record;
+use crate::runlog::{Header, RunLog};
+use crate::view::state::lanes::Lanes;
+use crate::view::timeline::markers::Signs;
+
+/// What is known of a run, as a fold over its records.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// Its last moment.
+    pub latest: Moment,
+    /// What stands out in its time.
+    pub signs: Signs,
+    /// What each machine did and when.
+    pub lanes: Lanes,
+    /// What its sentences are in.
+    pub language: Language,
+}
+
+impl Known {
+    /// Before anything has happened.
+    pub fn new(header: &Header) -> Self {
+        let language = Language::spoken();
+        Self { latest: Moment::new(header), signs: Signs::default(), lanes: Lanes::new(header), language }
+    }
+
+    /// All of a recorded run.
+    pub fn of(log: &RunLog) -> Self {
+        let mut known = Self::new(&log.header);
+        log.records().iter().for_each(|record| known.apply(record));
+        known
+    }
+
+    /// Takes in what happened next.
+    pub fn apply(&mut self, record: &Record) {
+        self.latest.apply(record);
+        self.signs.apply(record, &self.latest.state);
+        self.lanes.apply(record);
+    }
+}

@@ -1,0 +1,255 @@
+//! A run on paper: the ring at a moment and the timeline, each with what it is of, so that it can be read alone.
+
+use std::time::Duration;
+
+use super::analysis::summary::Outcome;
+use super::analysis::time_budget::Account;
+use super::charts::time_budget_chart::{spent, spent_height};
+use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
+use super::playback::snapshots::Moment;
+use super::ring::{Overlay, ring};
+use super::state::lanes::Lanes;
+use super::text::format::{duration, fraction, node_name, time_words};
+use super::timeline::time_window::TimeWindow;
+use super::timeline::{LanePlan, axis, timeline};
+use crate::runlog::RunLog;
+use crate::sentence::shown;
+use crate::time::Time;
+
+/// What is drawn on a sheet of paper, and how large that is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paper {
+    /// What is drawn.
+    pub marks: Vec<Mark>,
+    /// Width and height.
+    pub size: Point,
+}
+
+const MARGIN: f32 = 28.0;
+
+/// So much of a title or a memo is shown: more than a line may stand in the run's file.
+const LONGEST: usize = 150;
+
+/// Of the ring's sheet.
+const RING: Point = [900.0, 760.0];
+
+/// Of the timeline's sheet, and of what stands left of its lanes.
+const WIDTH: f32 = 1200.0;
+const LEFT: f32 = 96.0;
+
+impl Paper {
+    /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
+    /// After the end it is as at the end.
+    pub fn ring(log: &RunLog, at: Time) -> Self {
+        /// Longer than the last message is drawn: at the end all is at rest.
+        const LINGER: Duration = Duration::from_secs(5);
+        let at = at.min(log.end());
+        let mut moment = Moment::new(&log.header);
+        log.records()[..log.until(at)].iter().for_each(|record| moment.apply(record));
+        let state = &moment.state;
+        let outcome = Outcome::of(log).filter(|_| state.finished().is_some());
+        let is_over = outcome.is_some() && at == log.end();
+        let drawn_at = if is_over { at + LINGER } else { at };
+        let [width, height] = RING;
+        let mut marks = Vec::new();
+        let top = heading(log, outcome.as_ref(), width, &mut marks);
+        let overlay = Overlay { outcome, ..Overlay::default() };
+        let room = [width - 2.0 * MARGIN, height - top - 2.5 * MARGIN];
+        marks.extend(ring(state, &overlay, drawn_at, room).into_iter().map(|mark| mark.moved([MARGIN, top])));
+        let sentence = format!("At {}: {}", time_words(at, grain(log)), moment.narrator.sentence(state, at));
+        let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);
+        marks.push(label([width / 2.0, height - MARGIN], Anchor::Centre, sentence, size, Hue::Text));
+        Self { marks, size: RING }
+    }
+
+    /// The timeline of all of a run: a lane a machine, with its number and its speed at the beginning.
+    pub fn timeline(log: &RunLog) -> Self {
+        let lanes = Lanes::of(log);
+        let nodes = log.header.speeds.len();
+        let mut marks = Vec::new();
+        let top = heading(log, Outcome::of(log).as_ref(), WIDTH, &mut marks);
+        let lane = (640.0 / nodes as f32).clamp(4.0, 26.0);
+        // Enough for the strip above the lanes and the axis below.
+        let room = (58.0 + lane * nodes as f32).max(121.0);
+        let plan = LanePlan { lane, ..LanePlan::new(nodes, WIDTH - LEFT - MARGIN, room) };
+        let end = log.end();
+        let mut window = TimeWindow::default();
+        window.fit(end);
+        let mut drawn = Vec::new();
+        let made = timeline(&lanes, &window, &plan, end);
+        drawn.extend(made.quads.into_iter().map(|quad| {
+            let [left, top, right, bottom] = quad.place;
+            let (centre, half) =
+                ([(left + right) / 2.0, (top + bottom) / 2.0], [(right - left) / 2.0, (bottom - top) / 2.0]);
+            Mark::Box { centre, half, round: 0.0, ink: quad.ink }
+        }));
+        let within = |[x, y]: Point, [u, v]: Point| {
+            // What is still under way at the end leads out of the sheet's edge.
+            let part = if u > plan.width { (plan.width - x) / (u - x) } else { 1.0 };
+            [x + part * (u - x), y + part * (v - y)]
+        };
+        drawn.extend(made.lines.into_iter().map(|(from, to, ink)| {
+            let points = vec![from, within(from, to)];
+            Mark::Line { points, width: 1.0, ink }
+        }));
+        heads(log, &plan, &mut drawn);
+        times(log, &window, &plan, &mut drawn);
+        marks.extend(drawn.into_iter().map(|mark| mark.moved([LEFT, top])));
+        let foot = top + plan.bottom() + plan.foot + 18.0;
+        let legend = "Bars: atoms traced. Dark lines: atoms to another machine. Pale lines: offers from neighbour to \
+                      neighbour. Ticks: results to the parent. Above: what part of the machines traced.";
+        marks.push(label([LEFT, foot], Anchor::Left, legend.into(), TextSize::Small(0.9), Hue::Quiet));
+        Self { marks, size: [WIDTH, foot + MARGIN] }
+    }
+}
+
+impl Paper {
+    /// Where the time of several runs went.
+    pub fn comparison(title: &str, runs: &[(&str, &Account)]) -> Self {
+        const TOP: f32 = MARGIN + 36.0;
+        let room = WIDTH - 2.0 * MARGIN;
+        let title = shown(title, LONGEST);
+        let size = fitting(&title, 1.5 * TextSize::BODY, room);
+        let mut marks = vec![label([MARGIN, MARGIN + 6.0], Anchor::Left, title, size, Hue::Text)];
+        marks.extend(spent(runs, room).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
+        Self { marks, size: [WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
+    }
+}
+
+/// Number and speed of the machines, as many as there is room for, and what the strip above them is.
+fn heads(log: &RunLog, plan: &LanePlan, marks: &mut Vec<Mark>) {
+    let every = (TextSize::SMALL / plan.lane).ceil().max(1.0) as usize;
+    for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
+        let [top, bottom] = plan.lane(node);
+        let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if every > 1 { 0.8 } else { 1.0 }));
+        marks.push(label([-56.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
+        marks.push(label([-8.0, y], Anchor::Right, fraction(*speed), size, Hue::Quiet));
+    }
+    if plan.head > 0.0 {
+        marks.push(label([-8.0, plan.head - 14.0], Anchor::Right, "tracing".into(), TextSize::Small(0.9), Hue::Quiet));
+    }
+}
+
+/// The axis below the lanes.
+fn times(log: &RunLog, window: &TimeWindow, plan: &LanePlan, marks: &mut Vec<Mark>) {
+    let ink = Hue::Quiet.full();
+    let y = plan.bottom() + 2.0;
+    marks.push(Mark::Line { points: vec![[0.0, y], [plan.width, y]], width: 1.0, ink });
+    let (times, rate) = axis(window, plan.width);
+    for time in times {
+        let x = plan.width * window.share(time) as f32;
+        marks.push(Mark::Line { points: vec![[x, y], [x, y + 5.0]], width: 1.0, ink });
+        let words = time_words(time, rate.min(grain(log)));
+        let half = TextSize::Small(1.0).width(words.chars().count()) / 2.0;
+        let x = x.clamp(half.min(0.0), plan.width - half);
+        let anchor = if x < half { Anchor::Left } else { Anchor::Centre };
+        marks.push(label([x, y + 14.0], anchor, words, TextSize::Small(1.0), Hue::Quiet));
+    }
+}
+
+/// What the run is called, what it was, and what is said of it; returns where it ends.
+fn heading(log: &RunLog, outcome: Option<&Outcome>, width: f32, marks: &mut Vec<Mark>) -> f32 {
+    let (header, room) = (&log.header, width - 2.0 * MARGIN);
+    let nodes = header.speeds.len();
+    let plural = if nodes == 1 { "" } else { "s" };
+    let mut what = format!("{}: {}, {nodes} machine{plural}", header.size, header.strategy_name());
+    if header.title() != header.scene {
+        what = format!("{}, {what}", header.scene);
+    }
+    if let Some(outcome) = outcome {
+        what += &format!("; {}, efficiency {}", duration(outcome.makespan), fraction(outcome.efficiency));
+    }
+    let caption = &header.caption;
+    let lines = [(&what, Hue::Text), (&caption.memo, Hue::Quiet), (&caption.machine, Hue::Quiet)];
+    let title = shown(header.title(), LONGEST);
+    let mut y = MARGIN + 6.0;
+    let size = fitting(&title, 1.5 * TextSize::BODY, room);
+    marks.push(label([MARGIN, y], Anchor::Left, title, size, Hue::Text));
+    y += 8.0;
+    for (line, hue) in lines.into_iter().filter(|(line, _)| !line.is_empty()) {
+        y += 18.0;
+        let line = shown(line, LONGEST);
+        let size = fitting(&line, TextSize::SMALL, room).units() / TextSize::SMALL;
+        marks.push(label([MARGIN, y], Anchor::Left, line, TextSize::Small(size), hue));
+    }
+    y + 20.0
+}
+
+/// How exactly times are told: the shorter the run, the more.
+fn grain(log: &RunLog) -> f64 {
+    (log.end().secs() / 2.0).clamp(1e-9, 1.0)
+}
+
+/// The size of a text that is to be no broader than this.
+fn fitting(text: &str, size: f32, width: f32) -> TextSize {
+    let broad = TextSize::Fit(size).width(text.chars().count());
+    TextSize::Fit(size * (width / broad.max(1.0)).min(1.0))
+}
+
+fn label(at: Point, anchor: Anchor, text: String, size: TextSize, hue: Hue) -> Mark {
+    Mark::Label { at, anchor, text, size, ink: hue.full() }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::tests::sample_runs;
+    use super::*;
+    use crate::runlog::{Caption, Header};
+
+    fn texts(paper: &Paper) -> Vec<&str> {
+        let text = |mark: &'_ Mark| matches!(mark, Mark::Label { .. });
+        let labels = paper.marks.iter().filter(|mark| text(mark));
+        labels.filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(&**text) } else { None }).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_lies_beside_the_sheet(
+            speeds in prop::collection::vec(0.05..1.0f64, 1..40), atoms in 1..400u32, at in 0.0..20.0f64, title in ".{0,300}",
+        ) {
+            let mut log = sample_runs::log(&speeds, atoms);
+            log.header.caption.title = title;
+            for paper in [Paper::ring(&log, Time::from_secs(at)), Paper::timeline(&log)] {
+                let [width, height] = paper.size;
+                let inside = |[x, y]: Point| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
+                for mark in &paper.marks {
+                    let within = match mark {
+                        Mark::Disc { centre, .. } | Mark::Box { centre, .. } => inside(*centre),
+                        Mark::Line { points, .. } | Mark::Trail { points, .. } => points.iter().copied().all(inside),
+                        Mark::Label { at, anchor, text, size, .. } => {
+                            let broad = size.width(text.chars().count());
+                            let left = anchor.left(at[0], broad);
+                            inside(*at) && left >= -0.1 && (left + broad <= width + 0.1 || text.contains("Bars"))
+                        }
+                    };
+                    prop_assert!(within, "{:?}: {mark:?}", paper.size);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_sheet_says_what_it_is_of() {
+        let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
+        let caption = Caption { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
+        let mut named = RunLog::new(Header { caption, ..log.header.clone() });
+        named.add(log.records().to_vec());
+        for paper in [Paper::ring(&named, Time::from_secs(1.0)), Paper::timeline(&named)] {
+            let texts = texts(&paper);
+            for said in ["A slow third", "for a talk", "some CPU", "3", "10 %"] {
+                assert!(texts.iter().any(|text| text.contains(said)), "{said}: {texts:?}");
+            }
+        }
+        assert!(texts(&Paper::timeline(&log)).contains(&"sample"), "without a title it is the scene");
+    }
+
+    #[test]
+    fn the_ring_shows_its_moment() {
+        let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
+        let at = |secs| texts(&Paper::ring(&log, Time::from_secs(secs))).join("\n");
+        assert!(at(0.0).contains("0 %") && at(0.0).contains("At 0.0"), "{}", at(0.0));
+        assert!(at(1e6).contains("efficiency") && !at(1.0).contains("start to finish"), "{}", at(1e6));
+    }
+}

@@ -1,0 +1,135 @@
+//! What the labels beside the nodes say.
+
+use super::labels::{Form, LABELLED, SECOND};
+use super::layout::Plan;
+use crate::balance::NodeId;
+use crate::language::say;
+use crate::time::Time;
+use crate::view::draw::display_list::{Hue, Mark, TextSize};
+use crate::view::state::node_state::{Activity, NodeState};
+use crate::view::state::run_state::RunState;
+use crate::view::text::format::{activity_word, count, fraction, percent, rate_words};
+
+/// Puts the words on a node beside the rail.
+pub(crate) fn label(
+    plan: &Plan,
+    state: &RunState,
+    (node, of): (NodeId, &NodeState),
+    activity: Activity,
+    now: Time,
+    marks: &mut Vec<Mark>,
+) {
+    let labels = &plan.labels;
+    let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail);
+    let [x, y] = [plan.centre[0] + dx, plan.centre[1] + dy];
+    let ink = if activity.is_out() { Hue::Quiet } else { Hue::Text }.full();
+    let (size, small) = (labels.size(), TextSize::Small(labels.text));
+    let [first, second] = match labels.form {
+        Form::Nothing => return,
+        Form::Number => [number(state, of, activity), String::new()],
+        Form::OneLine => [words(state, of, activity, now)[0].clone(), String::new()],
+        Form::TwoLines => words(state, of, activity, now),
+    };
+    let top = if second.is_empty() { y } else { y - small.line() / 2.0 };
+    marks.push(Mark::Label { at: [x, top], anchor, text: first, size, ink });
+    if !second.is_empty() {
+        let (at, ink) = ([x, y + size.line() / 2.0], Hue::Quiet.full());
+        marks.push(Mark::Label { at, anchor, text: second, size: small, ink });
+    }
+}
+
+/// Whether a node has a label.
+pub(crate) fn is_labelled(plan: &Plan, is_selected: bool) -> bool {
+    plan.nodes <= LABELLED || is_selected
+}
+
+/// What is said of a node: what it still has to do, and what matters most of how it does it; at the end, what it has
+/// done.
+fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [String; 2] {
+    let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
+    let [left, done] = [of.left(), of.done].map(short);
+    let (left, done) = (say!("{left} left", "{rest} {left}"), say!("{done} done", "{done} {made}"));
+    match activity {
+        _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
+        Activity::Waiting | Activity::Spare => [activity_word(activity).into(), String::new()],
+        _ if activity.is_out() => [done, activity_word(activity).into()],
+        Activity::Computing => {
+            let rate = rate_words(of.rate(now));
+            let both = format!("{} · {rate}", fraction(of.speed));
+            [left, if of.speed < 0.995 && both.chars().count() <= SECOND { both } else { rate }]
+        }
+        _ => [left, activity_word(activity).into()],
+    }
+}
+
+/// The same in a number.
+fn number(state: &RunState, of: &NodeState, activity: Activity) -> String {
+    let done = state.finished().is_some() || activity.is_out();
+    short(if done { of.done } else { of.left() })
+}
+
+/// A count in at most five letters.
+fn short(number: u32) -> String {
+    match number {
+        0..10_000 => count(number),
+        10_000..1_000_000 => format!("{}k", number / 1000),
+        _ => format!("{}M", number / 1_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::labels::{NUMBER, longest};
+    use super::*;
+    use crate::balance::{Message, Party};
+    use crate::record::{Record, What};
+    use crate::view::tests::sample_runs;
+
+    proptest! {
+        #[test]
+        fn labels_are_no_longer_than_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
+            let mut state = RunState::new(&sample_runs::header(&[1.0], 9));
+            for ms in 0..done % 3000 {
+                state.nodes[0].atom_done(true, Time(u64::from(ms) * 1_000_000));
+            }
+            let mut of = state.nodes[0].clone();
+            (of.speed, of.left, of.done) = (speed, i64::from(left), done);
+            for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
+                let [first, second] = words(&state, &of, activity, Time::from_secs(2.0)).map(|line| line.chars().count());
+                prop_assert!(first <= longest() && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO));
+                prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER);
+            }
+        }
+    }
+
+    #[test]
+    fn the_second_line_says_what_matters() {
+        let mut state = RunState::new(&sample_runs::header(&[1.0, 0.1], 300));
+        let mut apply = |ms: u64, what| state.apply(&Record { at: Time(ms * 1_000_000), what });
+        for (id, node) in [(0, 0), (1, 1)] {
+            let (to, message) = (Party::Node(node), Message::Band(150 * id..150 * (id + 1)));
+            let (from, id, arrives) = (Party::Parent, u64::from(id), Time::ZERO);
+            apply(0, What::Sent { id, from, to, message, bytes: 0, arrives });
+            apply(0, What::Received { id, by: to });
+        }
+        for (node, each) in [(0, 20), (1, 200)] {
+            for i in 1..=1000 / each {
+                let atom = 150 * u32::from(node) + i as u32;
+                apply(i * each, What::AtomDone { node, atom, cost: std::time::Duration::ZERO });
+            }
+        }
+        let said = |state: &RunState, node: NodeId| {
+            let now = Time::from_secs(1.0);
+            words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now).join(", ")
+        };
+        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
+        state.apply(&Record { at: Time::from_secs(1.0), what: What::Paused { node: 1 } });
+        assert_eq!(said(&state, 1), "145 left, paused");
+        state.nodes[0].left = 0;
+        assert_eq!(said(&state, 0), "0 left, idle");
+        state.nodes[0].retired = true;
+        assert_eq!(said(&state, 0), "50 done, retired");
+    }
+}

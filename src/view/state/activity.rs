@@ -1,0 +1,241 @@
+//! What is seen of a run at some time: what moves, and what each node does.
+
+use std::borrow::Cow;
+use std::time::Duration;
+
+use super::flight::{Cargo, Flight};
+use super::node_state::{Activity, NodeState};
+use super::run_state::RunState;
+use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::picture::Atom;
+use crate::time::Time;
+
+impl RunState {
+    /// Whether anything moves at `now`: a message that is drawn, a machine that computes, a rate that sinks, or the line
+    /// at the parent.
+    pub fn moves(&self, now: Time) -> bool {
+        let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
+        let works = |node: &NodeState| node.computes() || node.rate(now) > 0.0;
+        flies || self.finished.is_none() && (self.nodes.iter().any(works) || self.is_in_line(now))
+    }
+
+    /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
+    /// result.
+    pub fn presence(&self, now: Time) -> f32 {
+        const FADE: Duration = Duration::from_millis(250);
+        let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
+        1.0 - (after.as_secs_f64() / (FADE.as_secs_f64() * self.rate())).min(1.0) as f32
+    }
+
+    /// How many messages have arrived at the parent that it has not handled yet at `now`.
+    pub fn waiting(&self, now: Time) -> usize {
+        self.in_line(now).count()
+    }
+
+    /// Whether messages wait for a parent that takes its time.
+    fn is_in_line(&self, now: Time) -> bool {
+        !self.handling.is_zero() && self.waiting(now) > 0
+    }
+
+    /// The messages that have arrived at the parent and that it has not handled yet at `now`, in the order in which they
+    /// left.
+    pub(crate) fn in_line(&self, now: Time) -> impl Iterator<Item = &Flight> {
+        /// Records come in batches, and so a little late.
+        const LATE: Duration = Duration::from_millis(100);
+        // By its own records the parent would have handled what was there before them.
+        let known = self.parent_head.min(now);
+        let goes_on = self.finished.is_none_or(|end| now < end);
+        let waits = move |flight: &&Flight| {
+            goes_on && flight.to == Party::Parent && (flight.arrives < known || flight.arrives + LATE <= now)
+        };
+        self.pending.values().filter(waits)
+    }
+
+    /// A node as it is seen at `now`: parcels are drawn slower than they travel, and what is in one that is still drawn
+    /// on its way does not count as the node's yet. The parts of a farm are drawn about as fast as they travel.
+    pub(crate) fn seen(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
+        let state = &self.nodes[usize::from(node)];
+        let lands = |flight: &&Flight| {
+            let is_part = matches!(flight.cargo, Cargo::Part(_));
+            let lands = flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now);
+            lands && flight.lost.is_none() && !is_part
+        };
+        let landing: u32 = match self.finished {
+            None => self.flights.iter().filter(lands).map(|flight| flight.cargo.atoms()).sum(),
+            Some(_) => 0,
+        };
+        if landing == 0 { Cow::Borrowed(state) } else { Cow::Owned(state.without(landing)) }
+    }
+
+    /// Whether atoms are on their way to a machine.
+    pub(crate) fn has_atoms_under_way(&self) -> bool {
+        let carries = |flight: &Flight| {
+            matches!(flight.cargo, Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_))
+        };
+        self.pending.values().any(carries)
+    }
+
+    /// The message in which `atom` is on its way to a node.
+    pub fn carrier(&self, atom: Atom) -> Option<&Flight> {
+        let carries = |flight: &&Flight| {
+            let goes_to_a_node = !matches!(flight.cargo, Cargo::Results(_));
+            goes_to_a_node && flight.cargo.ranges().iter().any(|range| range.contains(&atom))
+        };
+        self.pending.values().find(carries)
+    }
+
+    /// What `node` is seen doing at `now`.
+    pub fn activity(&self, node: NodeId, now: Time) -> Activity {
+        let state = &self.nodes[usize::from(node)];
+        // What lasts only an instant is shown for as long as it is drawn.
+        let offers =
+            self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.presence(now) > 0.4);
+        let is_over = self.finished.is_some_and(|end| end <= now);
+        if state.spare {
+            Activity::Spare
+        } else if state.condition != Condition::Well {
+            match state.condition {
+                Condition::Off => Activity::Off,
+                Condition::Hung => Activity::Hung,
+                Condition::CutOff | Condition::Well => Activity::CutOff,
+            }
+        } else if is_over {
+            Activity::Done
+        } else if state.retired && state.left() == 0 {
+            match self.sharing {
+                sharing if sharing.is_farm() => Activity::NoMore,
+                _ if self.has(Remedy::Wake) => Activity::Asleep,
+                _ => Activity::Retired,
+            }
+        } else if state.band_at.is_none() {
+            Activity::Waiting
+        } else if state.paused && state.left() > 0 {
+            Activity::Paused
+        } else if self.receives(node, now) {
+            Activity::Receiving
+        } else if state.left() > 0 {
+            if state.speed > 0.0 { Activity::Computing } else { Activity::Stopped }
+        } else if self.sharing.is_farm() && state.offer_out {
+            self.asks(node, now)
+        } else if state.offer_out || offers {
+            Activity::Offering
+        } else {
+            Activity::Idle
+        }
+    }
+
+    /// How far the request is that `node` has made.
+    fn asks(&self, node: NodeId, now: Time) -> Activity {
+        let (mut asks, mut gets) = (false, false);
+        for flight in self.pending.values() {
+            asks |= flight.from == Party::Node(node) && flight.cargo == Cargo::Request && now < flight.arrives;
+            gets |= flight.to == Party::Node(node) && matches!(flight.cargo, Cargo::Part(_));
+        }
+        match (asks, gets) {
+            (_, true) => Activity::Receiving,
+            (true, false) => Activity::Asking,
+            (false, false) => Activity::InLine,
+        }
+    }
+
+    /// Whether atoms on their way to `node` are drawn at `now`.
+    fn receives(&self, node: NodeId, now: Time) -> bool {
+        self.flights.iter().any(|flight| {
+            flight.to == Party::Node(node)
+                && matches!(flight.cargo, Cargo::Transfer(_) | Cargo::Again(_))
+                && flight.lost.is_none()
+                && flight.shown().contains(&now)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::record::{Record, What};
+    use crate::view::tests::sample_runs;
+
+    #[test]
+    fn a_slow_node_computes_while_the_others_offer_and_receive() {
+        let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
+        let mut state = RunState::new(&header);
+        let mut seen = BTreeSet::new();
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            for node in 0..3 {
+                let activity = state.activity(node, record.at);
+                seen.insert((node, format!("{activity:?}")));
+            }
+        }
+        for what in ["Waiting", "Computing", "Offering", "Receiving", "Done"] {
+            assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
+        }
+        assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
+        let idle: Vec<_> = state.nodes.iter().map(|node| node.idle(state.head())).collect();
+        assert!(
+            idle.iter().all(|&idle| idle >= Duration::from_millis(40) && idle < Duration::from_secs(1)),
+            "{idle:?}"
+        );
+    }
+
+    #[test]
+    fn a_paused_node_is_seen_so_while_it_has_atoms() {
+        let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
+        let mut state = RunState::new(&header);
+        let mut seen = Vec::new();
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            if seen.is_empty() {
+                state.apply(&Record { at: record.at, what: What::Paused { node: 1 } });
+            }
+            let activity = state.activity(1, record.at);
+            assert!(activity != Activity::Computing, "{record:?}");
+            assert!((activity == Activity::Paused) <= (state.nodes[1].left() > 0));
+            seen.push(activity);
+        }
+        for activity in [Activity::Waiting, Activity::Paused, Activity::Offering, Activity::Receiving] {
+            assert!(seen.contains(&activity), "{activity:?} {seen:?}");
+        }
+    }
+
+    #[test]
+    fn an_atom_is_carried_until_it_arrives() {
+        let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
+        let mut state = RunState::new(&header);
+        let mut carriers = BTreeSet::new();
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            if let Some(flight) = state.carrier(59) {
+                assert!(flight.sent <= record.at && state.places()[59].owner().is_none());
+                carriers.insert((flight.from, flight.to));
+            }
+        }
+        assert!(carriers.contains(&(Party::Parent, Party::Node(2))) && carriers.len() > 1, "{carriers:?}");
+        assert_eq!(state.carrier(59), None);
+    }
+
+    #[test]
+    fn nothing_moves_while_all_machines_stand_still_nor_after_the_end() {
+        let header = sample_runs::header(&[1.0, 1.0], 40);
+        let mut state = RunState::new(&header);
+        let records = sample_runs::records(&header);
+        records.iter().take(30).for_each(|record| state.apply(record));
+        let later = state.head() + Duration::from_secs(5);
+        assert!(state.moves(later));
+        for node in 0..2 {
+            assert!(state.moves(later));
+            state.apply(&Record { at: state.head(), what: What::SpeedSet { node, speed: 0.0 } });
+        }
+        assert!(state.moves(state.head()), "something is still in flight");
+        assert!(!state.moves(later));
+        state.apply(&Record { at: later, what: What::SpeedSet { node: 1, speed: 0.3 } });
+        assert!(state.moves(later));
+
+        records.iter().skip(30).for_each(|record| state.apply(record));
+        let end = state.finished().expect("the run is complete");
+        assert!(state.presence(end) == 1.0 && state.presence(end + Duration::from_millis(400)) == 0.0);
+        assert!(!state.moves(end + Duration::from_millis(400)));
+    }
+}

@@ -1,0 +1,293 @@
+//! What each machine did and when, as a fold over records: a lane a node.
+
+use super::flight::{Cargo, Flight};
+use super::lane::{Lane, Stay, Traced};
+use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::picture::Atom;
+use crate::record::{Record, What};
+use crate::runlog::{Header, RunLog};
+use crate::time::Time;
+
+/// What all machines did and when. Records of different parties may come interleaved, those of one in order.
+#[derive(Clone, Debug)]
+pub struct Lanes {
+    lanes: Vec<Lane>,
+    trips: Vec<Trip>,
+    /// By trip: the bytes of it and of all that were told before it.
+    bytes: Vec<u64>,
+    version: u64,
+    /// Whether who retires can be woken.
+    wakes: bool,
+}
+
+/// A message, from when it left to when it arrives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trip {
+    /// Its name in the run.
+    pub id: u64,
+    /// Who sent it.
+    pub from: Party,
+    /// Who gets it.
+    pub to: Party,
+    /// What it carries, in a word.
+    pub load: Load,
+    /// How many atoms.
+    pub atoms: u32,
+    /// When it left.
+    pub sent: Time,
+    /// When the link delivers it.
+    pub arrives: Time,
+}
+
+/// What a message carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Load {
+    /// An offer, the sender's own or another's.
+    Offer,
+    /// A request, or its answer without atoms.
+    Request,
+    /// Atoms to be traced.
+    Atoms,
+    /// Traced atoms.
+    Results,
+    /// What keeps a ring that adapts whole: who is there, and has what.
+    Notice,
+    /// The end.
+    Shutdown,
+}
+
+impl Lanes {
+    /// Before anything has happened.
+    pub fn new(header: &Header) -> Self {
+        let lane = |(node, _)| Lane {
+            conditions: if header.is_spare(node) { vec![(Time::ZERO, Condition::Off)] } else { Vec::new() },
+            ..Lane::default()
+        };
+        Self {
+            lanes: (0..).zip(&header.speeds).map(lane).collect(),
+            trips: Vec::new(),
+            bytes: Vec::new(),
+            version: 0,
+            wakes: header.remedies().has(Remedy::Wake),
+        }
+    }
+
+    /// Of all of a run.
+    pub fn of(log: &RunLog) -> Self {
+        let mut lanes = Self::new(&log.header);
+        log.records().iter().for_each(|record| lanes.apply(record));
+        lanes
+    }
+
+    /// Takes in what happened next.
+    pub fn apply(&mut self, record: &Record) {
+        self.version += 1;
+        let at = record.at;
+        match &record.what {
+            What::Sent { id, from, to, message, bytes, arrives } => {
+                self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), *bytes);
+            }
+            What::Condition { node, condition } => {
+                if let Some(lane) = self.lane(*node) {
+                    lane.condition(at, *condition);
+                }
+            }
+            What::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
+            What::Link { .. } | What::Delayed { .. } | What::Lost { .. } | What::GivenUp { .. } => {}
+            What::Received { .. } | What::Estimating | What::Estimated { .. } | What::LatencySet { .. } => {}
+            What::AtomStarted { node, atom } => {
+                if let Some(lane) = self.lane(*node) {
+                    lane.open = Some((*atom, at));
+                    lane.stay(at, Stay::Works);
+                }
+            }
+            What::AtomDone { node, atom, .. } => {
+                if let Some(lane) = self.lane(*node) {
+                    // The end of a log may be cut, not its beginning; still nothing is known of an atom that was never begun.
+                    let from = lane.open.take().filter(|(open, _)| open == atom).map_or(at, |(_, since)| since);
+                    lane.bars.push(Traced { from, to: at, atom: *atom });
+                }
+            }
+            What::SpeedSet { node, speed } => {
+                if let Some(lane) = self.lane(*node) {
+                    lane.stands(at, *speed == 0.0);
+                }
+            }
+            What::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
+            What::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
+            What::Retired { node } => {
+                let stay = if self.wakes { Stay::Asleep } else { Stay::Retired };
+                if let Some(lane) = self.lane(*node) {
+                    lane.stay(at, stay);
+                }
+            }
+            What::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, Stay::Retired)),
+        }
+    }
+
+    /// All lanes, in the order of the ring.
+    pub fn lanes(&self) -> &[Lane] {
+        &self.lanes
+    }
+
+    /// All messages, about in the order in which they left.
+    pub fn trips(&self) -> &[Trip] {
+        &self.trips
+    }
+
+    /// A message by its name in the run.
+    pub fn trip(&self, id: u64) -> Option<&Trip> {
+        self.trips.iter().rfind(|trip| trip.id == id)
+    }
+
+    /// Another number whenever something came in.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Who traced an atom, and when.
+    pub fn bar_of(&self, atom: Atom) -> Option<(NodeId, Traced)> {
+        let of = |(node, lane): (NodeId, &Lane)| lane.bars.iter().find(|bar| bar.atom == atom).map(|&bar| (node, bar));
+        (0..).zip(&self.lanes).find_map(of)
+    }
+
+    /// How the machines' time until `now` was used.
+    pub fn usage(&self, now: Time) -> Usage {
+        let busy: Vec<f64> = self.lanes.iter().map(|lane| lane.busy(Time::ZERO, now)).collect();
+        let sum: f64 = busy.iter().sum();
+        let most = busy.iter().copied().fold(0.0, f64::max);
+        let all = now.secs() * busy.len() as f64;
+        let asking: f64 = self.lanes.iter().map(|lane| lane.asking(now)).sum();
+        // Nearly in order: a few that left a little later may be told before others.
+        let trips = self.trips.partition_point(|trip| trip.sent <= now);
+        let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
+        Usage {
+            utilisation: share(sum, all),
+            imbalance: share(most * busy.len() as f64, sum),
+            asking: share(asking, all),
+            messages: trips,
+            bytes: trips.checked_sub(1).map_or(0, |last| self.bytes[last]),
+        }
+    }
+
+    fn lane(&mut self, node: NodeId) -> Option<&mut Lane> {
+        self.lanes.get_mut(usize::from(node))
+    }
+
+    fn sent(&mut self, flight: Flight, bytes: u64) {
+        let Flight { id, from, to, sent, arrives, .. } = flight;
+        let atoms = flight.cargo.atoms();
+        let load = match &flight.cargo {
+            Cargo::Offer { .. } | Cargo::Wake => Load::Offer,
+            Cargo::Request => Load::Request,
+            Cargo::Part(part) if part.is_empty() => Load::Request,
+            Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_) => Load::Atoms,
+            Cargo::Results(_) => Load::Results,
+            Cargo::Sleeps | Cargo::Beat | Cargo::Notice => Load::Notice,
+            Cargo::Shutdown => Load::Shutdown,
+        };
+        if let Party::Node(node) = from {
+            let own = matches!(flight.cargo, Cargo::Offer { who } if who == node);
+            if (own || load == Load::Request)
+                && let Some(lane) = self.lane(node)
+            {
+                lane.stay(sent, Stay::Offers);
+            }
+        }
+        if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
+            && let Some(lane) = self.lane(node)
+        {
+            lane.stay(sent, Stay::Receives);
+        }
+        self.bytes.push(self.bytes.last().copied().unwrap_or(0).saturating_add(bytes));
+        self.trips.push(Trip { id, from, to, load, atoms, sent, arrives });
+    }
+}
+
+/// How machines' time was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Usage {
+    /// What part of their time they traced atoms, 0 to 1.
+    pub utilisation: f64,
+    /// How much longer the busiest traced than all on the average: 1 is perfect.
+    pub imbalance: f64,
+    /// What part of their time they offered help, asked or waited for atoms on their way, 0 to 1.
+    pub asking: f64,
+    /// Messages that have left.
+    pub messages: usize,
+    /// What these weigh on the wire.
+    pub bytes: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::view::tests::sample_runs;
+
+    fn lanes(speeds: &[f64], atoms: u32) -> (Lanes, Time) {
+        let header = sample_runs::header(speeds, atoms);
+        let mut lanes = Lanes::new(&header);
+        let records = sample_runs::records(&header);
+        records.iter().for_each(|record| lanes.apply(record));
+        (lanes, records.last().map_or(Time::ZERO, |last| last.at))
+    }
+
+    proptest! {
+        #[test]
+        fn every_atom_is_a_bar_and_no_two_of_a_lane_overlap(
+            speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32,
+        ) {
+            let (lanes, end) = lanes(&speeds, atoms);
+            let mut traced: Vec<Atom> = Vec::new();
+            for lane in lanes.lanes() {
+                prop_assert!(lane.bars().windows(2).all(|pair| pair[0].to <= pair[1].from));
+                prop_assert!(lane.bars().iter().all(|bar| bar.from <= bar.to && bar.to <= end));
+                prop_assert!(lane.stays().is_sorted_by_key(|(at, _)| *at));
+                traced.extend(lane.bars().iter().map(|bar| bar.atom));
+            }
+            traced.sort_unstable();
+            prop_assert_eq!(traced, (0..atoms).collect::<Vec<_>>());
+            prop_assert!((0..atoms).all(|atom| lanes.bar_of(atom).is_some_and(|(_, bar)| bar.atom == atom)));
+        }
+
+        #[test]
+        fn usage_is_that_of_the_bars(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32, at in 0.0..1.0f64) {
+            let (lanes, end) = lanes(&speeds, atoms);
+            let now = Time((at * end.0 as f64) as u64);
+            let usage = lanes.usage(now);
+            let covered = |bar: &Traced| bar.to.min(now).since(bar.from).as_secs_f64();
+            let busy: f64 = lanes.lanes().iter().flat_map(Lane::bars).map(covered).sum();
+            prop_assert!((usage.utilisation * now.secs() * speeds.len() as f64 - busy).abs() < 1e-6);
+            prop_assert!((0.0..=1.0 + 1e-9).contains(&usage.utilisation) && (0.0..=1.0).contains(&usage.asking));
+            prop_assert!(usage.imbalance == 0.0 || usage.imbalance >= 1.0 - 1e-9);
+            prop_assert_eq!(usage.messages, lanes.trips().iter().filter(|trip| trip.sent <= now).count());
+        }
+    }
+
+    #[test]
+    fn a_lane_knows_what_it_was_about() {
+        let (lanes, end) = lanes(&[1.0, 1.0, 0.1], 300);
+        let fast = &lanes.lanes()[0];
+        assert_eq!((fast.stay_at(Time::ZERO), fast.stay_at(end)), (Stay::Receives, Stay::Retired));
+        let seen: Vec<Stay> = fast.stays().iter().map(|(_, stay)| *stay).collect();
+        for stay in [Stay::Works, Stay::Offers, Stay::Receives, Stay::Retired] {
+            assert!(seen.contains(&stay), "{stay:?}: {seen:?}");
+        }
+        let bar = fast.bars()[fast.bars().len() / 2];
+        assert_eq!(fast.bar_at(Time((bar.from.0 + bar.to.0) / 2)), Some(bar));
+    }
+
+    #[test]
+    fn pauses_begin_and_end() {
+        let header = sample_runs::header(&[1.0, 1.0], 9);
+        let mut lanes = Lanes::new(&header);
+        let whats = [What::Paused { node: 1 }, What::SpeedSet { node: 1, speed: 0.0 }, What::Resumed { node: 1 }];
+        for (at, what) in (1..).zip(whats) {
+            lanes.apply(&Record { at: Time(at), what });
+        }
+        lanes.apply(&Record { at: Time(9), what: What::SpeedSet { node: 1, speed: 0.0 } });
+        assert_eq!(lanes.lanes()[1].pauses(), [(Time(1), Some(Time(3))), (Time(9), None)]);
+    }
+}

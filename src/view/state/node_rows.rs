@@ -1,0 +1,109 @@
+//! A row a node, and who did how much.
+
+use std::borrow::Cow;
+
+use super::node_state::{Activity, NodeState};
+use super::run_state::RunState;
+use crate::balance::NodeId;
+use crate::time::Time;
+
+/// What there is to say of a node at some time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Which node.
+    pub node: NodeId,
+    /// Atoms that it has traced.
+    pub done: u32,
+    /// Atoms that it still has.
+    pub left: u32,
+    /// Its done atoms on a scale that all rows share, 0 to 1.
+    pub done_bar: f32,
+    /// Where its bar of atoms left ends on the same scale; the bar begins at `done_bar`.
+    pub left_bar: f32,
+    /// What fraction of the time until now it had nothing to trace.
+    pub idle: f64,
+    /// What it is seen doing.
+    pub activity: Activity,
+    /// Its speed as a fraction of the reference machine.
+    pub speed: f64,
+    /// Whether it is paused, with or without atoms.
+    pub paused: bool,
+    /// Atoms a second: of late, or once the picture is complete over the whole run.
+    pub rate: f64,
+}
+
+/// A node's part of the finished work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// Which node.
+    pub node: NodeId,
+    /// Where its part begins, 0 to 1 of all atoms.
+    pub start: f32,
+    /// Where it ends.
+    pub end: f32,
+    /// How many atoms it is.
+    pub atoms: u32,
+}
+
+/// A row for each node at `now`.
+pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
+    let until = state.finished().map_or(now, |end| now.min(end));
+    let seen: Vec<_> = (0..state.nodes().len() as NodeId).map(|node| (node, state.seen(node, now))).collect();
+    // Twice an equal share, unless somebody has more: then the bars keep their length.
+    let share = state.atoms().div_ceil(seen.len().max(1) as u32);
+    let most = seen.iter().map(|(_, node)| node.done + node.left()).max().unwrap_or(0).max(2 * share).max(1) as f32;
+    let over_all = state.finished().filter(|&end| end > Time::ZERO);
+    let row = |(node, of): &(NodeId, Cow<'_, NodeState>)| Row {
+        node: *node,
+        done: of.done,
+        left: of.left(),
+        done_bar: of.done as f32 / most,
+        left_bar: (of.done + of.left()) as f32 / most,
+        idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
+        activity: state.activity(*node, now),
+        speed: of.speed,
+        paused: of.paused,
+        rate: over_all.map_or_else(|| of.rate(now), |end| f64::from(of.done) / end.secs()),
+    };
+    seen.iter().map(row).collect()
+}
+
+/// Who has done which part of all atoms, one after the other; what is missing to 1 is still to be done.
+pub fn shares(state: &RunState) -> Vec<Share> {
+    let all = state.atoms().max(1) as f32;
+    let mut start = 0;
+    let mut share = |(node, of): (NodeId, &NodeState)| {
+        let from = start;
+        start += of.done;
+        Share { node, start: from as f32 / all, end: start as f32 / all, atoms: of.done }
+    };
+    (0..).zip(state.nodes()).map(&mut share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::tests::sample_runs;
+
+    #[test]
+    fn bars_share_a_scale_and_shares_fill_the_whole() {
+        let header = sample_runs::header(&[1.0, 0.5, 0.2], 90);
+        let mut state = RunState::new(&header);
+        for record in sample_runs::records(&header) {
+            state.apply(&record);
+            let rows = rows(&state, record.at);
+            assert!(rows.iter().all(|row| 0.0 <= row.done_bar && row.done_bar <= row.left_bar && row.left_bar <= 1.0));
+            assert!(rows.iter().all(|row| (0.0..=1.0).contains(&row.idle)), "{rows:?}");
+            assert!(rows.iter().all(|row| (0.0..120.0).contains(&row.rate)), "{rows:?}");
+        }
+        let shares = shares(&state);
+        assert_eq!((shares[0].start, shares[2].end), (0.0, 1.0));
+        assert!(shares.windows(2).all(|pair| pair[0].end == pair[1].start));
+        let rows = rows(&state, state.head());
+        assert!(rows[0].done > rows[1].done && rows[1].done > rows[2].done, "{rows:?}");
+        assert_eq!(rows.iter().map(|row| row.done).sum::<u32>(), 90);
+        let rates: f64 = rows.iter().map(|row| row.rate).sum();
+        let seconds = state.finished().expect("the end").secs();
+        assert!((rates * seconds - 90.0).abs() < 1e-6, "{rates} atoms a second for {seconds} s");
+    }
+}

@@ -1,0 +1,198 @@
+//! What is lost, and traced again: machines that fail, messages that never arrive, and what a ring that adapts says of both.
+
+use std::collections::BTreeSet;
+
+use super::RunState;
+use crate::balance::{Condition, Message, NodeId, Party};
+use crate::picture::Atom;
+use crate::time::Time;
+use crate::view::state::atom_state::Place;
+use crate::view::state::flight::{Cargo, Flight};
+
+impl RunState {
+    /// Something has become of a machine; what one that is switched off had is lost.
+    pub(super) fn condition_set(&mut self, node: NodeId, condition: Condition, at: Time) {
+        let Some(state) = self.node(node) else { return };
+        state.set_condition(condition, at);
+        state.spare &= condition == Condition::Off;
+        if condition == Condition::Off {
+            state.holds(0, at);
+            (state.atom, state.band_at) = (None, None);
+            (state.retired, state.offer_out) = (false, false);
+            self.lose_all(node);
+        }
+    }
+
+    /// A message would have arrived now.
+    pub(super) fn lost(&mut self, id: u64, at: Time) {
+        let Some(flight) = self.pending.remove(&id) else { return };
+        let is_off = |party: Party| match party {
+            Party::Parent => false,
+            Party::Node(node) => self.nodes.get(usize::from(node)).is_some_and(|of| of.condition == Condition::Off),
+        };
+        let off = is_off(flight.to);
+        self.flights.lose(id, at, off);
+        let Party::Node(from) = flight.from else { return };
+        match &flight.cargo {
+            Cargo::Transfer(ranges) => {
+                let with_it = |place: &Place| matches!(place, Place::With { node, .. } if *node == from);
+                self.lose(ranges.iter().cloned().flatten(), with_it);
+            }
+            Cargo::Results(ranges) => {
+                self.lose(ranges.iter().cloned().flatten(), |place| place.owner() == Some(from) && !place.is_placed());
+            }
+            _ => {}
+        }
+    }
+
+    /// What a party says in the ring that adapts of what it has, and of who is gone.
+    pub(super) fn said(&mut self, from: Party, message: &Message, at: Time) {
+        match (from, message) {
+            (Party::Parent, Message::Gone(gone)) => {
+                self.gone_before = std::mem::replace(&mut self.gone, gone.clone());
+            }
+            (Party::Node(from), Message::Offer { who, done, .. }) if from == *who => {
+                if let Some(node) = self.node(from) {
+                    node.offered = *done;
+                }
+            }
+            (Party::Node(from), Message::Beat { holds, idle, .. }) if *idle || !holds.is_empty() => {
+                let places = &self.places;
+                let unsent = |atom: &Atom| places.get(*atom as usize).is_some_and(|at| at.owner() == Some(from));
+                let left = holds.iter().cloned().flatten().filter(|atom| !unsent(atom)).count() as u32;
+                if let Some(node) = self.node(from) {
+                    node.holds(if *idle { 0 } else { left }, at);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The parent has heard of a node.
+    pub(super) fn heard(&mut self, flight: &Flight, at: Time) {
+        if let (Party::Node(from), Party::Parent) = (flight.from, flight.to)
+            && let Some(node) = self.node(from)
+        {
+            node.heard = Some(at);
+        }
+    }
+
+    /// How many of these atoms a node does not have yet.
+    pub(super) fn new_to(&self, node: NodeId, atoms: impl Iterator<Item = Atom>) -> u32 {
+        let has = |place: &Place| matches!(place, Place::With { node: with, .. } if *with == node);
+        atoms.filter(|&atom| !self.places.get(atom as usize).is_some_and(has)).count() as u32
+    }
+
+    /// The parent has placed an atom whose tracing by this node does not count yet, since another had it, or it was lost.
+    pub(super) fn count_late(&mut self, atom: Atom, by: NodeId, at: Time) {
+        let order = self.done();
+        self.orders[atom as usize] = order;
+        self.places[atom as usize] = Place::traced(by, std::time::Duration::ZERO, at);
+        self.places[atom as usize].place();
+        if let Some(node) = self.node(by) {
+            node.done += 1;
+        }
+    }
+
+    /// What a machine had is lost with it, but for what has left it.
+    fn lose_all(&mut self, node: NodeId) {
+        let mut left: BTreeSet<Atom> = BTreeSet::new();
+        for flight in self.pending.values().filter(|flight| flight.from == Party::Node(node)) {
+            left.extend(flight.cargo.ranges().iter().cloned().flatten());
+        }
+        let all = self.atoms();
+        let lost = self.lose((0..all).filter(|atom| !left.contains(atom)), |place| {
+            place.holder() == Some(node) && !place.is_placed()
+        });
+        if let Some(state) = self.node(node) {
+            state.took = lost;
+        }
+    }
+
+    /// Those of these atoms that stand so are lost. Returns how many.
+    fn lose(&mut self, atoms: impl Iterator<Item = Atom>, stands: impl Fn(&Place) -> bool) -> u32 {
+        let mut lost = 0;
+        for atom in atoms {
+            let Some(place) = self.places.get_mut(atom as usize).filter(|place| stands(place)) else { continue };
+            let before = std::mem::replace(place, Place::Lost);
+            if let Place::Traced { by, cost, .. } = before {
+                self.cost -= f64::from(cost);
+                if let Some(owner) = self.nodes.get_mut(usize::from(by)) {
+                    owner.done = owner.done.saturating_sub(1);
+                }
+            }
+            self.touched.push(atom..atom + 1);
+            lost += 1;
+        }
+        lost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::balance::Strategy;
+    use crate::record::{Record, What};
+    use crate::runlog::Header;
+    use crate::scenario::Command;
+    use crate::sim::Sim;
+    use crate::view::tests::sample_runs;
+
+    /// A run by this strategy in which this becomes of machine 2 of four at some second.
+    fn run(strategy: Strategy, conditions: &[(f64, Condition)], spares: NodeId) -> (Header, Vec<Record>) {
+        let mut header = sample_runs::header(&[1.0; 4], 900);
+        header.rules.strategy = strategy;
+        header.spares = spares;
+        let command =
+            |&(at, condition): &(f64, Condition)| (Time::from_secs(at), Command::Condition { node: 1, condition });
+        let script: Vec<_> = conditions.iter().map(command).collect();
+        let mut records = Vec::new();
+        Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| records.push(record));
+        (header, records)
+    }
+
+    #[test]
+    fn what_was_lost_with_a_machine_is_traced_again_and_counts_once() {
+        let (header, records) = run(Strategy::Adaptive, &[(1.0, Condition::Off), (1.8, Condition::Well)], 0);
+        let mut state = RunState::new(&header);
+        let mut were_lost = 0;
+        for record in &records {
+            state.apply(record);
+            assert!(state.done() <= 900);
+            let traced = state.places().iter().filter(|place| place.owner().is_some()).count();
+            assert_eq!(traced as u32, state.done(), "{record:?}");
+            if let What::Condition { condition: Condition::Off, .. } = record.what {
+                let node = &state.nodes()[1];
+                assert_eq!((node.left(), node.atom, node.retired), (0, None, false));
+                assert!(node.took > 50, "{}", node.took);
+                were_lost = state.places().iter().filter(|place| **place == Place::Lost).count();
+            }
+        }
+        assert!(were_lost > 50, "{were_lost}");
+        assert!(state.finished().is_some() && state.done() == 900);
+        assert_eq!(state.nodes().iter().map(|node| node.done).sum::<u32>(), 900);
+        assert!(state.nodes()[1].condition == Condition::Well && state.nodes()[1].done > 0);
+    }
+
+    #[test]
+    fn without_a_remedy_what_was_lost_stays_lost() {
+        let (header, records) = run(Strategy::Ring, &[(1.0, Condition::Off)], 0);
+        let mut state = RunState::new(&header);
+        records.iter().for_each(|record| state.apply(record));
+        assert!(state.finished().is_none());
+        let lost = state.places().iter().filter(|place| **place == Place::Lost).count() as u32;
+        assert!(lost > 50 && state.done() + lost <= 900, "{lost} {}", state.done());
+    }
+
+    #[test]
+    fn a_spare_is_an_empty_seat_until_it_joins() {
+        let (header, records) = run(Strategy::Adaptive, &[], 1);
+        let mut state = RunState::new(&header);
+        records.iter().take(200).for_each(|record| state.apply(record));
+        assert_eq!(state.nodes().iter().map(|node| node.spare).collect::<Vec<_>>(), [false, false, false, true]);
+        let what = What::Condition { node: 3, condition: Condition::Well };
+        state.apply(&Record { at: state.head(), what });
+        assert!(!state.nodes()[3].spare && state.nodes()[3].condition == Condition::Well);
+        assert_eq!(state.gone, [3], "until the parent hears of it");
+    }
+}

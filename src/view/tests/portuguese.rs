@@ -1,0 +1,365 @@
+//! Tests of what is said in Portuguese: whole runs are told in both languages, and compared sentence by sentence.
+
+use std::time::Duration;
+
+use super::sample_runs;
+use crate::balance::{Condition, NodeId, Rules, Strategy};
+use crate::language::Language;
+use crate::picture::{Difference, Quality, Size};
+use crate::record::What;
+use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::scenario::Command;
+use crate::scene::{BUILT_IN, Scene};
+use crate::sim::Sim;
+use crate::time::Time;
+use crate::tracer::Tracer;
+use crate::view::analysis::summary::{Outcome, figures, result_words};
+use crate::view::charts::tradeoff::Tradeoff;
+use crate::view::draw::display_list::Mark;
+use crate::view::inspect::Inspected;
+use crate::view::narration::record_sentences::record_words;
+use crate::view::narration::status::standing;
+use crate::view::picture::overlay::Layer;
+use crate::view::playback::clock::{RATES, rate_of_time_words, short_rate_words};
+use crate::view::playback::details::Dossier;
+use crate::view::playback::run_view::Known;
+use crate::view::playback::snapshots::{Moment, Past};
+use crate::view::ring::labels;
+use crate::view::ring::{Overlay, ring};
+use crate::view::state::node_state::Activity;
+use crate::view::state::scheduler::Sharing;
+use crate::view::text::format::activity_word;
+use crate::view::text::quality::{measured_lines, quality_words, times_words};
+use crate::view::text::scene_stats::{needs_lines, needs_warnings};
+use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
+use crate::view::timeline::landmarks::{About, Step, landmarks};
+
+/// How much room there is for what is said.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Room {
+    /// For a sentence that is heard while the run goes on.
+    Heard,
+    /// About as much as in English.
+    Same,
+    /// A line that may become two.
+    Some,
+}
+
+/// What was said, and how much room there is for it.
+type Said = Vec<(Room, String)>;
+
+/// English words that no Portuguese sentence has.
+const ENGLISH: [&str; 40] = [
+    " the ",
+    "The ",
+    " is ",
+    " are ",
+    " and ",
+    " of ",
+    " to ",
+    " its ",
+    " with ",
+    " has ",
+    " have ",
+    " for ",
+    " from ",
+    " by ",
+    " at ",
+    " it ",
+    " on ",
+    " in ",
+    " not ",
+    "machine",
+    "Machine",
+    " atom",
+    "Atom",
+    "parent",
+    "Parent",
+    "offer ",
+    "offers",
+    "picture",
+    "Picture",
+    "nobody",
+    "wait",
+    "trace",
+    "speed",
+    "slow",
+    "fast",
+    "light",
+    "sample",
+    "pixels per",
+    "nothing",
+    "stopped",
+];
+
+fn in_language(language: Language, say: impl FnOnce() -> Said) -> Said {
+    language.speak();
+    let said = say();
+    Language::English.speak();
+    said
+}
+
+/// Says the same in both languages, and compares.
+fn compare(say: impl Fn() -> Said) {
+    let [english, portuguese] = [Language::English, Language::Portuguese].map(|language| in_language(language, &say));
+    assert_eq!(english.len(), portuguese.len());
+    let mut wrong = Vec::new();
+    for ((room, english), (_, portuguese)) in english.iter().zip(&portuguese) {
+        let length = portuguese.chars().count();
+        let most = english.chars().count() as f64;
+        let most = match room {
+            Room::Heard => (1.35 * most + 8.0).min(115.0),
+            Room::Same => 1.35 * most + 8.0,
+            Room::Some => 1.5 * most + 20.0,
+        } as usize;
+        if length > most {
+            wrong.push(format!("{length} letters, {most} at most: {portuguese}"));
+        }
+        let padded = format!(" {portuguese} ");
+        if let Some(word) = ENGLISH.iter().find(|word| padded.contains(**word)) {
+            wrong.push(format!("{word:?} in {portuguese}"));
+        }
+        let letters: Vec<char> = portuguese.chars().collect();
+        if letters.windows(3).any(|three| three[0].is_ascii_digit() && three[1] == '.' && three[2].is_ascii_digit()) {
+            wrong.push(format!("point: {portuguese}"));
+        }
+    }
+    wrong.sort();
+    wrong.dedup();
+    assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Whole runs of all strategies, in which somebody takes a hand.
+fn runs() -> Vec<RunLog> {
+    let ways = Strategy::ALL.into_iter().map(|strategy| (strategy, Driver::Sim));
+    let ways = ways.chain([(Strategy::Ring, Driver::WorkStealing)]);
+    let becomes = |node, condition| Command::Condition { node, condition };
+    let failures = [
+        (0.5, becomes(1, Condition::Off)),
+        (1.4, becomes(1, Condition::Well)),
+        (1.6, becomes(2, Condition::CutOff)),
+        (2.2, becomes(0, Condition::Hung)),
+        (2.9, becomes(0, Condition::Well)),
+        (3.2, becomes(2, Condition::Well)),
+        (3.4, becomes(0, Condition::Off)),
+        (4.4, becomes(0, Condition::Well)),
+    ];
+    let hands: [&[(f64, Command)]; 4] = [
+        &failures,
+        &[],
+        &[
+            (1.0, Command::Speed { node: 1, speed: 0.4 }),
+            (2.0, Command::Pause { node: 0, paused: true }),
+            (2.2, Command::Speed { node: 0, speed: 0.6 }),
+            (2.5, Command::Latency(Duration::from_millis(7))),
+            (3.0, Command::Pause { node: 0, paused: false }),
+            (3.5, Command::Latency(Duration::ZERO)),
+            (4.0, Command::Speed { node: 1, speed: 1.0 }),
+            (5.0, Command::Speed { node: 2, speed: 0.0 }),
+            (9.0, Command::Pause { node: 1, paused: true }),
+            (40.0, Command::Speed { node: 2, speed: 0.8 }),
+            (41.0, Command::Pause { node: 1, paused: false }),
+        ],
+        &[
+            (0.5, Command::Speed { node: 0, speed: 0.0 }),
+            (0.6, Command::Speed { node: 1, speed: 0.0 }),
+            (0.7, Command::Pause { node: 2, paused: true }),
+            (30.0, Command::Pause { node: 2, paused: false }),
+            (50.0, Command::Speed { node: 0, speed: 1.0 }),
+        ],
+    ];
+    let mut logs = Vec::new();
+    for (strategy, driver) in ways {
+        for (speeds, handling) in [(&[1.0, 1.0, 0.1][..], 0), (&[1.0, 0.7, 0.9, 0.5, 0.1, 1.0, 1.0], 30), (&[0.8], 0)] {
+            for script in hands {
+                let plain = sample_runs::header(speeds, 900);
+                let part = strategy.usual_part(plain.division, speeds.len());
+                let rules = Rules { strategy, part, ..plain.rules };
+                let header = Header { rules, driver, handling: Duration::from_millis(handling), ..plain };
+                let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
+                let fits = |(_, command): &&(Time, Command)| match command {
+                    Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
+                        usize::from(*node) < speeds.len()
+                    }
+                    Command::Delay { .. } | Command::Latency(_) | Command::Link { .. } => true,
+                };
+                let script: Vec<_> = script.iter().filter(fits).copied().collect();
+                let mut records = Vec::new();
+                Sim::new(&header, &script, |atom| sample_runs::COST + Duration::from_micros(u64::from(atom % 9) * 90))
+                    .run(&mut |record| records.push(record));
+                let mut log = RunLog::new(header);
+                log.add(records);
+                logs.push(log);
+            }
+        }
+    }
+    logs
+}
+
+/// What is said of a run while it goes on.
+fn told(log: &RunLog) -> Said {
+    let mut said = Vec::new();
+    let mut moment = Moment::new(&log.header);
+    said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO)));
+    for (index, record) in log.records().iter().enumerate() {
+        moment.apply(record);
+        let (state, narrator, now) = (&moment.state, &moment.narrator, record.at);
+        said.push((Room::Some, record_words(record, state)));
+        said.push((Room::Heard, narrator.sentence(state, now)));
+        if !matches!(record.what, What::AtomStarted { .. }) {
+            said.push((Room::Heard, standing(state)));
+            said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.to_owned())));
+        }
+        if index % 37 == 0 {
+            said.extend(hovered(&moment, now));
+        }
+    }
+    said
+}
+
+/// The words of a drawing.
+fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
+    marks.into_iter().filter_map(|mark| match mark {
+        Mark::Label { text, .. } => Some(text),
+        _ => None,
+    })
+}
+
+/// What is said of what somebody points at, and what stands in the drawing.
+fn hovered(moment: &Moment, now: Time) -> Said {
+    let (state, mut said) = (&moment.state, Vec::new());
+    let nodes = 0..state.nodes().len() as NodeId;
+    for (what, words) in nodes.flat_map(|node| node_words(state, node, now)).chain(parent_words(state, now)) {
+        said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
+    }
+    // Offers are drawn where they are: as many in both languages.
+    let drawn = ring(state, &Overlay::default(), now, [1200.0, 1200.0]);
+    said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
+    said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now))));
+    said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight))));
+    said.extend(small_print(state).into_iter().map(|line| (Room::Same, line)));
+    said
+}
+
+/// What is said of a run when it is over.
+fn summed_up(log: &RunLog) -> Said {
+    let mut said = Vec::new();
+    let Known { latest: moment, signs, lanes, .. } = Known::of(log);
+    let (state, mut past) = (&moment.state, Past::default());
+    said.extend(signs.all().iter().map(|sign| (Room::Same, sign.words.clone())));
+    let found = landmarks(log);
+    let abouts = found.iter().map(|mark| mark.about).chain([About::Node(0), About::Atom(3), About::Message(u64::MAX)]);
+    for about in abouts.collect::<Vec<_>>() {
+        let (title, more) = Dossier::of(about, log, &lanes, &mut past).words(state, state.head(), 1.0);
+        said.extend([(Room::Some, title), (Room::Some, more)]);
+    }
+    said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
+    let tally = Tally::of(log);
+    if let (Some(makespan), Some(ideal), Some(efficiency)) = (tally.makespan(), tally.ideal(), tally.efficiency()) {
+        let outcome = Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() };
+        said.push((Room::Same, result_words(state, &outcome)));
+        said.extend(figures(&outcome).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))));
+    }
+    said
+}
+
+#[test]
+fn runs_are_told_in_portuguese() {
+    let runs = runs();
+    assert!(runs.iter().filter(|log| Tally::of(log).makespan().is_some()).count() > 30);
+    compare(|| runs.iter().flat_map(told).collect());
+    compare(|| runs.iter().flat_map(summed_up).collect());
+}
+
+#[test]
+fn names_and_numbers_are_portuguese() {
+    compare(|| {
+        let mut said: Vec<String> = Vec::new();
+        for sharing in Sharing::ALL {
+            said.extend([
+                sharing.name().to_owned(),
+                sharing.hint().to_owned(),
+                sharing.machines(8),
+                sharing.machines(1),
+            ]);
+        }
+        said.extend(RATES.into_iter().flat_map(|rate| [rate_of_time_words(rate), short_rate_words(rate)]));
+        said.extend(
+            Layer::ALL
+                .into_iter()
+                .flat_map(|layer| [layer.name(), layer.ends().map_or("", |ends| ends[1])])
+                .map(str::to_owned),
+        );
+        said.extend(Step::ALL.map(|step| step.name().to_owned()));
+        said.extend([0.4, 1.0, 2.5].map(|times| times_words(times, 1.0)));
+        let adaptive = Quality { samples: 4, threshold: 0.02, cutoff: 0.001, ..Quality::default() };
+        said.extend([Quality::default(), adaptive].iter().map(quality_words));
+        let size = Size::new(640, 480).expect("a possible size");
+        let difference = Difference { rmse: 0.0123, wrong_pixels: 1000, worst_ssim: 0.5 };
+        let lines = measured_lines(Duration::from_millis(1234), size, &difference, size);
+        said.extend(lines.into_iter().flat_map(|(what, words)| [what.to_owned(), words]));
+        let tradeoff = Tradeoff {
+            points: vec![(0.5, 0.1), (2.0, 0.02)],
+            front: vec![0, 1],
+            floor: 0.004,
+            present: Some(0),
+            ..Tradeoff::default()
+        };
+        said.extend(labels_of(tradeoff.drawn([640.0, 480.0]).marks));
+        said.into_iter().map(|words| (Room::Same, words)).collect()
+    });
+}
+
+#[test]
+fn states_fit_below_a_machine() {
+    let all = [
+        Activity::Waiting,
+        Activity::Computing,
+        Activity::Stopped,
+        Activity::Paused,
+        Activity::Offering,
+        Activity::Asking,
+        Activity::InLine,
+        Activity::Receiving,
+        Activity::Idle,
+        Activity::Retired,
+        Activity::Asleep,
+        Activity::NoMore,
+        Activity::Hung,
+        Activity::CutOff,
+        Activity::Off,
+        Activity::Spare,
+        Activity::Done,
+    ];
+    compare(|| all.map(|activity| (Room::Same, activity_word(activity).to_owned())).to_vec());
+    Language::Portuguese.speak();
+    assert!(all.iter().all(|activity| activity_word(*activity).chars().count() <= labels::SECOND));
+}
+
+#[test]
+fn scenes_and_pixels_are_told_in_portuguese() {
+    let size = Size::new(24, 18).expect("a small picture");
+    compare(|| {
+        let mut said = Vec::new();
+        for (_, text) in BUILT_IN {
+            let scene = Scene::parse(text).expect("a built-in scene");
+            let tracer = Tracer::new(&scene, size, Quality::default());
+            let lines = needs_lines(&tracer.compiled(), &tracer.levels());
+            said.extend(lines.into_iter().flat_map(|(what, words)| [what.to_owned(), words]));
+            said.extend(needs_warnings(&tracer.compiled()));
+            for pixel in (0..size.pixels()).step_by(41) {
+                let place = [pixel % size.width(), pixel / size.width()];
+                let pixel = Inspected::new(&tracer, &scene, place).expect("a pixel of the picture");
+                said.extend(pixel.sentences().into_iter().chain(pixel.ray_sentences()));
+                said.extend([pixel.term_words(), pixel.span_words()]);
+                let tree = pixel.ray_tree(300.0);
+                said.extend(tree.spots.into_iter().map(|spot| spot.name));
+                let marks =
+                    tree.marks.into_iter().chain(pixel.spans(400.0, 9).marks).chain(pixel.draw_terms(400.0).marks);
+                said.extend(labels_of(marks.collect()));
+            }
+        }
+        // What a material is called is the scene's own.
+        said.into_iter().map(|words| (Room::Some, words.replace("section of", "section"))).collect()
+    });
+}

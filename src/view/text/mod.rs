@@ -1,0 +1,8 @@
+//! Numbers and names in words, and texts that several views share.
+
+pub mod format;
+pub mod quality;
+pub mod remedies;
+pub mod scene_stats;
+pub mod tooltips;
+pub mod trial_names;

@@ -1,0 +1,145 @@
+//! What a quality is, and what came of it, in words.
+
+use std::time::Duration;
+
+use super::format::{counted, duration};
+use crate::language::{comma, decimal, say, word};
+use crate::picture::{Difference, Quality, Size};
+
+/// What a quality is, for a sentence.
+pub fn quality_words(quality: &Quality) -> String {
+    let lines = quality_lines(quality);
+    lines.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(", ")
+}
+
+/// What a quality is, knob by knob.
+pub fn quality_lines(quality: &Quality) -> Vec<(&'static str, String)> {
+    let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
+    let error = comma(threshold.to_string());
+    let taken = match (samples, threshold) {
+        (1, _) => word!("1 sample a pixel", "1 amostra por pixel").into(),
+        (_, 0.0) => say!("{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
+        _ => say!(
+            "up to {samples} × {samples} samples a pixel, until the error is {error}",
+            "até {samples} × {samples} amostras por pixel, até o erro ser {error}"
+        ),
+    };
+    let part = error_words(100.0 * cutoff);
+    let left_out = if cutoff > 0.0 {
+        say!("weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
+    } else {
+        word!("no weak rays left out", "nenhum raio fraco omitido").into()
+    };
+    let levels = counted(max_depth, word!("level", "nível"));
+    vec![
+        (word!("Samples", "Amostras"), taken),
+        (word!("Rays", "Raios"), say!("{levels} of rays", "{levels} de raios")),
+        (word!("Cutoff", "Corte"), left_out),
+    ]
+}
+
+/// What came of a quality: its time on one core in a picture of `size`, and how far from the reference a picture of
+/// `measured` pixels was.
+pub fn measured_lines(
+    time: Duration,
+    size: Size,
+    difference: &Difference,
+    measured: Size,
+) -> Vec<(&'static str, String)> {
+    let wrong = decimal(100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
+    let (took, width, height) = (duration(time), size.width(), size.height());
+    let worst = decimal(difference.worst_ssim, 3);
+    vec![
+        (
+            word!("Time", "Tempo"),
+            say!(
+                "{took} of one core for {width} × {height} pixels",
+                "{took} de um núcleo para {width} × {height} pixels"
+            ),
+        ),
+        (word!("Error", "Erro"), error_words(difference.rmse)),
+        (
+            word!("Wrong", "Errados"),
+            say!("{wrong} % of the pixels, so much that it can be seen", "{wrong} % dos pixels, tanto que se vê"),
+        ),
+        (
+            word!("Worst", "Pior"),
+            say!(
+                "{worst} is how similar the worst block is; 1 is the same (SSIM)",
+                "{worst} é a semelhança do pior bloco; 1 é igual (SSIM)"
+            ),
+        ),
+    ]
+}
+
+/// An error in two digits.
+pub fn error_words(error: f64) -> String {
+    if error <= 0.0 {
+        return "0".into();
+    }
+    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
+    decimal(error, decimals)
+}
+
+/// How long one takes beside another.
+pub fn times_words(time: f64, than: f64) -> String {
+    let times = time / than;
+    let [faster, longer] = [1.0 / times, times].map(|times| decimal(times, 1));
+    if !times.is_finite() || (0.95..1.05).contains(&times) {
+        word!("about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
+    } else if times < 1.0 {
+        say!("{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
+    } else {
+        say!("{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quality_is_told_in_words() {
+        assert_eq!(
+            quality_words(&Quality::default()),
+            "1 sample a pixel, 10 levels of rays, weak rays left out up to 0.39 % of a pixel"
+        );
+        let best = Quality { samples: 8, max_depth: 1, cutoff: 0.0, ..Quality::default() };
+        assert_eq!(quality_words(&best), "8 × 8 samples a pixel, 1 level of rays, no weak rays left out");
+        let adaptive = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
+        assert!(
+            quality_words(&adaptive).starts_with("up to 4 × 4 samples a pixel, until the error is 0.02, 10 levels")
+        );
+    }
+
+    #[test]
+    fn errors_have_two_digits() {
+        let said = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0].map(error_words);
+        assert_eq!(said, ["0", "0.000012", "0.012", "0.096", "0.50", "12"]);
+    }
+
+    #[test]
+    fn times_are_told_the_way_that_people_do() {
+        let said = [(1.0, 1.01), (1.0, 2.5), (3.0, 1.0), (0.0, 0.0)].map(|(one, other)| times_words(one, other));
+        let now = "as what is set now";
+        assert_eq!(
+            said,
+            [
+                format!("about as long {now}"),
+                format!("2.5 times as fast {now}"),
+                format!("3.0 times as long {now}"),
+                format!("about as long {now}")
+            ]
+        );
+    }
+
+    #[test]
+    fn what_came_of_it_is_told_with_its_units() {
+        let difference = Difference { rmse: 0.0123, wrong_pixels: 30, worst_ssim: 0.5 };
+        let size = |width, height| Size::new(width, height).unwrap();
+        let said = measured_lines(Duration::from_millis(1234), size(640, 480), &difference, size(20, 15));
+        let said: Vec<String> = said.into_iter().map(|(what, words)| format!("{what}: {words}")).collect();
+        assert_eq!(said[0], "Time: 1.2 s of one core for 640 × 480 pixels");
+        assert!(said[2].starts_with("Wrong: 10.0 % of the pixels") && said[3].contains("0.500"), "{said:?}");
+    }
+}

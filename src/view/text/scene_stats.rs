@@ -1,0 +1,220 @@
+//! What a scene needs to be traced, in words.
+
+use super::format::{count, listed};
+use crate::language::{decimal, say, word};
+use crate::tracer::Compiled;
+
+/// What a scene needs, line by line: what, and how much of it. `levels` are the rays of each level of the trees of rays, as
+/// [`crate::tracer::Tracer::levels`] counts them.
+pub fn needs_lines(compiled: &Compiled, levels: &[u64]) -> Vec<(&'static str, String)> {
+    let of_kind = |(kind, number): (&&'static str, &usize)| several(*number, shape_names(kind));
+    let kinds: Vec<String> = compiled.primitives.iter().map(of_kind).collect();
+    let kept: usize = compiled.primitives.values().sum();
+    let [kept, shapes] = [kept, compiled.given.primitives].map(number);
+    let [operations, given] = [compiled.operations, compiled.given.operations].map(number);
+    let solids = word!(["solid", "solids"], ["sólido", "sólidos"]);
+    let nothing = || word!("nothing", "nada").into();
+    let mut lines = vec![
+        (word!("Solids", "Sólidos"), several(compiled.solids, solids)),
+        (word!("Made of", "Feitos de"), if kinds.is_empty() { nothing() } else { listed(&kinds) }),
+        (
+            word!("Kept", "Restam"),
+            say!("{kept} of {shapes} shapes that are written", "{kept} de {shapes} formas escritas"),
+        ),
+        (
+            word!("Operations", "Operações"),
+            say!("{operations} of {given} that are written", "{operations} de {given} escritas"),
+        ),
+        (word!("Lights", "Luzes"), several(compiled.lights, word!(["light", "lights"], ["luz", "luzes"]))),
+        (word!("Surfaces", "Superfícies"), surfaces(compiled).into()),
+        (word!("Rays", "Raios"), levels_words(levels)),
+    ];
+    if compiled.unbounded > 0 {
+        let solids = several(compiled.unbounded, solids);
+        let words = say!("{solids}, which every ray is tested against", "{solids}, que todo raio testa");
+        lines.push((word!("Endless", "Sem fim"), words));
+    }
+    lines
+}
+
+/// What one shape of a kind is called, and what several are.
+pub(crate) fn shape_names(kind: &'static str) -> [&'static str; 2] {
+    match kind {
+        "ball" => word!(["ball", "balls"], ["esfera", "esferas"]),
+        "half-space" => word!(["half-space", "half-spaces"], ["semiespaço", "semiespaços"]),
+        "box along the axes" => {
+            word!(
+                ["box along the axes", "boxes along the axes"],
+                ["caixa alinhada aos eixos", "caixas alinhadas aos eixos"]
+            )
+        }
+        "ellipsoid" => word!(["ellipsoid", "ellipsoids"], ["elipsoide", "elipsoides"]),
+        "box" => word!(["box", "boxes"], ["caixa", "caixas"]),
+        "cylinder" => word!(["cylinder", "cylinders"], ["cilindro", "cilindros"]),
+        "cone" => word!(["cone", "cones"], ["cone", "cones"]),
+        "torus" => word!(["torus", "tori"], ["toro", "toros"]),
+        "quadric" => word!(["quadric", "quadrics"], ["quádrica", "quádricas"]),
+        _ => [kind; 2],
+    }
+}
+
+/// What of the scene is never seen, as a sentence for each; none if all is.
+pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
+    let tell = |value: usize, words: [&str; 2]| (value > 0).then(|| format!("{}.", several(value, words)));
+    let parts = compiled.parts_dropped;
+    let dropped = word!(
+        ["solid is empty: nothing of it can be seen", "solids are empty: nothing of it can be seen"],
+        ["sólido é vazio: nada dele se vê", "sólidos são vazios: nada deles se vê"]
+    );
+    let empty = word!(
+        ["part is empty, and left out", "parts are empty, and left out"],
+        ["parte é vazia e foi omitida", "partes são vazias e foram omitidas"]
+    );
+    let out_of_reach = word!(
+        [
+            "part is out of reach of what it would be taken from, and left out",
+            "parts are out of reach of what it would be taken from, and left out"
+        ],
+        [
+            "parte está longe demais do que a perderia, e foi omitida",
+            "partes estão longe demais do que as perderia, e foram omitidas"
+        ]
+    );
+    [tell(compiled.dropped, dropped), tell(parts.empty, empty), tell(parts.out_of_reach, out_of_reach)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn surfaces(compiled: &Compiled) -> &'static str {
+    match (compiled.reflects, compiled.transmits) {
+        (true, true) => {
+            word!(
+                "some mirror others, and light goes through some",
+                "algumas espelham outras, e a luz atravessa algumas"
+            )
+        }
+        (true, false) => {
+            word!("some mirror others; light goes through none", "algumas espelham outras; a luz não atravessa nenhuma")
+        }
+        (false, true) => {
+            word!("light goes through some; none mirrors others", "a luz atravessa algumas; nenhuma espelha outras")
+        }
+        (false, false) => {
+            word!(
+                "none mirrors others, and light goes through none",
+                "nenhuma espelha outras, e a luz não atravessa nenhuma"
+            )
+        }
+    }
+}
+
+/// How deep the trees of rays go.
+fn levels_words(levels: &[u64]) -> String {
+    let deep = match levels.len() {
+        0 | 1 => {
+            return word!(
+                "1 level: a ray for each sample, and none after it",
+                "1 nível: um raio por amostra, e nenhum depois dele"
+            )
+            .into();
+        }
+        deep => deep,
+    };
+    let all: u64 = levels.iter().sum();
+    let after = decimal((all - levels[0]) as f64 / levels[0].max(1) as f64, 1);
+    say!(
+        "{deep} levels are used; each first ray has {after} more after it",
+        "{deep} níveis são usados; cada primeiro raio tem mais {after} depois dele"
+    )
+}
+
+fn number(value: usize) -> String {
+    count(u32::try_from(value).unwrap_or(u32::MAX))
+}
+
+fn several(value: usize, [one, many]: [&str; 2]) -> String {
+    format!("{} {}", number(value), if value == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::{Quality, Size};
+    use crate::scene::Scene;
+    use crate::tracer::Tracer;
+
+    fn tracer(objects: &str) -> Tracer {
+        let text = format!(
+            "Scene(camera: (eye: (0, 0, 9), look_at: (0, 0, 0)), lights: [Directional(direction: (0, -1, 0))], \
+             materials: {{\"mirror\": (ks: 0.5)}}, objects: [{objects}])"
+        );
+        Tracer::new(&Scene::parse(&text).unwrap(), Size::new(32, 24).unwrap(), Quality::default())
+    }
+
+    fn told(tracer: &Tracer) -> String {
+        let lines = needs_lines(&tracer.compiled(), &tracer.levels());
+        lines.into_iter().map(|(what, words)| format!("{what}: {words}\n")).collect()
+    }
+
+    #[test]
+    fn a_scene_is_told_as_it_was_compiled() {
+        let simple = told(&tracer("Sphere(radius: 1)"));
+        for line in
+            ["Made of: 1 ball\n", "Kept: 1 of 1 shapes", "Operations: 0 of 0", "Lights: 1 light\n", "Rays: 1 level:"]
+        {
+            assert!(simple.contains(line), "{line} is not in {simple}");
+        }
+        assert!(simple.contains("none mirrors others, and light goes through none") && !simple.contains("Endless"));
+        let more = told(&tracer(
+            "HalfSpace(normal: (0, 1, 0), offset: -1), \
+             Difference(material: \"mirror\", of: [Box(min: (-1, -1, -1), max: (1, 1, 1)), Sphere(radius: 1.2)])",
+        ));
+        for line in
+            ["1 box along the axes", "Operations: 1 of 1", "Endless: 1 solid, which", "some mirror others; light"]
+        {
+            assert!(more.contains(line), "{line} is not in {more}");
+        }
+        assert!(more.contains("levels are used"), "{more}");
+    }
+
+    #[test]
+    fn however_unions_are_compiled_there_are_no_more_operations_than_are_written() {
+        let ball = |i: i32| {
+            format!("Sphere(radius: 0.2, centre: ({}, {}, 0))", 0.3 * f64::from(i % 7), 0.3 * f64::from(i / 7))
+        };
+        let balls = (0..40).map(ball).collect::<Vec<_>>().join(", ");
+        let hall = "Box(min: (-5, -5, -5), max: (5, 5, 5))";
+        for (solid, operations) in [
+            (format!("Intersection(of: [{hall}, Union(of: [{balls}])])"), "2 of 2"),
+            (format!("Difference(of: [{hall}, {balls}])"), "1 of 1"),
+            (format!("Difference(of: [{hall}, Union(of: [{balls}])])"), "1 of 2"),
+        ] {
+            let told = told(&tracer(&solid));
+            assert!(told.contains(&format!("Operations: {operations} that are written")), "{told}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_a_warning() {
+        let seen = tracer("Sphere(radius: 1)");
+        assert!(needs_warnings(&seen.compiled()).is_empty());
+        let far = tracer("Difference(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
+        let warnings = needs_warnings(&far.compiled());
+        assert_eq!(warnings, ["1 part is out of reach of what it would be taken from, and left out."]);
+        let empty =
+            tracer("Sphere(radius: 1), Intersection(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
+        let warnings = needs_warnings(&empty.compiled());
+        assert!(warnings.iter().any(|warning| warning.starts_with("1 solid is empty")), "{warnings:?}");
+    }
+
+    #[test]
+    fn several_have_their_plural() {
+        let said = ["box", "torus", "ball", "box along the axes"].map(|kind| several(2000, shape_names(kind)));
+        assert_eq!(
+            said,
+            ["2\u{a0}000 boxes", "2\u{a0}000 tori", "2\u{a0}000 balls", "2\u{a0}000 boxes along the axes"]
+        );
+        assert_eq!(listed(&["1 ball".into(), "2 boxes".into()]), "1 ball and 2 boxes");
+    }
+}

@@ -1,0 +1,98 @@
+//! What is changed of a run, in words, and what a run with changes is called.
+
+use super::format::{count, duration, fraction, node_name, time_words};
+use super::remedies::without;
+use crate::balance::Strategy;
+use crate::language::{say, word};
+use crate::sim::Change;
+use crate::view::state::scheduler::Sharing;
+
+/// A change in a few words.
+pub fn change_words(change: Change) -> String {
+    match change {
+        Change::Strategy(strategy) => Sharing::By(strategy).name().to_owned(),
+        Change::Nodes(1) => word!("1 machine", "1 máquina").to_owned(),
+        Change::Nodes(nodes) => say!("{nodes} machines", "{nodes} máquinas"),
+        Change::Speed(node, speed) => {
+            let (name, speed) = (node_name(node), fraction(speed));
+            say!("{name} at {speed}", "{name} a {speed}")
+        }
+        Change::SpeedAt(at, node, speed) => {
+            let (at, name, speed) = (time_words(at, 1.0), node_name(node), fraction(speed));
+            say!("{name} at {speed} from {at} on", "{name} a {speed} a partir de {at}")
+        }
+        Change::Without(remedy) => without(remedy),
+        Change::Equal => word!("all at 100 %", "todas a 100 %").to_owned(),
+        Change::Atom(pixels) => {
+            let pixels = count(pixels);
+            say!("atoms of {pixels} pixels", "átomos de {pixels} pixels")
+        }
+        Change::Latency(latency) if latency.is_zero() => {
+            word!("messages take no time", "mensagens instantâneas").to_owned()
+        }
+        Change::Latency(latency) => {
+            let latency = duration(latency);
+            say!("{latency} a message", "{latency} por mensagem")
+        }
+        Change::Handling(handling) if handling.is_zero() => {
+            word!("the parent is never busy", "o pai nunca está ocupado").to_owned()
+        }
+        Change::Handling(handling) => {
+            let handling = duration(handling);
+            say!("the parent takes {handling} a message", "o pai leva {handling} por mensagem")
+        }
+    }
+}
+
+/// What a run is called that is shared so and has these changes: of changes of the same thing only the last counts.
+pub fn trial_name(strategy: Strategy, changes: &[Change]) -> String {
+    let mut words = vec![Sharing::By(strategy).name().to_owned()];
+    let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| is_of_the_same(*change, *other));
+    for (i, change) in changes.iter().enumerate() {
+        if !matches!(change, Change::Strategy(_)) && !is_later(change, &changes[i + 1..]) {
+            words.push(change_words(*change));
+        }
+    }
+    words.join(", ")
+}
+
+/// Whether the later change makes the earlier one void.
+fn is_of_the_same(earlier: Change, later: Change) -> bool {
+    match (earlier, later) {
+        (Change::Speed(one, _), Change::Speed(other, _)) => one == other,
+        (Change::Speed(..), Change::Equal) => true,
+        (Change::Without(one), Change::Without(other)) => one == other,
+        _ => {
+            std::mem::discriminant(&earlier) == std::mem::discriminant(&later) && !matches!(later, Change::SpeedAt(..))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::balance::Remedy;
+    use crate::time::Time;
+
+    #[test]
+    fn a_run_is_called_after_what_is_changed_last() {
+        let changes = [
+            Change::Strategy(Strategy::Farm),
+            Change::Speed(7, 0.05),
+            Change::Latency(Duration::from_millis(200)),
+            Change::Speed(7, 0.5),
+            Change::Nodes(4),
+            Change::SpeedAt(Time::from_secs(2.0), 1, 0.1),
+        ];
+        assert_eq!(
+            trial_name(Strategy::Farm, &changes),
+            "Farm, 200 ms a message, 8 at 50 %, 4 machines, 2 at 10 % from 2.0 s on"
+        );
+        assert_eq!(trial_name(Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal]), "Ring, all at 100 %");
+        assert_eq!(trial_name(Strategy::Ring, &[]), "Ring");
+        let without = [Remedy::Wake, Remedy::Copies, Remedy::Wake].map(Change::Without);
+        assert_eq!(trial_name(Strategy::Adaptive, &without), "Adaptive ring, without copies, without waking");
+    }
+}

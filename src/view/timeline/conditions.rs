@@ -1,0 +1,123 @@
+//! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
+
+use super::time_window::TimeWindow;
+use super::{LanePlan, Quad, Timeline};
+use crate::balance::{Condition, NodeId};
+use crate::time::Time;
+use crate::view::draw::display_list::Hue;
+use crate::view::state::lane::Lane;
+
+/// How long a dash is, and the gap after it.
+const DASH: [f32; 2] = [6.0, 4.0];
+/// More dashes than this are one line.
+const MOST: usize = 400;
+
+/// Draws them: an empty lane with a cross for one that was off, a broken line for one that hung, a wire that is cut for one that was cut off.
+pub(crate) fn troubles(
+    lane: &Lane,
+    node: NodeId,
+    window: &TimeWindow,
+    plan: &LanePlan,
+    head: Time,
+    drawn: &mut Timeline,
+) {
+    let conditions = lane.conditions();
+    for (i, &(from, condition)) in conditions.iter().enumerate() {
+        let to = conditions.get(i + 1).map_or(head, |(next, _)| *next);
+        let [left, right] = plan.span(window, from, to);
+        if condition == Condition::Well || right <= left {
+            continue;
+        }
+        let (middle, [top, bottom]) = (plan.middle(node), plan.lane(node));
+        match condition {
+            Condition::Off => {
+                let place = [left, top, right, bottom];
+                drawn.quads.push(Quad { place, ink: Hue::Hairline.faint(0.45) });
+            }
+            Condition::Hung => dashes([left, right], [middle - 1.5, middle + 1.5], &mut drawn.quads),
+            Condition::CutOff => {
+                for edge in [[top, top + 1.5], [bottom - 1.5, bottom]] {
+                    dashes([left, right], edge, &mut drawn.quads);
+                }
+            }
+            Condition::Well => {}
+        }
+        let (x, reach) = (plan.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
+        if (0.0..=plan.width).contains(&x) && reach > 2.0 {
+            let [x, y] = [(x + reach + 2.0).min(plan.width - reach), middle];
+            let at = |[u, v]: [f32; 2]| [x + u * reach, y + v * reach];
+            let strokes = condition_strokes(condition).iter();
+            drawn.lines.extend(strokes.map(|&[from, to]| (at(from), at(to), Hue::Text.full())));
+        }
+    }
+}
+
+fn dashes([left, right]: [f32; 2], [top, bottom]: [f32; 2], quads: &mut Vec<Quad>) {
+    let ink = Hue::Text.faint(0.9);
+    let step = (DASH[0] + DASH[1]).max((right - left) / MOST as f32);
+    let count = ((right - left) / step).ceil() as usize;
+    for i in 0..count.min(MOST) {
+        let start = left + i as f32 * step;
+        let end = (start + DASH[0] * step / (DASH[0] + DASH[1])).min(right);
+        if end > start {
+            quads.push(Quad { place: [start, top, end, bottom], ink });
+        }
+    }
+}
+
+/// The strokes of a condition's sign, within 1.3 of its middle: the same as at the machine in the ring, but for a cross in the place
+/// of a switch, and a tick for one that is well.
+pub fn condition_strokes(condition: Condition) -> &'static [[[f32; 2]; 2]] {
+    match condition {
+        Condition::Well => &[[[-1.0, -0.1], [-0.3, 0.7]], [[-0.3, 0.7], [1.1, -1.1]]],
+        Condition::Off => &[[[-1.0, -1.0], [1.0, 1.0]], [[-1.0, 1.0], [1.0, -1.0]]],
+        Condition::Hung => &[
+            [[-0.8, -1.0], [0.8, -1.0]],
+            [[0.8, -1.0], [-0.8, 1.0]],
+            [[-0.8, 1.0], [0.8, 1.0]],
+            [[0.8, 1.0], [-0.8, -1.0]],
+        ],
+        Condition::CutOff => &[[[-1.3, 0.0], [-0.5, 0.0]], [[0.5, 0.0], [1.3, 0.0]], [[-0.3, 0.9], [0.3, -0.9]]],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::timeline;
+    use super::*;
+    use crate::record::{Record, What};
+    use crate::view::state::lanes::Lanes;
+    use crate::view::tests::sample_runs;
+
+    /// What is drawn more of three machines' lanes if this becomes of the second at 1 s: quads and lines.
+    fn more(condition: Condition) -> (usize, usize) {
+        let header = sample_runs::header(&[1.0; 3], 300);
+        let draw = |whats: &[What]| {
+            let mut lanes = Lanes::new(&header);
+            let at = Time::from_secs(1.0);
+            whats.iter().for_each(|what| lanes.apply(&Record { at, what: what.clone() }));
+            let (mut window, end) = (TimeWindow::default(), Time::from_secs(2.0));
+            window.fit(end);
+            let drawn = timeline(&lanes, &window, &LanePlan::new(3, 800.0, 150.0), end);
+            (drawn.quads.len(), drawn.lines.len())
+        };
+        let (before, after) = (draw(&[]), draw(&[What::Condition { node: 1, condition }]));
+        (after.0 - before.0, after.1 - before.1)
+    }
+
+    #[test]
+    fn each_trouble_has_a_sign_of_its_own() {
+        let [well, off, hung, cut] = [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(more);
+        assert_eq!(well, (0, 0));
+        assert_eq!([off.1, hung.1, cut.1], [2, 4, 3], "strokes");
+        assert!(hung.0 > 20 && cut.0 > 2 * hung.0 - 20, "dashes {hung:?} {cut:?}");
+    }
+
+    #[test]
+    fn a_spare_is_off_from_the_beginning() {
+        let header = crate::runlog::Header { spares: 1, ..sample_runs::header(&[1.0; 3], 300) };
+        let lanes = Lanes::new(&header);
+        let off: Vec<_> = lanes.lanes().iter().map(|lane| lane.conditions().len()).collect();
+        assert_eq!(off, [0, 0, 1]);
+    }
+}

@@ -1,0 +1,233 @@
+//! Steps through a run's records, and what is worth jumping to.
+
+use crate::balance::{Message, NodeId, Party};
+use crate::language::{say, word};
+use crate::picture::{Atom, atoms_in};
+use crate::record::{Record, What};
+use crate::runlog::RunLog;
+use crate::time::Time;
+use crate::view::text::format::{atoms_words, count, duration, node_name};
+
+/// By what one steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a hand.
+    Event,
+    /// An atom is traced.
+    Atom,
+    /// A machine sends an offer of its own: from there it runs round the ring.
+    Lap,
+}
+
+impl Step {
+    /// Every step, the smallest last.
+    pub const ALL: [Self; 3] = [Self::Lap, Self::Event, Self::Atom];
+
+    /// What one steps by, in a word or two.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Event => word!("event", "evento"),
+            Self::Atom => word!("atom", "átomo"),
+            Self::Lap => word!("lap", "volta"),
+        }
+    }
+
+    fn ends_at(self, what: &What) -> bool {
+        match (self, what) {
+            (Self::Atom, What::AtomDone { .. }) => true,
+            (Self::Lap, What::Sent { from: Party::Node(from), message, .. }) => message.own_offer(*from).is_some(),
+            (
+                Self::Event,
+                What::Sent { message: Message::Results(_), .. } | What::Received { by: Party::Parent, .. },
+            ) => false,
+            (Self::Event, What::AtomStarted { .. } | What::AtomDone { .. }) => false,
+            (Self::Event, _) => true,
+            (Self::Atom | Self::Lap, _) => false,
+        }
+    }
+}
+
+/// Whoever has seen the first `records` records of `log` and makes a step has then seen so many; `None` if there is no
+/// such step. The first step back from the first event is the beginning.
+pub fn step(log: &RunLog, records: usize, by: Step, forward: bool) -> Option<usize> {
+    let is_end = |record: &Record| by.ends_at(&record.what);
+    let (before, after) = log.records().split_at(records.min(log.records().len()));
+    if forward {
+        return after.iter().position(is_end).map(|further| before.len() + further + 1);
+    }
+    let (_, before) = before.split_last()?;
+    Some(before.iter().rposition(is_end).map_or(0, |last| last + 1))
+}
+
+/// Something that is worth jumping to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Landmark {
+    /// What it is, and what is to be said of it.
+    pub words: String,
+    /// How many records lie before it, its own included.
+    pub records: usize,
+    /// When it is.
+    pub at: Time,
+    /// What it is about.
+    pub about: About,
+}
+
+/// What something is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// A machine.
+    Node(NodeId),
+    /// An atom.
+    Atom(Atom),
+    /// A message, by its name in the run.
+    Message(u64),
+}
+
+/// What of a run is worth jumping to, in the order in which one would ask.
+pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
+    let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
+    let mut hand = None;
+    let records = seen(log);
+    for (index, record) in records.iter().enumerate() {
+        let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
+        match &record.what {
+            What::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
+                let name = node_name(*who);
+                let words = || say!("The first offer: {name} has finished", "A primeira oferta: {name} terminou");
+                offer.get_or_insert_with(|| mark(words(), About::Message(*id)));
+            }
+            What::Sent {
+                id, from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            } => {
+                let atoms = atoms_in(ranges);
+                let words = || {
+                    let (atoms, from, to) = (atoms_words(atoms), node_name(*from), node_name(*to));
+                    say!("{atoms} from {from} to {to}", "{atoms} de {from} para {to}")
+                };
+                transfer.get_or_insert_with(|| {
+                    let words = words();
+                    mark(say!("The first transfer: {words}", "A primeira transferência: {words}"), About::Message(*id))
+                });
+                if biggest.as_ref().is_none_or(|(most, _)| atoms > *most) {
+                    let words = words();
+                    let words = say!("The biggest transfer: {words}", "A maior transferência: {words}");
+                    biggest = Some((atoms, mark(words, About::Message(*id))));
+                }
+            }
+            What::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
+                let (by, took) = (node_name(*node), duration(*cost));
+                let name = count(atom.saturating_add(1));
+                let words = say!(
+                    "The costliest atom: {name}, {took} of {by}'s time",
+                    "O átomo mais caro: {name}, {took} do tempo de {by}"
+                );
+                dearest = Some((*cost, mark(words, About::Atom(*atom))));
+            }
+            What::Retired { node } => {
+                let name = node_name(*node);
+                let words = || say!("The first to retire: {name}", "A primeira dispensada: {name}");
+                retired.get_or_insert_with(|| mark(words(), About::Node(*node)));
+            }
+            What::SpeedSet { node, .. } | What::Paused { node } | What::Condition { node, .. } => {
+                let name = node_name(*node);
+                let words = || say!("The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
+                hand.get_or_insert_with(|| mark(words(), About::Node(*node)));
+            }
+            _ => {}
+        }
+    }
+    // Said once, if they are the same.
+    let transfer =
+        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
+    let slowest = slowest(records, log.header.speeds.len());
+    let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
+    [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
+}
+
+/// The records that one sees happen: once the picture is complete, time stands still.
+fn seen(log: &RunLog) -> &[Record] {
+    let records = log.records();
+    let end = records.iter().position(|record| record.what == What::Finished);
+    &records[..end.map_or(records.len(), |end| end + 1)]
+}
+
+/// The machine that traced the fewest atoms in the time in which it had any; its place is the end, where that is seen.
+fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
+    let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
+    for record in records {
+        match record.what {
+            What::AtomStarted { node, .. } if usize::from(node) < nodes => {
+                started[usize::from(node)] = Some(record.at);
+            }
+            What::AtomDone { node, .. } if usize::from(node) < nodes => {
+                let node = usize::from(node);
+                atoms[node] += 1;
+                busy[node] += started[node].take().map_or(0.0, |since| record.at.since(since).as_secs_f64());
+            }
+            _ => {}
+        }
+    }
+    let rate = |node: &usize| f64::from(atoms[*node]) / busy[*node];
+    let slowest = (0..nodes).filter(|&node| busy[node] > 0.0).min_by(|one, other| rate(one).total_cmp(&rate(other)))?;
+    let node = slowest as NodeId;
+    let (name, traced) = (node_name(node), atoms_words(atoms[slowest]));
+    let words = say!("The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
+    let (records, at) = (records.len(), records.last()?.at);
+    (nodes > 1).then_some(Landmark { words, records, at, about: About::Node(node) })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::view::tests::sample_runs;
+
+    proptest! {
+        #[test]
+        fn steps_back_are_the_steps_forward(speeds in prop::collection::vec(0.1..1.0f64, 1..5), atoms in 1..200u32) {
+            let log = sample_runs::log(&speeds, atoms);
+            for by in Step::ALL {
+                let mut places = vec![0];
+                while let Some(next) = step(&log, places[places.len() - 1], by, true) {
+                    prop_assert!(by.ends_at(&log.records()[next - 1].what));
+                    places.push(next);
+                }
+                let mut back = vec![places[places.len() - 1]];
+                while let Some(next) = step(&log, back[back.len() - 1], by, false) {
+                    back.push(next);
+                }
+                back.reverse();
+                prop_assert_eq!(places, back);
+            }
+        }
+    }
+
+    #[test]
+    fn every_atom_is_a_step() {
+        let log = sample_runs::log(&[1.0, 0.3], 57);
+        let ends = |by: Step| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
+        assert_eq!(ends(Step::Atom), 57);
+        assert!(ends(Step::Lap) >= 2 && ends(Step::Event) > ends(Step::Lap));
+    }
+
+    #[test]
+    fn what_one_asks_for_is_found() {
+        let mut log = sample_runs::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
+        // There the last atoms keep everybody busy.
+        let retires = |secs, node| Record { at: Time::from_secs(secs), what: What::Retired { node } };
+        log.add(vec![retires(0.001, 0)]);
+        let end = log.end();
+        log.add(vec![retires(9e3, 1)]);
+        let found = landmarks(&log);
+        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
+        assert!(matches!(says("The first offer: "), Some(About::Message(_))));
+        assert!(matches!(says("The biggest transfer: "), Some(About::Message(_))));
+        assert!(matches!(says("The first to retire: "), Some(About::Node(0))));
+        assert_eq!(says("The slowest machine: 5, "), Some(About::Node(4)));
+        assert!(matches!(says("The costliest atom: "), Some(About::Atom(_))));
+        assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
+        assert!(found.iter().all(|mark| mark.at <= end), "after the end nothing is seen any more: {found:?}");
+        assert_eq!(landmarks(&RunLog::new(log.header)), []);
+    }
+}
