@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use anel::balance::{Rules, Strategy};
 use anel::picture::Size;
-use anel::runlog::{Driver, Header, Link, Tally};
+use anel::runlog::{Driver, Header, LinkSettings, Metrics};
 use anel::sim::Sim;
 
 fn main() {
@@ -22,7 +22,7 @@ fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
     let plain = Header::plain(size, 1, strategy, vec![1.0; nodes]);
     let header = Header {
         driver: Driver::Sim,
-        link: Link { latency: Duration::from_millis(1), ..plain.link },
+        link: LinkSettings { latency: Duration::from_millis(1), ..plain.link },
         rules: Rules { batch: Some(Duration::from_millis(15)), ..plain.rules },
         ..plain
     };
@@ -33,7 +33,7 @@ fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
         Duration::from_secs_f64(1e-3 - 0.8e-3 * (std::f64::consts::TAU * f64::from(atom) / atoms).cos())
     };
     let mut sim = Sim::new(&header, &[], cost);
-    let mut tally = Tally::new(&header);
+    let mut tally = Metrics::new(&header);
     let mut records = 0u64;
     sim.run(&mut |record| {
         records += 1;

@@ -14,7 +14,7 @@ use std::time::Duration;
 use anel::balance::Strategy;
 use anel::gui::{App, Launch, Opening, Phase};
 use anel::picture::Size;
-use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::runlog::{Driver, Header, LinkSettings, Metrics, RunLog};
 use anel::scene::Opened;
 use anel::sim::Sim;
 use anel::time::Time;
@@ -92,7 +92,7 @@ fn long_log() -> std::sync::Arc<RunLog> {
     let speeds: Vec<f64> = (0..32).map(|node| if node % 5 == 4 { 0.1 } else { 1.0 }).collect();
     let plain = Header::plain(size, 50, Strategy::Ring, speeds);
     let opened = Opened::new("ten-objects").expect("a built-in scene");
-    let link = Link { latency: Duration::from_millis(20), ..plain.link };
+    let link = LinkSettings { latency: Duration::from_millis(20), ..plain.link };
     let names = (opened.name, opened.text);
     let header = Header { scene: names.0, scene_text: names.1, driver: Driver::Sim, pace: 0.05, link, ..plain };
     let mut log = RunLog::new(header.clone());
@@ -276,7 +276,7 @@ fn at_rest(display: &Display) {
 
 fn makespan(log: &Path) -> f64 {
     let log = RunLog::load(log).expect("a run file");
-    Tally::of(&log).makespan().expect("a whole run").as_secs_f64()
+    Metrics::of(&log).makespan().expect("a whole run").as_secs_f64()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

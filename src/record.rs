@@ -14,18 +14,18 @@ pub struct Record {
     /// When it happened.
     pub at: Time,
     /// What happened.
-    pub what: What,
+    pub what: RecordKind,
 }
 
 /// What happened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum What {
+pub enum RecordKind {
     /// A message left; it can be drawn in flight from [`Record::at`] to `arrives`.
     ///
     /// An offer is *sent* where `from` is the node that offers, else *passed on* (a hop). A transfer says that
     /// an offer was *taken*: its receiver is the node that offered.
     Sent {
-        /// Names this message in the run; [`What::Received`] has the same.
+        /// Names this message in the run; [`RecordKind::Received`] has the same.
         id: u64,
         /// The sender.
         from: Party,

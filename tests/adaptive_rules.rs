@@ -7,10 +7,10 @@ mod virtual_time;
 use std::ops::Range;
 use std::time::Duration;
 
-use anel::balance::{Action, Event, Help, Message, Node, NodeId, Parent, Party, Remedies, Remedy, Rules, Strategy};
+use anel::balance::{Action, Event, Helper, Message, Node, NodeId, Parent, Party, Remedies, Remedy, Rules, Strategy};
 use anel::picture::{Atom, Division, Size};
-use anel::record::What;
-use anel::runlog::{Header, Link, RunLog};
+use anel::record::RecordKind;
+use anel::runlog::{Header, LinkSettings, RunLog};
 use anel::time::Time;
 
 const MS: Duration = Duration::from_millis(1);
@@ -65,7 +65,7 @@ impl Told {
 
     /// The offer of node 2, made `ago`, as fast as that; what the node does about it.
     fn offered(&mut self, speed: f64, ago: Duration, left: Option<u16>) -> Vec<Action> {
-        let help = Help { speed: Help::millionths(speed), sent: self.now - ago, stop: 1, left };
+        let help = Helper { speed: Helper::millionths(speed), sent: self.now - ago, stop: 1, left };
         self.message(Party::Node(2), Message::Offer { who: 2, done: 50, help: Some(help) })
     }
 }
@@ -100,15 +100,15 @@ fn without_remedies_it_is_the_articles_ring() {
         let plain = Header::plain(size, 5, strategy, vec![1.0, 0.1, 0.6, 1.0]);
         Header {
             rules: Rules { remedies: Remedies::NONE, ..plain.rules },
-            link: Link { latency, ..plain.link },
+            link: LinkSettings { latency, ..plain.link },
             ..plain
         }
     };
-    let told = |strategy, latency| -> Vec<(Time, What)> {
+    let told = |strategy, latency| -> Vec<(Time, RecordKind)> {
         let log: RunLog = virtual_time::run(&header(strategy, latency), &[], |atom| f64::from(1 + atom % 7) * 1e-3);
-        let plain = |what: &What| match what.clone() {
-            What::Sent { id, from, to, message: Message::Offer { who, done, .. }, arrives, .. } => {
-                What::Sent { id, from, to, message: Message::offer(who, done), bytes: 0, arrives }
+        let plain = |what: &RecordKind| match what.clone() {
+            RecordKind::Sent { id, from, to, message: Message::Offer { who, done, .. }, arrives, .. } => {
+                RecordKind::Sent { id, from, to, message: Message::offer(who, done), bytes: 0, arrives }
             }
             other => other,
         };
@@ -119,8 +119,8 @@ fn without_remedies_it_is_the_articles_ring() {
         let ring: Vec<_> = ring
             .into_iter()
             .map(|(at, what)| match what {
-                What::Sent { id, from, to, message: message @ Message::Offer { .. }, arrives, .. } => {
-                    (at, What::Sent { id, from, to, message, bytes: 0, arrives })
+                RecordKind::Sent { id, from, to, message: message @ Message::Offer { .. }, arrives, .. } => {
+                    (at, RecordKind::Sent { id, from, to, message, bytes: 0, arrives })
                 }
                 other => (at, other),
             })

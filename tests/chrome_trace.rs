@@ -9,7 +9,7 @@ use std::time::Duration;
 use anel::balance::{Condition, Rules, Strategy as Sharing};
 use anel::export::write_chrome;
 use anel::picture::Size;
-use anel::runlog::{Header, Link, RunLog};
+use anel::runlog::{Header, LinkSettings, RunLog};
 use anel::scenario::Command;
 use anel::sim::Sim;
 use anel::time::Time;
@@ -119,7 +119,7 @@ proptest! {
     ) {
         let nodes = speeds.len() as u16;
         let plain = Header::plain(Size::new(width, height).expect("a small picture"), atom, strategy, speeds);
-        let link = Link { latency: Duration::from_millis(latency), bandwidth, shared: false };
+        let link = LinkSettings { latency: Duration::from_millis(latency), bandwidth, shared: false };
         let rules = Rules { batch: Some(Duration::from_millis(5)), ..plain.rules };
         let header = Header { link, rules, handling: Duration::from_millis(handling), ..plain };
         let ms = |at: u64| Time(at * 1_000_000);
@@ -160,7 +160,7 @@ proptest! {
         strategy in prop::sample::select(&[Sharing::Adaptive, Sharing::Ring][..]),
     ) {
         let plain = Header::plain(Size::new(100, 30).expect("a small picture"), 10, strategy, vec![1.0; 4]);
-        let header = Header { link: Link { latency: Duration::from_millis(4), ..plain.link }, pace: 0.1, ..plain };
+        let header = Header { link: LinkSettings { latency: Duration::from_millis(4), ..plain.link }, pace: 0.1, ..plain };
         let ms = |at: u64| Time(at * 1_000_000);
         let mut script = Vec::new();
         for (at, node, condition) in fails {

@@ -9,8 +9,8 @@ use std::time::Duration;
 use anel::balance::{Condition, Message, NodeId, Party, Strategy};
 use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Colour, Size};
-use anel::record::{Record, What};
-use anel::runlog::{Driver, Header, Link, RunLog};
+use anel::record::{Record, RecordKind};
+use anel::runlog::{Driver, Header, LinkSettings, RunLog};
 use anel::scenario::Command;
 use anel::time::Time;
 use anel::tracer::Scratch;
@@ -40,7 +40,11 @@ fn header(number: u32) -> Header {
     let strategy = [Strategy::Ring, Strategy::Adaptive][number as usize / 6 % 2];
     let plain = Header::plain(size, [10, 50_000][number as usize % 2], strategy, speeds);
     let driver = [Driver::Threads, Driver::WorkStealing, Driver::Pairs][number as usize / 2 % 3];
-    Header { driver, link: Link { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link }, ..plain }
+    Header {
+        driver,
+        link: LinkSettings { latency: [0, 1, 3_600_000][number as usize % 3] * MS, ..plain.link },
+        ..plain
+    }
 }
 
 /// The whole picture would take three minutes.
@@ -76,8 +80,8 @@ fn retrace_and_stop(number: u32) -> Retrace {
     let (id, from, to) = (0, Party::Node(0), Party::Parent);
     let message = Message::Results(once(0..log.header.division.atoms()).collect());
     let at = Time(1);
-    log.add(vec![Record { at: Time::ZERO, what: What::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
-    log.add(vec![Record { at, what: What::Received { id, by: to } }]);
+    log.add(vec![Record { at: Time::ZERO, what: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
+    log.add(vec![Record { at, what: RecordKind::Received { id, by: to } }]);
     let retrace = Retrace::start_with(trace, Arc::new(log));
     std::thread::sleep(number % 5 * MS);
     retrace.stop();

@@ -1,6 +1,6 @@
 //! Rays that start on a face, and faces of different solids at one place.
 
-use anel::csg::{Primitive, QuadricCoefficients, Solid, Stack, Start, Tree};
+use anel::csg::{Primitive, QuadricCoefficients, RayStart, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
@@ -55,7 +55,7 @@ proptest! {
         let along = normal.cross(aside.normalize());
         prop_assume!(along.length() > 0.1);
         let (sine, cosine) = 10f64.powf(-power).sin_cos();
-        let start = Start { root, surface: hit.surface, leaves: false, turned: false };
+        let start = RayStart { root, surface: hit.surface, leaves: false, turned: false };
         let mut next = |side: f64| {
             let direction = along.normalize() * cosine + normal * (side * sine);
             tree.nearest(root, &ray.onward(hit.t, direction.normalize()), Some(start), f64::INFINITY, stack)

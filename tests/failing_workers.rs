@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use anel::balance::Strategy;
 use anel::driver::Run;
 use anel::picture::{Colour, Frame, Size};
-use anel::record::{Record, What};
+use anel::record::{Record, RecordKind};
 use anel::runlog::{Driver, Header};
 use anel::tracer::Scratch;
 
@@ -41,12 +41,12 @@ fn colour(pixel: u32) -> Colour {
     [pixel as f32, 1.0, 0.0]
 }
 
-fn count(records: &[Record], what: fn(&What) -> bool) -> usize {
+fn count(records: &[Record], what: fn(&RecordKind) -> bool) -> usize {
     records.iter().filter(|record| what(&record.what)).count()
 }
 
-fn has_failed(what: &What) -> bool {
-    matches!(what, What::AtomFailed { atom: 5, .. })
+fn has_failed(what: &RecordKind) -> bool {
+    matches!(what, RecordKind::AtomFailed { atom: 5, .. })
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn three_failures_end_the_run_and_say_where() {
         let why = frame.expect_err("a pixel is missing");
         assert_eq!(why, "no worker could trace atom 5, whose first pixel is at 50,4");
         assert!(count(&records, has_failed) >= 3);
-        assert_eq!(count(&records, |what| matches!(what, What::GivenUp { atom: 5 })), 1);
-        assert_eq!(count(&records, |what| matches!(what, What::Finished)), 0);
+        assert_eq!(count(&records, |what| matches!(what, RecordKind::GivenUp { atom: 5 })), 1);
+        assert_eq!(count(&records, |what| matches!(what, RecordKind::Finished)), 0);
     }
 }

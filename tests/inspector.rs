@@ -1,6 +1,6 @@
 //! What the inspector tells of a pixel is what made it.
 
-use anel::csg::{Figure, Operation, What};
+use anel::csg::{Operation, SolidKind, SpanDiagram};
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
 use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
@@ -71,7 +71,7 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
 }
 
 /// Where the stays of a composition begin and end, by its operands' alone.
-fn recomputed(operation: Operation, operands: &[Figure]) -> impl Fn(f64) -> bool {
+fn recomputed(operation: Operation, operands: &[SpanDiagram]) -> impl Fn(f64) -> bool {
     move |t| {
         let mut holds = operands.iter().map(|operand| operand.stays.iter().any(|[from, to]| *from <= t && t <= *to));
         match operation {
@@ -82,8 +82,8 @@ fn recomputed(operation: Operation, operands: &[Figure]) -> impl Fn(f64) -> bool
     }
 }
 
-fn assert_made_of_its_operands(figure: &Figure, name: &str) {
-    if let What::Composition(operation) = figure.what {
+fn assert_made_of_its_operands(figure: &SpanDiagram, name: &str) {
+    if let SolidKind::Composition(operation) = figure.what {
         let mut places: Vec<f64> =
             figure.operands.iter().flat_map(|operand| operand.stays.concat()).filter(|t| t.is_finite()).collect();
         places.sort_by(f64::total_cmp);

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use anel::lesson::{BUILT_IN, Lesson, Performed};
+use anel::lesson::{BUILT_IN, Lesson, LessonRun};
 
-fn performed(lesson: &Lesson) -> Vec<(String, Performed)> {
+fn performed(lesson: &Lesson) -> Vec<(String, LessonRun)> {
     let performed = lesson.perform(&|_| {}, &|| false);
     performed.expect("its scenes can be read").expect("nobody gives it up")
 }

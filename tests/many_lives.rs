@@ -10,8 +10,8 @@ use std::time::Duration;
 use anel::balance::{Condition, Message, NodeId, Party, Rules, Strategy};
 use anel::driver::Run;
 use anel::picture::{Colour, Frame, Quality, Size};
-use anel::record::{Record, What};
-use anel::runlog::{Header, Link};
+use anel::record::{Record, RecordKind};
+use anel::runlog::{Header, LinkSettings};
 use anel::scenario::Command;
 use anel::scene::{Scene, built_in};
 use anel::tracer::{Scratch, Tracer};
@@ -72,7 +72,7 @@ fn live(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, S
         // Leases are short, so that what is lost is soon found.
         rules: Rules { beat: 3 * MS, batch: [None, Some(MS)][rng.usize(0..2)], ..plain.rules },
         pace: [1.0, 0.3, 0.1][rng.usize(0..3)],
-        link: Link { latency: [0, 0, 200, 1000][rng.usize(0..4)] * Duration::from_micros(1), ..plain.link },
+        link: LinkSettings { latency: [0, 0, 200, 1000][rng.usize(0..4)] * Duration::from_micros(1), ..plain.link },
         spares,
         ..plain
     };
@@ -113,7 +113,7 @@ fn look_at(records: &[Record], nodes: NodeId, seen: &mut Seen) {
     let mut finally = vec![Condition::Well; usize::from(nodes)];
     for record in records {
         match &record.what {
-            What::Condition { node, condition } => {
+            RecordKind::Condition { node, condition } => {
                 finally[usize::from(*node)] = *condition;
                 match condition {
                     Condition::Hung => seen.hung += 1,
@@ -122,12 +122,12 @@ fn look_at(records: &[Record], nodes: NodeId, seen: &mut Seen) {
                     Condition::Well => {}
                 }
             }
-            What::Link { cut: true, .. } => seen.links_cut += 1,
-            What::Delayed { .. } => seen.held_up += 1,
-            What::Paused { .. } | What::SpeedSet { speed: 0.0, .. } => seen.stood_still += 1,
-            What::Lost { .. } => seen.lost += 1,
-            What::Sent { message: Message::Request, .. } => seen.begun_anew += 1,
-            What::Sent { from: Party::Parent, message: Message::Again(_), .. } => seen.again += 1,
+            RecordKind::Link { cut: true, .. } => seen.links_cut += 1,
+            RecordKind::Delayed { .. } => seen.held_up += 1,
+            RecordKind::Paused { .. } | RecordKind::SpeedSet { speed: 0.0, .. } => seen.stood_still += 1,
+            RecordKind::Lost { .. } => seen.lost += 1,
+            RecordKind::Sent { message: Message::Request, .. } => seen.begun_anew += 1,
+            RecordKind::Sent { from: Party::Parent, message: Message::Again(_), .. } => seen.again += 1,
             _ => {}
         }
     }

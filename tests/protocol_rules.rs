@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use anel::balance::{Action, Event, Message, Node, NodeId, Parent, Party, Rules, Strategy};
 use anel::picture::{Atom, Division, Size};
-use anel::record::What;
-use anel::runlog::{Header, Link, RunLog, Tally};
+use anel::record::RecordKind;
+use anel::runlog::{Header, LinkSettings, Metrics, RunLog};
 use anel::time::Time;
 use proptest::prelude::*;
 
@@ -162,13 +162,13 @@ fn r5_a_node_offers_again_only_after_atoms_it_was_given() {
     let log = thousand(&[1.0, 0.05, 0.3, 0.6], Duration::ZERO);
     for node in 0..4 {
         let told = log.records().iter().filter_map(|record| match &record.what {
-            What::Sent { from, message: Message::Offer { who, .. }, .. }
+            RecordKind::Sent { from, message: Message::Offer { who, .. }, .. }
                 if *who == node && *from == Party::Node(node) =>
             {
                 Some("offer")
             }
-            What::Received { .. } | What::AtomStarted { .. } => None,
-            What::Sent { to, message: Message::Transfer(_), .. } if *to == Party::Node(node) => Some("transfer"),
+            RecordKind::Received { .. } | RecordKind::AtomStarted { .. } => None,
+            RecordKind::Sent { to, message: Message::Transfer(_), .. } if *to == Party::Node(node) => Some("transfer"),
             _ => None,
         });
         let told: Vec<_> = told.collect();
@@ -226,7 +226,7 @@ fn r7_a_fast_offerer_gets_many_and_a_slow_one_few() {
 fn r7_nodes_of_any_speed_end_together() {
     for speeds in [&[1.0, 1.0][..], &[1.0, 0.1], &[0.1, 1.0, 1.0, 1.0, 1.0], &[0.7, 0.01, 0.3, 1.0]] {
         let slowest = speeds.iter().copied().fold(1.0, f64::min);
-        let spread = Tally::of(&thousand(speeds, Duration::ZERO)).finish_spread();
+        let spread = Metrics::of(&thousand(speeds, Duration::ZERO)).finish_spread();
         assert!(spread <= 3 * COST.div_f64(slowest), "{speeds:?}: {spread:?}");
     }
 }
@@ -277,13 +277,13 @@ fn r9_everybody_ends() {
             .records()
             .iter()
             .filter_map(|record| match &record.what {
-                What::Sent { id, message: Message::Shutdown, .. } => Some(*id),
+                RecordKind::Sent { id, message: Message::Shutdown, .. } => Some(*id),
                 _ => None,
             })
             .collect();
         assert_eq!(shutdowns.len(), nodes);
         for record in log.records() {
-            if let What::Received { id, .. } = record.what {
+            if let RecordKind::Received { id, .. } = record.what {
                 shutdowns.retain(|shutdown| *shutdown != id);
             }
         }
@@ -297,6 +297,6 @@ const COST: Duration = Duration::from_millis(10);
 fn thousand(speeds: &[f64], latency: Duration) -> RunLog {
     let size = Size::new(100, 10).unwrap();
     let plain = Header::plain(size, 1, Strategy::Ring, speeds.to_vec());
-    let header = Header { link: Link { latency, ..plain.link }, ..plain };
+    let header = Header { link: LinkSettings { latency, ..plain.link }, ..plain };
     virtual_time::run(&header, &[], |_| COST.as_secs_f64())
 }

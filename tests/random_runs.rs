@@ -12,8 +12,8 @@ use std::time::Duration;
 use anel::balance::{NodeId, Rules, Strategy};
 use anel::driver::{Run, Update};
 use anel::picture::{Atom, Colour, Division, Size};
-use anel::record::What;
-use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::record::RecordKind;
+use anel::runlog::{Driver, Header, LinkSettings, Metrics, RunLog};
 use anel::scenario::Command;
 use anel::time::Time;
 use anel::tracer::Scratch;
@@ -94,7 +94,7 @@ fn nine_hundred_in_virtual_time() {
                 ..plain.rules
             },
             pace: random.one_of(&[1.0, 0.3]),
-            link: Link {
+            link: LinkSettings {
                 latency: random.one_of(&[0, 1, 40, 1000]) * MS,
                 bandwidth: random.one_of(&[None, Some(1e4), Some(1e6)]),
                 shared: random.below(2) == 0,
@@ -124,7 +124,7 @@ fn one_hundred_on_threads() {
             driver,
             rules: Rules { part: random.one_of(&[1, 3, plain.rules.part]), ..plain.rules },
             pace: if throttled { random.one_of(&[1.0, 0.5]) } else { 1.0 },
-            link: Link {
+            link: LinkSettings {
                 latency: random.one_of(&[0, 0, 1, 5]) * MS,
                 bandwidth: random.one_of(&[None, None, Some(1e7)]),
                 shared: random.below(2) == 0,
@@ -193,7 +193,7 @@ fn stop_the_second(pace: f64, stop: fn(&Run, bool)) {
     let mut log = RunLog::new(header.clone());
     let mut placed = Vec::new();
     let retired =
-        |log: &RunLog| log.records().iter().filter(|record| matches!(record.what, What::Retired { .. })).count();
+        |log: &RunLog| log.records().iter().filter(|record| matches!(record.what, RecordKind::Retired { .. })).count();
     // The others' offers pass through the stopped machine, and come back to them.
     while retired(&log) < 2 {
         take(run.updates().recv().unwrap(), &mut log, &mut placed);
@@ -219,9 +219,9 @@ fn only_real_pauses_and_latencies_are_recorded() {
         .records()
         .iter()
         .map(|record| &record.what)
-        .filter(|what| matches!(what, What::Paused { .. } | What::Resumed { .. }))
+        .filter(|what| matches!(what, RecordKind::Paused { .. } | RecordKind::Resumed { .. }))
         .collect();
-    assert_eq!(pauses, [&What::Paused { node: 1 }, &What::Resumed { node: 1 }]);
+    assert_eq!(pauses, [&RecordKind::Paused { node: 1 }, &RecordKind::Resumed { node: 1 }]);
     assert_eq!(latencies(&log), [3 * MS, Duration::ZERO, MS]);
 }
 
@@ -288,7 +288,7 @@ fn finish(run: &Run, header: &Header) -> RunLog {
     let mut log = RunLog::new(header.clone());
     let mut placed = Vec::new();
     while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
-    let tally = Tally::of(&log);
+    let tally = Metrics::of(&log);
     let (traced, atoms) = (tally.atoms_by_node().iter().sum::<u32>(), header.division.atoms());
     if header.strategy_name() == Strategy::Adaptive.name() {
         // What is late is traced by others too.
@@ -328,15 +328,15 @@ fn assert_stands_still(log: &RunLog) {
     let mut paused = vec![false; speeds.len()];
     let mut changed = vec![Time::ZERO; speeds.len()];
     for record in log.records() {
-        if let What::SpeedSet { node, .. } | What::Paused { node } = record.what {
+        if let RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } = record.what {
             changed[usize::from(node)] = record.at;
         }
         match record.what {
-            What::AtomDone { node, .. } if changed[usize::from(node)] == record.at => {}
-            What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
-            What::Paused { node } => assert!(!std::mem::replace(&mut paused[usize::from(node)], true)),
-            What::Resumed { node } => assert!(std::mem::replace(&mut paused[usize::from(node)], false)),
-            What::AtomStarted { node, atom } | What::AtomDone { node, atom, .. } => {
+            RecordKind::AtomDone { node, .. } if changed[usize::from(node)] == record.at => {}
+            RecordKind::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
+            RecordKind::Paused { node } => assert!(!std::mem::replace(&mut paused[usize::from(node)], true)),
+            RecordKind::Resumed { node } => assert!(std::mem::replace(&mut paused[usize::from(node)], false)),
+            RecordKind::AtomStarted { node, atom } | RecordKind::AtomDone { node, atom, .. } => {
                 let node = usize::from(node);
                 assert!(
                     speeds[node] > 0.0 && !paused[node],
@@ -350,7 +350,7 @@ fn assert_stands_still(log: &RunLog) {
 
 /// Every latency that was set.
 fn latencies(log: &RunLog) -> Vec<Duration> {
-    let latency = |what: &What| if let What::LatencySet { latency } = what { Some(*latency) } else { None };
+    let latency = |what: &RecordKind| if let RecordKind::LatencySet { latency } = what { Some(*latency) } else { None };
     log.records().iter().filter_map(|record| latency(&record.what)).collect()
 }
 

@@ -8,8 +8,8 @@ use std::time::Duration;
 use anel::balance::{Message, Party, Strategy};
 use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Atom, Colour, Division, Frame, Quality, Size};
-use anel::record::{Record, What};
-use anel::runlog::{Driver, Header, Link, RunLog};
+use anel::record::{Record, RecordKind};
+use anel::runlog::{Driver, Header, LinkSettings, RunLog};
 use anel::scene::{Scene, built_in};
 use anel::time::Time;
 use anel::tracer::{Scratch, Tracer};
@@ -62,9 +62,9 @@ impl Told {
 fn received(log: &RunLog) -> Vec<Atom> {
     let mut atoms = Vec::new();
     for (index, record) in log.records().iter().enumerate() {
-        let What::Received { id: got, by: Party::Parent } = record.what else { continue };
+        let RecordKind::Received { id: got, by: Party::Parent } = record.what else { continue };
         for earlier in &log.records()[..index] {
-            if let What::Sent { id, message: Message::Results(ranges), .. } = &earlier.what
+            if let RecordKind::Sent { id, message: Message::Results(ranges), .. } = &earlier.what
                 && *id == got
             {
                 atoms.extend(ranges.iter().cloned().flatten());
@@ -77,7 +77,7 @@ fn received(log: &RunLog) -> Vec<Atom> {
 fn header(speeds: &[f64]) -> Header {
     let size = Size::new(80, 50).unwrap();
     let plain = Header::plain(size, 40, Strategy::Ring, speeds.to_vec());
-    Header { scene: "csg-primer".into(), link: Link { latency: MS, ..plain.link }, ..plain }
+    Header { scene: "csg-primer".into(), link: LinkSettings { latency: MS, ..plain.link }, ..plain }
 }
 
 fn tracer(header: &Header) -> Arc<Tracer> {
@@ -104,8 +104,9 @@ fn one_by_one(step: Duration) -> RunLog {
     for atom in 0..10 {
         let at = Time::ZERO + step * atom;
         let (id, message) = (atom.into(), Message::Results(once(atom..atom + 1).collect()));
-        let sent = What::Sent { id, from: Party::Node(0), to: Party::Parent, message, bytes: 0, arrives: at + step };
-        let received = What::Received { id, by: Party::Parent };
+        let sent =
+            RecordKind::Sent { id, from: Party::Node(0), to: Party::Parent, message, bytes: 0, arrives: at + step };
+        let received = RecordKind::Received { id, by: Party::Parent };
         log.add(vec![Record { at, what: sent }, Record { at: at + step, what: received }]);
     }
     log

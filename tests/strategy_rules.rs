@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use anel::balance::{Action, Event, Message, Node, NodeId, Parent, Party, Rules, Strategy, estimate};
 use anel::picture::{Atom, Division, Size};
-use anel::record::What;
-use anel::runlog::{Header, RunLog, Tally};
+use anel::record::RecordKind;
+use anel::runlog::{Header, Metrics, RunLog};
 use anel::time::Time;
 use proptest::prelude::*;
 
@@ -132,7 +132,7 @@ fn farm_by_speed_takes_a_busy_parent_for_no_slow_node() {
     let plain = Header::plain(Size::new(400, 10).unwrap(), 1, Strategy::FarmBySpeed, vec![1.0; 4]);
     let header = Header { handling: 100 * MS, ..plain };
     let log = virtual_time::run(&header, &[], |_| 0.001);
-    let requests = Tally::of(&log).messages().requests;
+    let requests = Metrics::of(&log).messages().requests;
     assert!(requests <= 4000 / u64::from(header.rules.part) + 8, "{requests}");
 }
 
@@ -167,7 +167,7 @@ fn run(strategy: Strategy, speeds: &[f64]) -> RunLog {
 }
 
 fn makespan(log: &RunLog) -> f64 {
-    Tally::of(log).makespan().unwrap().as_secs_f64()
+    Metrics::of(log).makespan().unwrap().as_secs_f64()
 }
 
 /// §6.1: "the time of the algorithm is that of the slowest machine".
@@ -185,13 +185,13 @@ fn an_estimate_helps_where_costs_are_uneven_and_counts_itself() {
     let speeds = [1.0; 4];
     let (plain, estimated) = (run(Strategy::Static, &speeds), run(Strategy::StaticEstimate, &speeds));
     assert!(makespan(&estimated) < 0.6 * makespan(&plain));
-    let at = |what: fn(&What) -> bool| estimated.records().iter().find(|record| what(&record.what)).unwrap().at;
-    let begun = at(|what| *what == What::Estimating);
-    let bands = at(|what| matches!(what, What::Sent { message: Message::Band(_), .. }));
+    let at = |what: fn(&RecordKind) -> bool| estimated.records().iter().find(|record| what(&record.what)).unwrap().at;
+    let begun = at(|what| *what == RecordKind::Estimating);
+    let bands = at(|what| matches!(what, RecordKind::Sent { message: Message::Band(_), .. }));
     let sampled = estimate::samples(estimated.header.division).flatten();
     let costs: f64 = sampled.map(|pixel| if pixel < 1000 { 0.004 } else { 0.001 }).sum();
     assert!((bands.since(begun).as_secs_f64() - costs).abs() < 1e-6);
-    assert!(Tally::of(&estimated).ideal().unwrap().as_secs_f64() < 1.751, "it is not counted as work");
+    assert!(Metrics::of(&estimated).ideal().unwrap().as_secs_f64() < 1.751, "it is not counted as work");
 }
 
 proptest! {

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use anel::palette::node_colour;
-use anel::record::What;
+use anel::record::RecordKind;
 use anel::runlog::RunLog;
 use image::RgbImage;
 
@@ -66,7 +66,9 @@ fn the_window_shows_the_run_and_obeys() {
     let speeds: Vec<_> = log
         .records()
         .iter()
-        .filter_map(|record| if let What::SpeedSet { node, speed } = record.what { Some((node, speed)) } else { None })
+        .filter_map(
+            |record| if let RecordKind::SpeedSet { node, speed } = record.what { Some((node, speed)) } else { None },
+        )
         .collect();
     let last = speeds.last().copied();
     assert!(last.is_some_and(|(node, speed)| node == 0 && (0.1..0.6).contains(&speed)), "{speeds:?}");

@@ -7,8 +7,8 @@ use std::time::Duration;
 use anel::balance::{Message, NodeId, Party, Strategy};
 use anel::driver::{Run, Update};
 use anel::picture::{Atom, Colour, Size};
-use anel::record::What;
-use anel::runlog::{Driver, Header, Link, RunLog, Tally};
+use anel::record::RecordKind;
+use anel::runlog::{Driver, Header, LinkSettings, Metrics, RunLog};
 use anel::time::Time;
 use anel::tracer::Scratch;
 
@@ -18,7 +18,7 @@ const MS: Duration = Duration::from_millis(1);
 fn header(speeds: &[f64], pace: f64) -> Header {
     let plain = Header::plain(Size::new(100, 50).unwrap(), 10, Strategy::Ring, speeds.to_vec());
     // What does not apply to it must do nothing.
-    let link = Link { latency: 3_600_000 * MS, bandwidth: Some(1.0), shared: true };
+    let link = LinkSettings { latency: 3_600_000 * MS, bandwidth: Some(1.0), shared: true };
     Header { driver: Driver::WorkStealing, pace, link, handling: 1000 * MS, ..plain }
 }
 
@@ -51,11 +51,11 @@ fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
     let mut started = [Time::ZERO; 3];
     for record in log.records() {
         match record.what {
-            What::AtomStarted { node, .. } => {
+            RecordKind::AtomStarted { node, .. } => {
                 assert!(record.at >= started[usize::from(node)]);
                 started[usize::from(node)] = record.at;
             }
-            What::AtomDone { node, cost, .. } => {
+            RecordKind::AtomDone { node, cost, .. } => {
                 let rate = header.speeds[usize::from(node)] * header.pace;
                 let took = record.at.since(started[usize::from(node)]);
                 assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
@@ -63,7 +63,7 @@ fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
             _ => {}
         }
     }
-    assert_eq!(Tally::of(&log).atoms_by_node().iter().sum::<u32>(), header.division.atoms());
+    assert_eq!(Metrics::of(&log).atoms_by_node().iter().sum::<u32>(), header.division.atoms());
 }
 
 /// Every cause lies before its effects: an atom is begun by the node that has it, which is the one that stole it last.
@@ -77,11 +77,11 @@ fn the_records_tell_whose_each_atom_is() {
         let (mut bands, mut shutdowns) = (0, 0);
         for record in log.records() {
             match &record.what {
-                What::Sent { id, from, to, message, arrives, .. } => {
+                RecordKind::Sent { id, from, to, message, arrives, .. } => {
                     assert!(ids.insert(*id) && *arrives > record.at);
                     on_their_way.insert(*id, (*from, *to, message.clone(), *arrives));
                 }
-                What::Received { id, by } => {
+                RecordKind::Received { id, by } => {
                     let (from, to, message, arrives) = on_their_way.remove(id).expect("it was sent");
                     assert!(to == *by && arrives <= record.at);
                     match (from, to, message) {
@@ -97,12 +97,12 @@ fn the_records_tell_whose_each_atom_is() {
                         other => panic!("{other:?}"),
                     }
                 }
-                What::AtomStarted { node, atom } => assert_eq!(owner[*atom as usize], Some(*node)),
+                RecordKind::AtomStarted { node, atom } => assert_eq!(owner[*atom as usize], Some(*node)),
                 _ => {}
             }
         }
         assert_eq!((bands, shutdowns, on_their_way.len()), (4, 4, 0));
-        assert!(Tally::of(&log).messages().transfers >= 3);
+        assert!(Metrics::of(&log).messages().transfers >= 3);
     }
 }
 

@@ -47,14 +47,14 @@ impl Parts {
 
 /// A node of a farm: one on its own that asks for more.
 #[derive(Debug)]
-pub(super) struct Node {
-    solo: static_node::Node,
+pub(super) struct FarmNode {
+    solo: static_node::StaticNode,
 }
 
-impl Node {
+impl FarmNode {
     /// A node with this work, which is none yet.
     pub fn new(work: Work) -> Self {
-        Self { solo: static_node::Node::new(work) }
+        Self { solo: static_node::StaticNode::new(work) }
     }
 
     /// Answers `event`, which happens at `now`, by appending to `actions`.

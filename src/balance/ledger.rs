@@ -23,7 +23,7 @@ const MEMORY: u32 = 256;
 #[derive(Debug)]
 pub(super) struct Ledger {
     beat: Duration,
-    nodes: Vec<Entry>,
+    nodes: Vec<LedgerEntry>,
     /// By atom: when somebody was last known to have it; `None` if nobody is known to.
     held: Vec<Option<Time>>,
     /// What nobody has had for a lease, as far as was looked.
@@ -39,7 +39,7 @@ pub(super) struct Ledger {
 }
 
 #[derive(Clone, Debug)]
-struct Entry {
+struct LedgerEntry {
     /// `None` until the node's first beat.
     heard: Option<Time>,
     idle: bool,
@@ -56,7 +56,7 @@ impl Ledger {
     pub fn new(beat: Duration, (nodes, spares): (NodeId, NodeId), atoms: Atom) -> Self {
         let entry = |node| {
             let spare = node + spares >= nodes;
-            Entry { heard: None, idle: false, gone: spare, asked: Time::ZERO, spare }
+            LedgerEntry { heard: None, idle: false, gone: spare, asked: Time::ZERO, spare }
         };
         Self {
             beat,
@@ -204,7 +204,7 @@ impl Ledger {
             if self.pool.is_empty() {
                 return;
             }
-            let Entry { idle: true, gone: false, .. } = self.nodes[node] else { continue };
+            let LedgerEntry { idle: true, gone: false, .. } = self.nodes[node] else { continue };
             let count = atoms_in(&self.pool).div_ceil(idle);
             idle = (idle - 1).max(1);
             let again = self.take(now, count, placed);

@@ -18,7 +18,7 @@ mod strategy;
 mod work;
 
 pub use condition::Condition;
-pub use message::{Action, Event, Help, Message, NodeId, Party};
+pub use message::{Action, Event, Helper, Message, NodeId, Party};
 pub use parent::Parent;
 pub use remedy::{Remedies, Remedy};
 pub use strategy::{Node, Rules, Strategy};

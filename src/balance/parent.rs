@@ -15,7 +15,7 @@ use crate::time::Time;
 /// The parent of a run.
 #[derive(Debug)]
 pub struct Parent {
-    sharing: Sharing,
+    sharing: Assignment,
     division: Division,
     nodes: NodeId,
     spares: NodeId,
@@ -26,7 +26,7 @@ pub struct Parent {
 
 /// What the parent does to share the atoms.
 #[derive(Debug)]
-enum Sharing {
+enum Assignment {
     /// The first node gets all.
     Serial,
     /// Equal bands.
@@ -51,18 +51,18 @@ impl Parent {
     pub fn with_spares(rules: &Rules, division: Division, nodes: NodeId, spares: NodeId) -> Self {
         assert!(nodes > spares, "a run needs a node");
         let missing = division.atoms();
-        let farm = |by_speed| Sharing::Farm(Parts::new(missing, nodes, rules.part, by_speed));
+        let farm = |by_speed| Assignment::Farm(Parts::new(missing, nodes, rules.part, by_speed));
         let sharing = match rules.strategy {
-            Strategy::Serial => Sharing::Serial,
-            Strategy::Static | Strategy::Ring => Sharing::Bands,
-            Strategy::StaticEstimate => Sharing::Estimate,
+            Strategy::Serial => Assignment::Serial,
+            Strategy::Static | Strategy::Ring => Assignment::Bands,
+            Strategy::StaticEstimate => Assignment::Estimate,
             Strategy::Farm => farm(false),
             Strategy::FarmBySpeed => farm(true),
             Strategy::Adaptive => {
                 if rules.remedies.has(Remedy::Leases) {
-                    Sharing::Adaptive(Ledger::new(rules.beat, (nodes, spares), missing))
+                    Assignment::Adaptive(Ledger::new(rules.beat, (nodes, spares), missing))
                 } else {
-                    Sharing::Trusting((nodes - spares..nodes).collect())
+                    Assignment::Trusting((nodes - spares..nodes).collect())
                 }
             }
         };
@@ -75,7 +75,8 @@ impl Parent {
     /// If the event is impossible: an atom that has been placed before (but in the ring that adapts), or a message that no
     /// node sends here.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
-        if let (Sharing::Adaptive(ledger), Event::Message { from: Party::Node(node), .. }) = (&mut self.sharing, &event)
+        if let (Assignment::Adaptive(ledger), Event::Message { from: Party::Node(node), .. }) =
+            (&mut self.sharing, &event)
         {
             ledger.hear(now, *node, actions);
         }
@@ -83,19 +84,19 @@ impl Parent {
             Event::Started => {
                 let nodes = usize::from(self.nodes - self.spares);
                 match &mut self.sharing {
-                    Sharing::Serial => {
+                    Assignment::Serial => {
                         let all = self.division.atoms();
                         hand_out((0..nodes).map(|node| if node == 0 { 0..all } else { all..all }), actions);
                     }
-                    Sharing::Bands => hand_out(self.division.bands(nodes), actions),
-                    Sharing::Estimate => actions.push(Action::Estimate),
-                    Sharing::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
-                    Sharing::Adaptive(ledger) => {
+                    Assignment::Bands => hand_out(self.division.bands(nodes), actions),
+                    Assignment::Estimate => actions.push(Action::Estimate),
+                    Assignment::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
+                    Assignment::Adaptive(ledger) => {
                         hand_out(self.division.bands(nodes), actions);
                         ledger.start(now, actions);
                         actions.push(Action::SetTimer(ledger.next_look(now)));
                     }
-                    Sharing::Trusting(gone) => {
+                    Assignment::Trusting(gone) => {
                         hand_out(self.division.bands(nodes), actions);
                         if !gone.is_empty() {
                             tell_who_is_gone(self.nodes, gone, actions);
@@ -114,7 +115,7 @@ impl Parent {
             }
             Event::Message { from: Party::Node(node), message } => self.answer(now, node, message, actions),
             Event::Timer => {
-                if let Sharing::Adaptive(ledger) = &mut self.sharing {
+                if let Assignment::Adaptive(ledger) = &mut self.sharing {
                     ledger.look(now, &self.placed, actions);
                     actions.push(Action::SetTimer(ledger.next_look(now)));
                 }
@@ -126,22 +127,22 @@ impl Parent {
     /// Answers what is not results.
     fn answer(&mut self, now: Time, node: NodeId, message: Message, actions: &mut Vec<Action>) {
         match (&mut self.sharing, message) {
-            (Sharing::Farm(parts), Message::Request) => {
+            (Assignment::Farm(parts), Message::Request) => {
                 let message = Message::Part(parts.next(node));
                 actions.push(Action::Send { to: Party::Node(node), message });
             }
-            (Sharing::Adaptive(ledger), Message::Request) => ledger.ask_in(node, actions),
+            (Assignment::Adaptive(ledger), Message::Request) => ledger.ask_in(node, actions),
             // Without a ledger what it had is lost; it may help all the same.
-            (Sharing::Trusting(gone), Message::Request) => {
+            (Assignment::Trusting(gone), Message::Request) => {
                 hand_out_to(node, 0..0, actions);
                 gone.retain(|&other| other != node);
                 tell_who_is_gone(self.nodes, gone, actions);
             }
-            (Sharing::Adaptive(ledger), Message::Beat { holds, idle, sent }) => {
+            (Assignment::Adaptive(ledger), Message::Beat { holds, idle, sent }) => {
                 ledger.beat(now, (node, sent), (&holds, idle), &self.placed, actions);
             }
-            (Sharing::Adaptive(ledger), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
-            (Sharing::Trusting(_), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
+            (Assignment::Adaptive(ledger), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
+            (Assignment::Trusting(_), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
             (_, other) => unreachable!("node {node} sends {other:?} to a parent that has no use for it"),
         }
     }
@@ -151,7 +152,7 @@ impl Parent {
         let placed = &mut self.placed[atom as usize];
         let again = std::mem::replace(placed, true);
         assert!(
-            !again || matches!(self.sharing, Sharing::Adaptive(_) | Sharing::Trusting(_)),
+            !again || matches!(self.sharing, Assignment::Adaptive(_) | Assignment::Trusting(_)),
             "atom {atom} was traced twice"
         );
         self.missing -= u32::from(!again);

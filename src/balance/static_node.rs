@@ -6,11 +6,11 @@ use crate::time::Time;
 
 /// A node on its own.
 #[derive(Debug)]
-pub(super) struct Node {
+pub(super) struct StaticNode {
     pub work: Work,
 }
 
-impl Node {
+impl StaticNode {
     /// A node with this work, which is none yet.
     pub fn new(work: Work) -> Self {
         Self { work }

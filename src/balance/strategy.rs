@@ -144,10 +144,10 @@ pub struct Node {
 
 #[derive(Debug)]
 enum Role {
-    Solo(static_node::Node),
-    Farm(farm::Node),
-    Ring(ring::Node),
-    Adaptive(Box<adaptive::Node>),
+    Solo(static_node::StaticNode),
+    Farm(farm::FarmNode),
+    Ring(ring::RingNode),
+    Adaptive(Box<adaptive::AdaptiveNode>),
 }
 
 impl Node {
@@ -155,10 +155,12 @@ impl Node {
     pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
         let work = Work::new(rules.batch);
         let role = match rules.strategy {
-            Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => Role::Solo(static_node::Node::new(work)),
-            Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::Node::new(work)),
-            Strategy::Ring => Role::Ring(ring::Node::new(id, nodes, rules.part, work)),
-            Strategy::Adaptive => Role::Adaptive(Box::new(adaptive::Node::new(id, nodes, rules))),
+            Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => {
+                Role::Solo(static_node::StaticNode::new(work))
+            }
+            Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::FarmNode::new(work)),
+            Strategy::Ring => Role::Ring(ring::RingNode::new(id, nodes, rules.part, work)),
+            Strategy::Adaptive => Role::Adaptive(Box::new(adaptive::AdaptiveNode::new(id, nodes, rules))),
         };
         Self { role }
     }

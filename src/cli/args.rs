@@ -21,11 +21,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<CliCommand>,
 }
 
 #[derive(Debug, Subcommand)]
-pub(super) enum Command {
+pub(super) enum CliCommand {
     /// Trace a scene without a window and save the picture
     Render(RenderArgs),
     /// Tell why a pixel has its colour, and why it takes so long
@@ -149,7 +149,7 @@ pub(super) struct RenderArgs {
     /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, adaptive, or
     /// rayon
     #[arg(long, default_value = "ring")]
-    pub strategy: Sharing,
+    pub strategy: SchedulerArg,
     /// Who executes it: threads (real time), pairs (two threads a node, at full speed), or sim (virtual time)
     #[arg(long, default_value = "threads", value_parser = driver)]
     pub driver: Driver,
@@ -161,7 +161,7 @@ pub(super) struct RenderArgs {
     pub seed: Option<u64>,
     /// What part of a core the reference machine gets: auto, full, or a number up to 1
     #[arg(long, default_value = "auto", value_parser = pace)]
-    pub pace: Pace,
+    pub pace: PaceArg,
     /// Pixels in an atom
     #[arg(long, value_name = "PIXELS", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..))]
     pub atom: u32,
@@ -248,13 +248,13 @@ impl QualityArgs {
 
 /// What shares the atoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sharing {
+pub(super) enum SchedulerArg {
     By(Strategy),
     /// Rayon's work stealing.
     Rayon,
 }
 
-impl FromStr for Sharing {
+impl FromStr for SchedulerArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -267,7 +267,7 @@ impl FromStr for Sharing {
 
 /// What part of a core the reference machine gets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Pace {
+pub(super) enum PaceArg {
     Auto,
     Of(f64),
 }
@@ -292,11 +292,11 @@ fn speed(text: &str) -> Result<f64, String> {
     number(text, is_rate, "a speed is from 0.0001 to 1")
 }
 
-fn pace(text: &str) -> Result<Pace, String> {
+fn pace(text: &str) -> Result<PaceArg, String> {
     match text {
-        "auto" => Ok(Pace::Auto),
-        "full" => Ok(Pace::Of(1.0)),
-        _ => number(text, is_rate, "a pace is `auto`, `full`, or a number from 0.0001 to 1").map(Pace::Of),
+        "auto" => Ok(PaceArg::Auto),
+        "full" => Ok(PaceArg::Of(1.0)),
+        _ => number(text, is_rate, "a pace is `auto`, `full`, or a number from 0.0001 to 1").map(PaceArg::Of),
     }
 }
 

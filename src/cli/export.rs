@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
 use super::{Failure, check_outputs, open, progress};
-use crate::driver::{Whole, trace_strips};
+use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
 use crate::picture::{Frame, Quality, Size, write_png};
@@ -113,7 +113,7 @@ fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Fail
     let header = &log.header;
     let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
     let bar = parts("tracing");
-    let whole = Whole::of(&tracer, header.division, &|atoms| {
+    let whole = TracedPicture::of(&tracer, header.division, &|atoms| {
         bar.set_length(header.division.atoms().into());
         bar.inc(atoms.into());
     });

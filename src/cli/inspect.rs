@@ -4,10 +4,10 @@ use serde_json::{Value, json};
 
 use super::args::InspectArgs;
 use super::{Failure, open, print};
-use crate::csg::{Figure, What};
+use crate::csg::{SolidKind, SpanDiagram};
 use crate::picture::srgb8;
 use crate::scene::Scene;
-use crate::tracer::{Explained, Met, RayKind, RayNotes, Tracer};
+use crate::tracer::{Explained, Intersection, RayKind, RayNotes, Tracer};
 use crate::view::{Inspected, Term};
 
 pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
@@ -71,7 +71,7 @@ fn ray_json(ray: &RayNotes, scene: &Scene) -> Value {
         RayKind::Reflected => "reflected",
         RayKind::Refracted => "refracted",
     };
-    let met = |met: Met| {
+    let met = |met: Intersection| {
         let (solid, name) = (met.start.root, name(met.tag, scene));
         json!({ "solid": solid, "material": name, "enters": met.enters, "normal": met.normal.to_array() })
     };
@@ -95,16 +95,16 @@ fn ray_json(ray: &RayNotes, scene: &Scene) -> Value {
     })
 }
 
-fn solid_json(root: u32, figure: &Figure, scene: &Scene) -> Value {
+fn solid_json(root: u32, figure: &SpanDiagram, scene: &Scene) -> Value {
     let mut solid = figure_json(figure, scene);
     solid["solid"] = root.into();
     solid
 }
 
-fn figure_json(figure: &Figure, scene: &Scene) -> Value {
+fn figure_json(figure: &SpanDiagram, scene: &Scene) -> Value {
     let (what, material) = match figure.what {
-        What::Primitive { tag, kind } => (kind.to_owned(), name(tag, scene)),
-        What::Composition(operation) => (format!("{operation:?}").to_lowercase(), None),
+        SolidKind::Primitive { tag, kind } => (kind.to_owned(), name(tag, scene)),
+        SolidKind::Composition(operation) => (format!("{operation:?}").to_lowercase(), None),
     };
     let operands: Vec<_> = figure.operands.iter().map(|operand| figure_json(operand, scene)).collect();
     json!({ "what": what, "material": material, "stays": figure.stays, "operands": operands })

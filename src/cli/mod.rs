@@ -26,7 +26,7 @@ use crate::output::{as_file_name, check_writable, is_same_file};
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
-use args::{Args, Command};
+use args::{Args, CliCommand};
 
 /// Why a command ended without doing its work: one sentence.
 #[derive(Debug)]
@@ -41,14 +41,14 @@ enum Failure {
 /// scene or an output path are wrong.
 pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
-        Some(Command::Render(render)) => render::render(&render),
-        Some(Command::Inspect(inspect)) => inspect::inspect(&inspect),
-        Some(Command::Export(args)) => export::export(&args),
-        Some(Command::Study { kind, scene, seeds, seed, out, json }) => {
+        Some(CliCommand::Render(render)) => render::render(&render),
+        Some(CliCommand::Inspect(inspect)) => inspect::inspect(&inspect),
+        Some(CliCommand::Export(args)) => export::export(&args),
+        Some(CliCommand::Study { kind, scene, seeds, seed, out, json }) => {
             study::study(kind, scene.as_deref(), (seed, seeds), &out, json)
         }
-        Some(Command::Lesson { lesson }) => lesson::lesson(lesson.as_deref()),
-        Some(Command::Replay { log }) => replay(&log),
+        Some(CliCommand::Lesson { lesson }) => lesson::lesson(lesson.as_deref()),
+        Some(CliCommand::Replay { log }) => replay(&log),
         None => window(args.scene.as_deref(), args.log),
     });
     let (code, sentence) = match done {

@@ -11,9 +11,9 @@ use super::args::RenderArgs;
 use super::report::Report;
 use super::run_header;
 use super::{Failure, check_outputs, open, print, progress};
-use crate::driver::{Run, Update, Whole, probe};
+use crate::driver::{Run, TracedPicture, Update, probe};
 use crate::picture::{Frame, write_png};
-use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
 use crate::tracer::{RayCounts, Tracer};
 
@@ -25,7 +25,7 @@ pub(super) struct Outputs<'a> {
 }
 
 /// What a run leaves behind.
-struct Outcome {
+struct RenderResult {
     frame: Frame,
     log: RunLog,
     rays: RayCounts,
@@ -68,7 +68,7 @@ pub(super) fn run_and_save(
 }
 
 #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
+fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let run = Run::start(Arc::clone(tracer), header);
     let bar = atoms_bar(header);
@@ -98,17 +98,17 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<Outcome, Failure> {
         None => {
             let mut log = RunLog::new(header.clone());
             log.add(told);
-            Ok(Outcome { frame, log, rays, wall })
+            Ok(RenderResult { frame, log, rays, wall })
         }
     }
 }
 
 /// Traces the picture, then runs its sharing in virtual time as fast as this computer can.
 #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<Outcome, Failure> {
+fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
-    let whole = Whole::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
+    let whole = TracedPicture::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
     bar.finish_and_clear();
     let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {
@@ -119,7 +119,7 @@ fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Res
     sim.run(&mut |record| records.push(record));
     let mut log = RunLog::new(header.clone());
     log.add(records);
-    Ok(Outcome { frame, log, rays: whole.counts, wall: begun.elapsed() })
+    Ok(RenderResult { frame, log, rays: whole.counts, wall: begun.elapsed() })
 }
 
 /// The run in virtual time with the costs of a recorded run of the same picture.
@@ -138,7 +138,7 @@ fn atoms_bar(header: &Header) -> ProgressBar {
 /// caches and cores hides in an atom's cost, and so in the efficiency.
 fn overhead(tracer: &Tracer, log: &RunLog) -> Option<f64> {
     let costs = log.costs();
-    let budget = (Tally::of(log).work() / 10).min(Duration::from_secs(1));
+    let budget = (Metrics::of(log).work() / 10).min(Duration::from_secs(1));
     let serial = probe(tracer, log.header.division, budget).atoms;
     let in_run: Duration = serial.iter().map(|(atom, _)| costs[*atom as usize].unwrap_or_default()).sum();
     let alone: Duration = serial.iter().map(|(_, cost)| *cost).sum();

@@ -6,8 +6,8 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::picture::Quality;
-use crate::runlog::{Messages, RunLog, Tally};
-use crate::tracer::{Compiled, RayCounts, Tracer};
+use crate::runlog::{MessageCounts, Metrics, RunLog};
+use crate::tracer::{RayCounts, SceneStats, Tracer};
 
 /// The run in figures; times are in seconds.
 #[derive(Debug, Serialize)]
@@ -37,15 +37,15 @@ pub(super) struct Report {
     rays: RayCounts,
     atoms: u32,
     atoms_by_node: Vec<u32>,
-    messages: Messages,
-    compiled: Compiled,
+    messages: MessageCounts,
+    compiled: SceneStats,
     /// Of a sample of the pixels: primary, reflected and refracted rays on each level of their trees.
     pub levels: Vec<u64>,
 }
 
 impl Report {
     pub fn new(log: &RunLog, rays: RayCounts, wall: Duration, overhead: Option<f64>, tracer: &Tracer) -> Self {
-        let (header, tally) = (&log.header, Tally::of(log));
+        let (header, tally) = (&log.header, Metrics::of(log));
         let seconds = |time: Option<Duration>| time.unwrap_or_default().as_secs_f64();
         Self {
             scene: header.scene.clone(),
@@ -92,7 +92,7 @@ impl fmt::Display for Report {
         if let Some(overhead) = self.overhead {
             writeln!(f, "  tracing took {:.3} s of CPU time, {overhead:.3} times that of one thread", self.work_s)?;
         }
-        let Messages { requests, parts, offers, hops, transfers, atoms_moved, .. } = self.messages;
+        let MessageCounts { requests, parts, offers, hops, transfers, atoms_moved, .. } = self.messages;
         if requests > 0 {
             writeln!(f, "  {}, {}", plural(requests, "request"), plural(parts, "answer"))?;
         }

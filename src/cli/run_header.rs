@@ -1,11 +1,11 @@
 //! From arguments to what a run is asked to do.
 
-use super::args::{Pace, RenderArgs, Sharing};
+use super::args::{PaceArg, RenderArgs, SchedulerArg};
 use crate::balance::{Rules, Strategy};
 use crate::driver::{auto_pace, cores};
-use crate::gui::Preset;
+use crate::gui::SpeedPreset;
 use crate::picture::Division;
-use crate::runlog::{Caption, Driver, Header, Link};
+use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::scene::Opened;
 
 /// What a run with these arguments is asked to do.
@@ -24,10 +24,10 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         ));
     }
     let (driver, strategy) = match (args.strategy, args.driver) {
-        (Sharing::By(strategy), driver) => (driver, strategy),
+        (SchedulerArg::By(strategy), driver) => (driver, strategy),
         // Its own rules are not among ours.
-        (Sharing::Rayon, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
-        (Sharing::Rayon, other) => {
+        (SchedulerArg::Rayon, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
+        (SchedulerArg::Rayon, other) => {
             return Err(format!(
                 "rayon shares by its own rules, on threads of its own; it cannot use {}",
                 other.name()
@@ -45,7 +45,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     if args.costs.is_some() && driver != Driver::Sim {
         return Err("measured costs are for runs in virtual time; add --driver sim".into());
     }
-    if !args.without.is_empty() && args.strategy != Sharing::By(Strategy::Adaptive) {
+    if !args.without.is_empty() && args.strategy != SchedulerArg::By(Strategy::Adaptive) {
         return Err("only the ring that adapts has remedies: add --strategy adaptive, or leave out --without".into());
     }
     let mut rules = Rules::usual(strategy, division, speeds.len());
@@ -54,13 +54,13 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     rules.beat = Rules::beat_for(args.handling, speeds.len());
     let cores = if driver == Driver::Sim { speeds.len() } else { cores() };
     let pace = match args.pace {
-        Pace::Of(pace) => pace,
+        PaceArg::Of(pace) => pace,
         // Nobody has to wait for a core there.
-        Pace::Auto if driver == Driver::Sim => 1.0,
-        Pace::Auto => auto_pace(&speeds, cores),
+        PaceArg::Auto if driver == Driver::Sim => 1.0,
+        PaceArg::Auto => auto_pace(&speeds, cores),
     };
     // A run in virtual time is the same on every computer.
-    let machine = if driver == Driver::Sim { Caption::default() } else { Caption::here(cores) };
+    let machine = if driver == Driver::Sim { Metadata::default() } else { Metadata::here(cores) };
     let header = Header {
         scene: opened.name.clone(),
         scene_text: opened.text.clone(),
@@ -72,10 +72,10 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         pace,
         speeds,
         spares: 0,
-        link: Link { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
+        link: LinkSettings { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
         handling: args.handling,
         cores,
-        caption: Caption { title: args.title.clone(), memo: args.memo.clone(), ..machine },
+        caption: Metadata { title: args.title.clone(), memo: args.memo.clone(), ..machine },
     };
     if driver == Driver::Pairs && !header.is_full_speed() {
         return Err(
@@ -87,7 +87,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
 
 /// A speed for each node.
 fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
-    let is_serial = args.strategy == Sharing::By(Strategy::Serial);
+    let is_serial = args.strategy == SchedulerArg::By(Strategy::Serial);
     let usual = match args.speeds.len() {
         0 if is_serial => 1,
         0 => 4,
@@ -99,7 +99,7 @@ fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
     }
     match (args.speeds.len(), args.seed) {
         (0, None) => Ok(vec![1.0; nodes]),
-        (0, Some(seed)) => Ok(Preset::Random.speeds(nodes, seed)),
+        (0, Some(seed)) => Ok(SpeedPreset::Random.speeds(nodes, seed)),
         (speeds, _) if speeds != nodes => {
             Err(format!("there are {nodes} nodes but {speeds} speeds; give each node one speed, or none at all"))
         }

@@ -2,8 +2,8 @@
 //! ray needs least work.
 
 use super::merge::Operation;
-use super::tree::{Kind, Node, Tree};
-use super::{Leaf, Reduction, Reductions, Solid};
+use super::tree::{Node, NodeKind, Tree};
+use super::{Leaf, Pass, Passes, Solid};
 use crate::geometry::{Aabb, split};
 
 /// Of more operands a union is a tree.
@@ -11,7 +11,7 @@ const FEW: usize = 4;
 
 impl Tree {
     /// Nothing yet; solids will be compiled by these reductions.
-    pub fn new(reductions: Reductions) -> Self {
+    pub fn new(reductions: Passes) -> Self {
         Self { reductions, ..Self::default() }
     }
 
@@ -19,10 +19,10 @@ impl Tree {
     pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
         let (operation, solids) = match solid {
             Solid::Placed { primitive, scene_from_own, tag } => {
-                let shapes = self.reductions.has(Reduction::Shapes);
+                let shapes = self.reductions.has(Pass::Shapes);
                 let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag, shapes);
                 self.leaves.push(leaf);
-                return Some((self.node(Kind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
+                return Some((self.node(NodeKind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
             }
             Solid::Union(solids) => (Operation::Union, solids),
             Solid::Intersection(solids) => (Operation::Intersection, solids),
@@ -41,7 +41,7 @@ impl Tree {
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
                     bounds = bounds.intersection(child_bounds);
-                    if bounds.is_empty() && self.reductions.has(Reduction::Reach) {
+                    if bounds.is_empty() && self.reductions.has(Pass::Reach) {
                         self.dropped.empty += 1;
                         return None;
                     }
@@ -54,7 +54,7 @@ impl Tree {
                 }
                 Operation::Difference => {
                     let Some((child, child_bounds)) = child else { continue };
-                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Reduction::Reach) {
+                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Pass::Reach) {
                         self.dropped.out_of_reach += 1;
                     } else {
                         children.push(child);
@@ -67,8 +67,8 @@ impl Tree {
         }
         match operation {
             Operation::Union => return Some((self.union_of(&children), bounds)),
-            Operation::Intersection if self.reductions.has(Reduction::Convex) => self.join_convex(&mut children),
-            Operation::Difference if children.len() - 1 > FEW && self.reductions.has(Reduction::Neighbours) => {
+            Operation::Intersection if self.reductions.has(Pass::Convex) => self.join_convex(&mut children),
+            Operation::Difference if children.len() - 1 > FEW && self.reductions.has(Pass::Neighbours) => {
                 let taken = self.union_of(&children[1..]);
                 children.splice(1.., [taken]);
             }
@@ -79,7 +79,7 @@ impl Tree {
                 self.nodes[only as usize].bounds = bounds;
                 Some((only, bounds))
             }
-            _ => Some((self.node(Kind::Composition { operation, children }, bounds), bounds)),
+            _ => Some((self.node(NodeKind::Composition { operation, children }, bounds), bounds)),
         }
     }
 
@@ -95,13 +95,13 @@ impl Tree {
             return *only;
         }
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let is_tree = parts.len() > FEW && self.reductions.has(Reduction::Neighbours);
+        let is_tree = parts.len() > FEW && self.reductions.has(Pass::Neighbours);
         let place = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
         let children = match parts.split_at_mut(place) {
             ([], all) => all.iter().map(|(part, _)| *part).collect(),
             (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
         };
-        self.node(Kind::Composition { operation: Operation::Union, children }, bounds)
+        self.node(NodeKind::Composition { operation: Operation::Union, children }, bounds)
     }
 
     /// Makes the convex leaves with which the operands of an intersection begin one operand.
@@ -112,27 +112,27 @@ impl Tree {
         for &child in &*children {
             let Node { kind, bounds: own } = &self.nodes[child as usize];
             match kind {
-                Kind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
-                Kind::Convex(inner) => leaves.extend(inner),
+                NodeKind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
+                NodeKind::Convex(inner) => leaves.extend(inner),
                 _ => break,
             }
             bounds = bounds.intersection(*own);
             joined += 1;
         }
         if joined > 1 {
-            let convex = self.node(Kind::Convex(leaves), bounds);
+            let convex = self.node(NodeKind::Convex(leaves), bounds);
             children.splice(..joined, [convex]);
         }
     }
 
     /// Gives up the boxes of all compositions, if they are not asked for.
     pub fn finish(&mut self) {
-        if !self.reductions.has(Reduction::Boxes) {
+        if !self.reductions.has(Pass::Boxes) {
             self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);
         }
     }
 
-    fn node(&mut self, kind: Kind, bounds: Aabb) -> u32 {
+    fn node(&mut self, kind: NodeKind, bounds: Aabb) -> u32 {
         self.nodes.push(Node { bounds, kind });
         self.nodes.len() as u32 - 1
     }

@@ -5,7 +5,7 @@
 //! by which merging groups events; so the cosines are looked at only where two events lie between one and a million
 //! tolerances apart, which is rare.
 
-use super::{Event, Leaf};
+use super::{Crossing, Leaf};
 use crate::geometry::Ray;
 
 /// Two events may be one place up to this many tolerances apart.
@@ -17,9 +17,9 @@ const ROUNDING: f64 = 4e-15;
 /// The events of a composition but for slivers of it and in it, whose two ends are one place.
 #[inline(always)]
 pub(super) fn without_slivers(
-    mut events: &[Event],
-    are_one: impl Fn(Event, Event) -> bool,
-) -> impl Iterator<Item = Event> {
+    mut events: &[Crossing],
+    are_one: impl Fn(Crossing, Crossing) -> bool,
+) -> impl Iterator<Item = Crossing> {
     std::iter::from_fn(move || {
         loop {
             match events {
@@ -36,7 +36,7 @@ pub(super) fn without_slivers(
 
 /// Whether `later` lies no more than the tolerance after `earlier`, or than rounding explains.
 #[inline(always)]
-pub(super) fn coincide(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray) -> bool {
+pub(super) fn coincide(leaves: &[Leaf], earlier: Crossing, later: Crossing, ray: &Ray) -> bool {
     let tolerance = ray.tolerance(earlier.t);
     // Sums and not differences, so that an infinite event coincides with none.
     later.t <= earlier.t + REACH * tolerance
@@ -46,8 +46,8 @@ pub(super) fn coincide(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray)
 /// Whether rounding explains the distance between two events.
 #[cold]
 #[inline(never)]
-fn are_blurred(leaves: &[Leaf], earlier: Event, later: Event, ray: &Ray) -> bool {
-    let blur = |event: Event| {
+fn are_blurred(leaves: &[Leaf], earlier: Crossing, later: Crossing, ray: &Ray) -> bool {
+    let blur = |event: Crossing| {
         let normal = leaves[event.surface.leaf as usize].normal(event.surface.face, ray.at(event.t));
         ROUNDING * (ray.scale + event.t.abs()) / normal.dot(ray.direction).abs()
     };

@@ -9,7 +9,7 @@ use crate::geometry::Ray;
 
 /// A place where a ray enters or leaves a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event {
+pub struct Crossing {
     /// Distance along the ray; infinite where a solid has no end.
     pub t: f64,
     /// The face that it crosses.
@@ -38,7 +38,7 @@ impl Operation {
 }
 
 /// Combines the operands `stack[first..second]` and `stack[second..]`; the result takes their place.
-pub(super) fn merge(operation: Operation, stack: &mut Vec<Event>, first: usize, second: usize, ray: &Ray) {
+pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usize, second: usize, ray: &Ray) {
     let end = stack.len();
     match (first == second, second == end) {
         (true, _) if operation == Operation::Union => return,

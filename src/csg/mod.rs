@@ -14,10 +14,10 @@ mod span_diagram;
 mod torus;
 mod tree;
 
-pub use merge::{Event, Operation};
-pub use passes::{Reduction, Reductions};
+pub use merge::{Crossing, Operation};
+pub use passes::{Pass, Passes};
 pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
-pub use span_diagram::{Figure, What};
-pub use tree::{Dropped, Hit, Stack, Start, Tree, rank};
+pub use span_diagram::{SolidKind, SpanDiagram};
+pub use tree::{Dropped, Hit, RayStart, Stack, Tree, rank};

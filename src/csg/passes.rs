@@ -2,7 +2,7 @@
 
 /// One thing that compiling does for speed alone. None changes what is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reduction {
+pub enum Pass {
     /// What is proved empty is dropped, and what reaches none of that which it would be taken from.
     Reach,
     /// A union of many is a tree of unions of neighbours.
@@ -21,7 +21,7 @@ pub enum Reduction {
     Powers,
 }
 
-impl Reduction {
+impl Pass {
     /// All of them.
     pub const ALL: [Self; 8] = [
         Self::Reach,
@@ -51,21 +51,21 @@ impl Reduction {
 
 /// Some of the reductions; all of them by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reductions(u16);
+pub struct Passes(u16);
 
-impl Reductions {
+impl Passes {
     /// All but this one.
-    pub fn without(self, reduction: Reduction) -> Self {
+    pub fn without(self, reduction: Pass) -> Self {
         Self(self.0 & !(1 << reduction as u16))
     }
 
     /// Whether this one is among them.
-    pub fn has(self, reduction: Reduction) -> bool {
+    pub fn has(self, reduction: Pass) -> bool {
         self.0 >> reduction as u16 & 1 == 1
     }
 }
 
-impl Default for Reductions {
+impl Default for Passes {
     fn default() -> Self {
         Self(u16::MAX)
     }

@@ -2,7 +2,7 @@
 
 /// The part of a line on which a quadratic is ≤ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Inside {
+pub(super) enum Intervals {
     /// No part.
     Never,
     /// All of it.
@@ -13,7 +13,7 @@ pub(super) enum Inside {
     Beyond(f64, f64),
 }
 
-impl Inside {
+impl Intervals {
     /// Where `a t² + 2 b t + c ≤ 0`.
     ///
     /// The roots come from the form that never subtracts nearly equal numbers (Kahan; Press et al., *Numerical
@@ -22,7 +22,7 @@ impl Inside {
         Self::with_discriminant(a, b, c, b * b - a * c)
     }
 
-    /// As [`Inside::of`], for callers that know b² − ac more exactly.
+    /// As [`Intervals::of`], for callers that know b² − ac more exactly.
     #[inline(always)]
     pub fn with_discriminant(a: f64, b: f64, c: f64, discriminant: f64) -> Self {
         if discriminant <= 0.0 || discriminant.is_nan() {
@@ -61,17 +61,17 @@ mod tests {
 
     #[test]
     fn a_vanishing_square_leaves_one_root_and_loses_nothing() {
-        assert_eq!(Inside::of(0.0, 1.0, -4.0), Inside::Between(f64::NEG_INFINITY, 2.0));
-        assert_eq!(Inside::of(0.0, -1.0, -4.0), Inside::Between(-2.0, f64::INFINITY));
-        let Inside::Between(_, root) = Inside::of(1e-30, 1.0, -4.0) else { panic!() };
+        assert_eq!(Intervals::of(0.0, 1.0, -4.0), Intervals::Between(f64::NEG_INFINITY, 2.0));
+        assert_eq!(Intervals::of(0.0, -1.0, -4.0), Intervals::Between(-2.0, f64::INFINITY));
+        let Intervals::Between(_, root) = Intervals::of(1e-30, 1.0, -4.0) else { panic!() };
         assert_eq!(root, 2.0);
     }
 
     #[test]
     fn a_constant_is_everywhere_or_nowhere() {
-        assert_eq!(Inside::of(0.0, 0.0, -1.0), Inside::Always);
-        assert_eq!(Inside::of(0.0, 0.0, 1.0), Inside::Never);
-        assert_eq!(Inside::of(-1.0, 0.0, -1.0), Inside::Always);
+        assert_eq!(Intervals::of(0.0, 0.0, -1.0), Intervals::Always);
+        assert_eq!(Intervals::of(0.0, 0.0, 1.0), Intervals::Never);
+        assert_eq!(Intervals::of(-1.0, 0.0, -1.0), Intervals::Always);
     }
 
     proptest! {
@@ -81,11 +81,11 @@ mod tests {
         ) {
             let value = (a * t + 2.0 * b) * t + c;
             prop_assume!(value.abs() > 1e-9);
-            let inside = match Inside::of(a, b, c) {
-                Inside::Never => false,
-                Inside::Always => true,
-                Inside::Between(first, last) => first <= t && t <= last,
-                Inside::Beyond(first, last) => t <= first || last <= t,
+            let inside = match Intervals::of(a, b, c) {
+                Intervals::Never => false,
+                Intervals::Always => true,
+                Intervals::Between(first, last) => first <= t && t <= last,
+                Intervals::Beyond(first, last) => t <= first || last <= t,
             };
             prop_assert_eq!(inside, value < 0.0);
         }
@@ -93,7 +93,7 @@ mod tests {
         #[test]
         fn starting_on_the_surface_is_the_case_of_no_constant(a in -3.0..3.0f64, b in -3.0..3.0f64) {
             prop_assume!(a.abs() > 1e-6 && b.abs() > 1e-6);
-            prop_assert_eq!(Inside::from_surface(a, b), Inside::of(a, b, 0.0));
+            prop_assert_eq!(Intervals::from_surface(a, b), Intervals::of(a, b, 0.0));
         }
     }
 }

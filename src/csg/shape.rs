@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::Primitive;
-use super::quadratic::Inside;
+use super::quadratic::Intervals;
 use super::span::{BOTTOM, CURVED, Spans};
 use super::torus;
 use crate::geometry::{Aabb, Ray};
@@ -39,19 +39,19 @@ enum Shape {
     Block(Aabb),
     /// The sphere, cube, cylinder, cone and torus in their own coordinates: the ray is carried there, where distances
     /// along it stay the same since its direction is carried with it and not made 1 again.
-    Ellipsoid(Own),
-    Cube(Own),
-    Cylinder(Own),
+    Ellipsoid(LocalFrame),
+    Cube(LocalFrame),
+    Cylinder(LocalFrame),
     /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
     /// are measured from there, since near a tip all is small that decides whether it is hit.
     Cone {
-        own: Own,
+        own: LocalFrame,
         base: f64,
         waist: f64,
         slope: f64,
     },
     Torus {
-        own: Own,
+        own: LocalFrame,
         tube: f64,
     },
     /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
@@ -64,7 +64,7 @@ enum Shape {
 }
 
 #[derive(Clone, Debug)]
-struct Own {
+struct LocalFrame {
     own_from_scene: DAffine3,
     /// Outward normals of the faces at x = 1, y = 1, z = 1, in the scene and of length 1.
     axis_normals: [DVec3; 3],
@@ -78,7 +78,7 @@ impl Leaf {
         let to_own = own_from_scene.matrix3;
         let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];
         let centre = scene_from_own.translation;
-        let own = || Own {
+        let own = || LocalFrame {
             own_from_scene,
             // Normals go by the inverse transpose, whose columns are the rows of the inverse.
             axis_normals: [0, 1, 2].map(|axis| to_own.row(axis).normalize()),
@@ -150,13 +150,18 @@ impl Leaf {
                 let f = ray.origin - *centre;
                 let b = f.dot(ray.direction);
                 let inside = if start.is_some() {
-                    Inside::from_surface(1.0, b)
+                    Intervals::from_surface(1.0, b)
                 } else {
                     // The discriminant by the line's closest approach: exact for far and small balls
                     // (Haines, Günther and Akenine-Möller, Ray Tracing Gems, ch. 7).
                     let closest = f - ray.direction * b;
                     let squared = radius * radius;
-                    Inside::with_discriminant(1.0, b, f.length_squared() - squared, squared - closest.length_squared())
+                    Intervals::with_discriminant(
+                        1.0,
+                        b,
+                        f.length_squared() - squared,
+                        squared - closest.length_squared(),
+                    )
                 };
                 Spans::curved(inside)
             }
@@ -164,10 +169,10 @@ impl Leaf {
                 let speed = normal.dot(ray.direction);
                 let height = if start.is_some() { 0.0 } else { normal.dot(ray.origin) - offset };
                 Spans::curved(match speed {
-                    _ if speed > 0.0 => Inside::Between(f64::NEG_INFINITY, -height / speed),
-                    _ if speed < 0.0 => Inside::Between(-height / speed, f64::INFINITY),
-                    _ if height < 0.0 => Inside::Always,
-                    _ => Inside::Never,
+                    _ if speed > 0.0 => Intervals::Between(f64::NEG_INFINITY, -height / speed),
+                    _ if speed < 0.0 => Intervals::Between(-height / speed, f64::INFINITY),
+                    _ if height < 0.0 => Intervals::Always,
+                    _ => Intervals::Never,
                 })
             }
             Shape::Block(block) => {
@@ -181,20 +186,20 @@ impl Leaf {
                 let (o, d) = own.carry(ray);
                 let (a, b) = (d.length_squared(), o.dot(d));
                 Spans::curved(if start.is_some() {
-                    Inside::from_surface(a, b)
+                    Intervals::from_surface(a, b)
                 } else {
                     let closest = o - d * (b / a);
-                    Inside::with_discriminant(a, b, o.length_squared() - 1.0, a * (1.0 - closest.length_squared()))
+                    Intervals::with_discriminant(a, b, o.length_squared() - 1.0, a * (1.0 - closest.length_squared()))
                 })
             }
             Shape::Cylinder(own) => {
                 let (o, d) = own.carry(ray);
                 let (a, b) = (d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z);
                 let inside = if start == Some(CURVED) {
-                    Inside::from_surface(a, b)
+                    Intervals::from_surface(a, b)
                 } else {
                     let across = o.x * d.z - o.z * d.x;
-                    Inside::with_discriminant(a, b, o.x * o.x + o.z * o.z - 1.0, a - across * across)
+                    Intervals::with_discriminant(a, b, o.x * o.x + o.z * o.z - 1.0, a - across * across)
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
@@ -205,11 +210,11 @@ impl Leaf {
                 let a = d.x * d.x + d.z * d.z - rise * rise;
                 let half = |o: DVec3| o.x * d.x + o.z * d.z - rise * (waist + slope * o.y);
                 let inside = if start == Some(CURVED) {
-                    Inside::from_surface(a, half(from_base))
+                    Intervals::from_surface(a, half(from_base))
                 } else {
                     from_closest_approach(from_base, d, |o| {
                         let radius = waist + slope * o.y;
-                        Inside::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
+                        Intervals::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
                     })
                 };
                 Spans::capped(inside, o.y, d.y, start)
@@ -224,11 +229,11 @@ impl Leaf {
                 let a = along.dot(d);
                 let half = |o: DVec3| along.dot(o) + half_linear.dot(d);
                 Spans::curved(if start.is_some() {
-                    Inside::from_surface(a, half(o))
+                    Intervals::from_surface(a, half(o))
                 } else {
                     from_closest_approach(o, d, |o| {
                         let c = (*square * o + 2.0 * *half_linear).dot(o) + constant;
-                        Inside::of(a, half(o), c)
+                        Intervals::of(a, half(o), c)
                     })
                 })
             }
@@ -287,7 +292,7 @@ impl Leaf {
     }
 }
 
-impl Own {
+impl LocalFrame {
     fn carry(&self, ray: &Ray) -> (DVec3, DVec3) {
         (self.own_from_scene.transform_point3(ray.origin), self.own_from_scene.transform_vector3(ray.direction))
     }
@@ -305,11 +310,11 @@ impl Own {
 
 /// Solves from the line's closest approach to the origin of `o` instead of from `o`, which may be far: there the
 /// coefficients are small and their differences exact. `d` need not have length 1.
-fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Inside) -> Inside {
+fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals) -> Intervals {
     let shift = -o.dot(d) / d.length_squared();
     match solve(o + d * shift) {
-        Inside::Between(a, b) => Inside::Between(a + shift, b + shift),
-        Inside::Beyond(a, b) => Inside::Beyond(a + shift, b + shift),
+        Intervals::Between(a, b) => Intervals::Between(a + shift, b + shift),
+        Intervals::Beyond(a, b) => Intervals::Beyond(a + shift, b + shift),
         whole => whole,
     }
 }

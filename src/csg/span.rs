@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::quadratic::Inside;
+use super::quadratic::Intervals;
 
 /// The curved face of a ball, cylinder, cone, torus or quadric.
 pub(super) const CURVED: u8 = 0;
@@ -28,13 +28,13 @@ pub(super) struct Spans {
 impl Spans {
     /// One face bounds the whole leaf.
     #[inline(always)]
-    pub fn curved(inside: Inside) -> Self {
+    pub fn curved(inside: Intervals) -> Self {
         let span = |from: f64, to: f64| (from < to).then_some(Span { from, from_face: CURVED, to, to_face: CURVED });
         match inside {
-            Inside::Never => Self::default(),
-            Inside::Always => Self { first: span(f64::NEG_INFINITY, f64::INFINITY), second: None },
-            Inside::Between(from, to) => Self { first: span(from, to), second: None },
-            Inside::Beyond(first, last) => {
+            Intervals::Never => Self::default(),
+            Intervals::Always => Self { first: span(f64::NEG_INFINITY, f64::INFINITY), second: None },
+            Intervals::Between(from, to) => Self { first: span(from, to), second: None },
+            Intervals::Beyond(first, last) => {
                 Self { first: span(f64::NEG_INFINITY, first), second: span(last, f64::INFINITY) }
             }
         }
@@ -42,7 +42,7 @@ impl Spans {
 
     /// What of `inside` lies between the caps at y = −1 and y = 1. The leaf is convex, so this is one span: where
     /// rounding at an apex leaves two, the longer.
-    pub fn capped(inside: Inside, y: f64, speed: f64, start: Option<u8>) -> Self {
+    pub fn capped(inside: Intervals, y: f64, speed: f64, start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
         if !span.cut([-1.0, 1.0], y, speed, BOTTOM, start) {
             return Self::default();
@@ -58,10 +58,10 @@ impl Spans {
             (clipped.from < clipped.to).then_some(clipped)
         };
         let first = match inside {
-            Inside::Never => None,
-            Inside::Always => clip(f64::NEG_INFINITY, f64::INFINITY),
-            Inside::Between(from, to) => clip(from, to),
-            Inside::Beyond(first, last) => match (clip(f64::NEG_INFINITY, first), clip(last, f64::INFINITY)) {
+            Intervals::Never => None,
+            Intervals::Always => clip(f64::NEG_INFINITY, f64::INFINITY),
+            Intervals::Between(from, to) => clip(from, to),
+            Intervals::Beyond(first, last) => match (clip(f64::NEG_INFINITY, first), clip(last, f64::INFINITY)) {
                 (Some(a), Some(b)) => Some(if a.to - a.from < b.to - b.from { b } else { a }),
                 (a, b) => a.or(b),
             },

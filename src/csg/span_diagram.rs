@@ -1,24 +1,24 @@
 //! A ray's stays in a solid and in all that it is made of (the article's Figure 2).
 
 use super::coincidence::{coincide, without_slivers};
-use super::tree::Kind;
-use super::{Event, Operation, Start, Surface, Tree};
+use super::tree::NodeKind;
+use super::{Crossing, Operation, RayStart, Surface, Tree};
 use crate::geometry::Ray;
 
 /// A ray's stays in a solid as it was compiled, and in its operands.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct SpanDiagram {
     /// What the solid is.
-    pub what: What,
+    pub what: SolidKind,
     /// Where the ray enters and leaves it, in order; distances along the ray, which may be infinite or negative.
     pub stays: Vec<[f64; 2]>,
     /// What it is made of.
-    pub operands: Vec<Figure>,
+    pub operands: Vec<SpanDiagram>,
 }
 
 /// What a solid is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum SolidKind {
     /// A primitive.
     Primitive {
         /// Of its surface (which material it has).
@@ -33,11 +33,11 @@ pub enum What {
 impl Tree {
     /// The stays of a whole line, of which `ray` is a part, in the solid `root` and in its operands. `start` is where the
     /// ray starts, if it starts on a solid.
-    pub fn figure(&self, root: u32, ray: &Ray, start: Option<Start>) -> Figure {
+    pub fn figure(&self, root: u32, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
         let mut events = self.node_events(root, ray, start);
         // As a ray meets them.
-        let is_leaf = matches!(self.nodes[root as usize].kind, Kind::Leaf(_));
+        let is_leaf = matches!(self.nodes[root as usize].kind, NodeKind::Leaf(_));
         if start.is_none() && !is_leaf {
             let are_one = |earlier, later| coincide(&self.leaves, earlier, later, ray);
             events = without_slivers(&events, are_one).collect();
@@ -45,7 +45,7 @@ impl Tree {
         self.figure_of(root, &events, ray, start)
     }
 
-    fn node_events(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Vec<Event> {
+    fn node_events(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
         let mut events = Vec::new();
         self.events(node, ray, start, EVERYWHERE, &mut events);
@@ -53,30 +53,30 @@ impl Tree {
     }
 
     /// The figure of a node with these events.
-    fn figure_of(&self, node: u32, events: &[Event], ray: &Ray, start: Option<Surface>) -> Figure {
+    fn figure_of(&self, node: u32, events: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
         let (what, operands) = match &self.nodes[node as usize].kind {
-            Kind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
-            Kind::Convex(leaves) => {
+            NodeKind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
+            NodeKind::Convex(leaves) => {
                 let operand = |&leaf: &u32| {
                     let spans = self.leaf_stays(leaf, ray, start);
-                    Figure { what: self.primitive(leaf), stays: stays(&spans), operands: Vec::new() }
+                    SpanDiagram { what: self.primitive(leaf), stays: stays(&spans), operands: Vec::new() }
                 };
-                (What::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
+                (SolidKind::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
             }
-            Kind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children } => {
                 let operand = |&child: &u32| self.figure_of(child, &self.node_events(child, ray, start), ray, start);
-                (What::Composition(*operation), children.iter().map(operand).collect())
+                (SolidKind::Composition(*operation), children.iter().map(operand).collect())
             }
         };
-        Figure { what, stays: stays(events), operands }
+        SpanDiagram { what, stays: stays(events), operands }
     }
 
-    fn primitive(&self, leaf: u32) -> What {
+    fn primitive(&self, leaf: u32) -> SolidKind {
         let leaf = &self.leaves[leaf as usize];
-        What::Primitive { tag: leaf.tag, kind: leaf.kind() }
+        SolidKind::Primitive { tag: leaf.tag, kind: leaf.kind() }
     }
 }
 
-fn stays(events: &[Event]) -> Vec<[f64; 2]> {
+fn stays(events: &[Crossing]) -> Vec<[f64; 2]> {
     events.chunks_exact(2).map(|pair| [pair[0].t, pair[1].t]).collect()
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::coincidence::{coincide, without_slivers};
 use super::merge::{Operation, merge};
 use super::span::Span;
-use super::{Event, Leaf, Reductions, Surface};
+use super::{Crossing, Leaf, Passes, Surface};
 use crate::geometry::{Aabb, Ray, greater, lesser};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
@@ -13,7 +13,7 @@ use crate::geometry::{Aabb, Ray, greater, lesser};
 pub struct Tree {
     pub(super) leaves: Vec<Leaf>,
     pub(super) nodes: Vec<Node>,
-    pub(super) reductions: Reductions,
+    pub(super) reductions: Passes,
     pub(super) dropped: Dropped,
 }
 
@@ -39,7 +39,7 @@ pub struct Hit {
 
 /// Where a ray that does not come from the camera starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct RayStart {
     /// The root that was hit.
     pub root: u32,
     /// Its face.
@@ -59,7 +59,7 @@ pub fn rank(root: u32, enters: bool, turned: bool) -> (bool, u32) {
     (enters == turned, root)
 }
 
-impl Start {
+impl RayStart {
     /// Whether the ray has yet to cross the boundary of another solid at the same place.
     fn has_before_it(&self, root: u32, enters: bool) -> bool {
         let (here, other) = ((self.leaves, self.root), rank(root, enters, self.turned));
@@ -68,16 +68,16 @@ impl Start {
 }
 
 /// Scratch memory for the spans of one ray.
-pub type Stack = Vec<Event>;
+pub type Stack = Vec<Crossing>;
 
 #[derive(Debug)]
 pub(super) struct Node {
     pub bounds: Aabb,
-    pub kind: Kind,
+    pub kind: NodeKind,
 }
 
 #[derive(Debug)]
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     Leaf(u32),
     /// The intersection of convex leaves: one span at most, found without merging.
     Convex(Vec<u32>),
@@ -97,9 +97,9 @@ impl Tree {
     /// are one, and so is a difference with the union that it takes away.
     pub fn operations_of(&self, root: u32) -> usize {
         match &self.nodes[root as usize].kind {
-            Kind::Leaf(_) => 0,
-            Kind::Convex(_) => 1,
-            Kind::Composition { operation, children } => {
+            NodeKind::Leaf(_) => 0,
+            NodeKind::Convex(_) => 1,
+            NodeKind::Composition { operation, children } => {
                 let counted = |(index, &child): (usize, &u32)| {
                     let takes_unions = match operation {
                         Operation::Union => true,
@@ -107,7 +107,7 @@ impl Tree {
                         Operation::Difference => index > 0,
                     };
                     let child_kind = &self.nodes[child as usize].kind;
-                    let is_union = matches!(child_kind, Kind::Composition { operation: Operation::Union, .. });
+                    let is_union = matches!(child_kind, NodeKind::Composition { operation: Operation::Union, .. });
                     self.operations_of(child) - usize::from(takes_unions && is_union)
                 };
                 1 + children.iter().enumerate().map(counted).sum::<usize>()
@@ -123,9 +123,11 @@ impl Tree {
     /// Every leaf of the solid `root`.
     pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
         match &self.nodes[root as usize].kind {
-            Kind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
-            Kind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
-            Kind::Composition { children, .. } => children.iter().flat_map(|&child| self.leaves_of(child)).collect(),
+            NodeKind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
+            NodeKind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
+            NodeKind::Composition { children, .. } => {
+                children.iter().flat_map(|&child| self.leaves_of(child)).collect()
+            }
         }
     }
 
@@ -134,16 +136,16 @@ impl Tree {
     pub fn boxes_of(&self, root: u32) -> Vec<Aabb> {
         let Node { bounds, kind } = &self.nodes[root as usize];
         let boxes: Vec<Aabb> = match kind {
-            Kind::Leaf(_) => vec![*bounds],
-            Kind::Convex(leaves) => vec![*bounds; leaves.len()],
-            Kind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_of(child)).collect(),
+            NodeKind::Leaf(_) => vec![*bounds],
+            NodeKind::Convex(leaves) => vec![*bounds; leaves.len()],
+            NodeKind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_of(child)).collect(),
         };
         boxes.into_iter().map(|inner| inner.intersection(*bounds)).filter(|inner| !inner.is_empty()).collect()
     }
 
     /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
     #[inline]
-    pub fn nearest(&self, root: u32, ray: &Ray, start: Option<Start>, t_max: f64, stack: &mut Stack) -> Option<Hit> {
+    pub fn nearest(&self, root: u32, ray: &Ray, start: Option<RayStart>, t_max: f64, stack: &mut Stack) -> Option<Hit> {
         let mut found = None;
         self.crossings(root, ray, start, t_max, stack, |hit| {
             found = Some(hit);
@@ -159,7 +161,7 @@ impl Tree {
         &self,
         root: u32,
         ray: &Ray,
-        start: Option<Start>,
+        start: Option<RayStart>,
         t_max: f64,
         stack: &mut Stack,
         mut visit: impl FnMut(Hit) -> bool,
@@ -171,14 +173,15 @@ impl Tree {
         let is_met_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.has_before_it(root, enters));
         let counts = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_met_at_0(enters)));
         let start = start.filter(|_| on_this).map(|start| start.surface);
-        let mut meet = |event: Event, enters: bool| {
+        let mut meet = |event: Crossing, enters: bool| {
             !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
         };
         // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
         // starts on this solid starts there exactly, and may be inside as briefly as it likes.
-        let are_one = |earlier: Event, later: Event| start.is_none() && coincide(&self.leaves, earlier, later, ray);
+        let are_one =
+            |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root as usize].kind {
-            Kind::Leaf(leaf) => {
+            NodeKind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 let mut go_on = true;
                 if let Some([enter, leave]) = first {
@@ -190,7 +193,7 @@ impl Tree {
                     meet(leave, false);
                 }
             }
-            Kind::Convex(leaves) => {
+            NodeKind::Convex(leaves) => {
                 if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
                     && !are_one(enter, leave)
                     && meet(enter, true)
@@ -198,7 +201,7 @@ impl Tree {
                     meet(leave, false);
                 }
             }
-            Kind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children } => {
                 stack.clear();
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
@@ -227,19 +230,19 @@ impl Tree {
     #[inline(always)]
     fn events_within_bounds(
         &self,
-        kind: &Kind,
+        kind: &NodeKind,
         ray: &Ray,
         start: Option<Surface>,
         window: [f64; 2],
         stack: &mut Stack,
     ) {
-        let mut push = |[enter, leave]: [Event; 2]| {
+        let mut push = |[enter, leave]: [Crossing; 2]| {
             if leave.t >= window[0] && enter.t <= window[1] {
                 stack.extend([enter, leave]);
             }
         };
         match kind {
-            Kind::Leaf(leaf) => {
+            NodeKind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 if let Some(span) = first {
                     push(span);
@@ -248,12 +251,12 @@ impl Tree {
                     push(span);
                 }
             }
-            Kind::Convex(leaves) => {
+            NodeKind::Convex(leaves) => {
                 if let Some(span) = self.convex_span(leaves, ray, start) {
                     push(span);
                 }
             }
-            Kind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children } => {
                 self.composition_events(*operation, children, ray, start, window, stack);
             }
         }
@@ -294,20 +297,20 @@ impl Tree {
     }
 
     /// The events of a leaf.
-    pub(super) fn leaf_stays(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> Vec<Event> {
+    pub(super) fn leaf_stays(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
     }
 
     #[inline(always)]
-    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> [Option<[Event; 2]>; 2] {
+    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
         let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
         [spans.first, spans.second].map(|span| span.map(|span| span_events(leaf, span)))
     }
 
     /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
     /// first leaf's is seen, and a stay shorter than the tolerance is none.
-    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Event; 2]> {
-        let mut stay: Option<[Event; 2]> = None;
+    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
+        let mut stay: Option<[Crossing; 2]> = None;
         for &leaf in leaves {
             let span = self.leaves[leaf as usize].spans(ray, face_of(start, leaf)).first?;
             let [enter, leave] = span_events(leaf, span);
@@ -327,8 +330,8 @@ impl Tree {
 }
 
 #[inline(always)]
-fn span_events(leaf: u32, span: Span) -> [Event; 2] {
-    let event = |t: f64, face: u8| Event { t, surface: Surface { leaf, face } };
+fn span_events(leaf: u32, span: Span) -> [Crossing; 2] {
+    let event = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
     [event(span.from, span.from_face), event(span.to, span.to_face)]
 }
 

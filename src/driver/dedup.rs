@@ -6,11 +6,11 @@ use crate::picture::{Atom, Division, push_atom};
 
 /// Which atoms are in the picture.
 #[derive(Debug)]
-pub(super) struct Firsts {
+pub(super) struct PlacedOnce {
     placed: Vec<bool>,
 }
 
-impl Firsts {
+impl PlacedOnce {
     /// Of a picture that is cut so; none is in it.
     pub fn new(division: Division) -> Self {
         Self { placed: vec![false; division.atoms() as usize] }
@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn each_atom_comes_once() {
-        let mut firsts = Firsts::new(Division::new(100, 10));
+        let mut firsts = PlacedOnce::new(Division::new(100, 10));
         assert_eq!(firsts.take(2..4), [2..4]);
         assert_eq!(firsts.take(0..6), [0..2, 4..6]);
         assert_eq!(firsts.take(1..6), []);

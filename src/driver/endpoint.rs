@@ -9,10 +9,10 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
-use super::shared::{Content, Order, Parcel, Shared};
+use super::shared::{Content, Parcel, Shared, WorkerOrder};
 use crate::balance::{Condition, Event, Message, Party};
 use crate::picture::Colour;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::Header;
 use crate::scenario::Command;
 use crate::sim::Link;
@@ -35,11 +35,11 @@ pub(super) enum Incoming {
     /// What the user does to its machine.
     Command(Command),
     /// Something for a worker that has a thread of its own.
-    Order(Order),
+    WorkerOrder(WorkerOrder),
 }
 
 /// One party's port; it lives on the party's thread.
-pub(super) struct Port {
+pub(super) struct Endpoint {
     pub shared: Arc<Shared>,
     me: Party,
     inbox: Receiver<Parcel>,
@@ -61,7 +61,7 @@ pub(super) struct Port {
     flushed: Time,
 }
 
-impl Port {
+impl Endpoint {
     /// The port of `me`, whose messages come out of `inbox`.
     pub fn new(
         me: Party,
@@ -103,13 +103,13 @@ impl Port {
     }
 
     /// Adds a record of what happens at the party's time; returns its index, good until the next flush.
-    pub fn record(&mut self, what: What) -> usize {
+    pub fn record(&mut self, what: RecordKind) -> usize {
         self.records.push(Record { at: self.time, what });
         self.records.len() - 1
     }
 
     /// A record that has not been flushed yet.
-    pub fn recorded(&mut self, index: usize) -> &mut What {
+    pub fn recorded(&mut self, index: usize) -> &mut RecordKind {
         &mut self.records[index].what
     }
 
@@ -123,18 +123,18 @@ impl Port {
         let sent = || Content::Message { from: self.me, message: message.clone(), pixels };
         let content = if is_lost { Content::Lost } else { sent() };
         let id = self.shared.deliver(receiver, arrives, content);
-        self.record(What::Sent { id, from: self.me, to, message, bytes, arrives });
+        self.record(RecordKind::Sent { id, from: self.me, to, message, bytes, arrives });
     }
 
     /// Notes down a message that went no way, since the party has itself taken from `from` what it says.
     pub fn take(&mut self, from: Party, message: Message) {
         let (id, bytes, arrives) = (self.shared.new_id(), self.shared.bytes(&message), self.time + LEAST);
-        self.record(What::Sent { id, from, to: self.me, message, bytes, arrives });
+        self.record(RecordKind::Sent { id, from, to: self.me, message, bytes, arrives });
         self.advance(arrives);
-        self.record(What::Received { id, by: self.me });
+        self.record(RecordKind::Received { id, by: self.me });
     }
 
-    /// Makes [`Port::next`] return [`Event::Timer`] at `at`; a later call replaces an earlier one.
+    /// Makes [`Endpoint::next`] return [`Event::Timer`] at `at`; a later call replaces an earlier one.
     pub fn set_timer(&mut self, at: Time) {
         self.timer = Some(at);
     }
@@ -154,10 +154,12 @@ impl Port {
             return false;
         }
         self.condition = condition;
-        self.record(What::Condition { node, condition });
+        self.record(RecordKind::Condition { node, condition });
         if condition == Condition::Off {
             self.timer = None;
-            mem::take(&mut self.waiting).into_iter().for_each(|Parcel { id, .. }| _ = self.record(What::Lost { id }));
+            mem::take(&mut self.waiting)
+                .into_iter()
+                .for_each(|Parcel { id, .. }| _ = self.record(RecordKind::Lost { id }));
         }
         true
     }
@@ -166,7 +168,7 @@ impl Port {
     pub fn delayed(&mut self, from: Party) {
         let (to, soon) = (self.me, self.time + LEAST);
         let until = self.shared.losses.arrival(from, to, soon);
-        self.record(What::Delayed { from, to, until });
+        self.record(RecordKind::Delayed { from, to, until });
     }
 
     /// What happens next, if it happens until `horizon`; the party's time is then when it does.
@@ -195,7 +197,7 @@ impl Port {
             }
             self.advance(if self.backdates { at } else { horizon });
             match &parcel.content {
-                content if self.is_lost(content) => _ = self.record(What::Lost { id: parcel.id }),
+                content if self.is_lost(content) => _ = self.record(RecordKind::Lost { id: parcel.id }),
                 Content::Message { .. } if self.condition == Condition::Hung => self.waiting.push_back(parcel),
                 _ => return self.open(parcel),
             }
@@ -275,12 +277,12 @@ impl Port {
     fn open(&mut self, Parcel { id, content, .. }: Parcel) -> Option<Incoming> {
         match content {
             Content::Message { from, message, pixels } => {
-                self.record(What::Received { id, by: self.me });
+                self.record(RecordKind::Received { id, by: self.me });
                 Some(Incoming::Event(Event::Message { from, message }, pixels))
             }
             Content::Worked { event, pixels } => Some(Incoming::Event(event, pixels)),
             Content::Command(command) => Some(Incoming::Command(command)),
-            Content::Order(order) => Some(Incoming::Order(order)),
+            Content::WorkerOrder(order) => Some(Incoming::WorkerOrder(order)),
             Content::Lost | Content::Wake => None,
         }
     }
@@ -311,14 +313,18 @@ impl Port {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::runlog::Link as Network;
+    use crate::runlog::LinkSettings;
     use crate::runlog::examples;
 
     const MS: Duration = Duration::from_millis(1);
 
     /// Of two emulated nodes.
     fn header(handling: Duration, latency: Duration) -> Header {
-        Header { handling, link: Network { latency, bandwidth: None, shared: false }, ..examples::header(&[0.5, 0.5]) }
+        Header {
+            handling,
+            link: LinkSettings { latency, bandwidth: None, shared: false },
+            ..examples::header(&[0.5, 0.5])
+        }
     }
 
     /// Sends results (empty ones) from each node to the parent, the second node's 1 ms before the first's; then what
@@ -326,7 +332,7 @@ mod tests {
     fn results(header: &Header, horizons: &[u32]) -> Vec<Option<(Party, u64)>> {
         let (shared, mut inboxes) = Shared::new(header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let port = |me, inbox| Port::new(me, header, &shared, inbox, updates.clone());
+        let port = |me, inbox| Endpoint::new(me, header, &shared, inbox, updates.clone());
         let mut parent = port(Party::Parent, inboxes.parent);
         let mut second = port(Party::Node(1), inboxes.nodes.remove(1));
         let mut first = port(Party::Node(0), inboxes.nodes.remove(0));
@@ -360,7 +366,7 @@ mod tests {
         let header = header(5 * MS, Duration::ZERO);
         let (shared, inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut parent = Port::new(Party::Parent, &header, &shared, inboxes.parent, updates);
+        let mut parent = Endpoint::new(Party::Parent, &header, &shared, inboxes.parent, updates);
         // The clock stands still, so that the command is due then.
         shared.clock.pause();
         shared.command(Command::Latency(MS));
@@ -376,7 +382,7 @@ mod tests {
         let header = header(Duration::ZERO, Duration::ZERO);
         let (shared, mut inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
+        let mut port = Endpoint::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
         port.set_timer(Time::ZERO + MS);
         port.set_timer(Time::ZERO + 3 * MS);
         assert!(port.next(Time::ZERO + 2 * MS).is_none());
@@ -390,7 +396,7 @@ mod tests {
         let header = header(Duration::ZERO, Duration::ZERO);
         let (shared, mut inboxes) = Shared::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
-        let mut port = Port::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
+        let mut port = Endpoint::new(Party::Node(0), &header, &shared, inboxes.nodes.remove(0), updates);
         shared.stop();
         // It takes what was sent to wake it out of the inbox, and nothing else would.
         assert!(port.next(Time::ZERO).is_none());

@@ -11,12 +11,12 @@ use crate::time::Time;
 
 /// What is wrong, until the run is over: nothing fails after that, or is mended.
 #[derive(Debug, Default)]
-pub(super) struct Losses {
+pub(super) struct Failures {
     faults: Mutex<Faults>,
     over: AtomicBool,
 }
 
-impl Losses {
+impl Failures {
     /// Cuts the link between two parties, or mends it. Whether that changes anything.
     pub fn cut_link(&self, one: Party, other: Party, is_cut: bool) -> bool {
         self.change(|faults| faults.cut_link(one, other, is_cut))
@@ -54,7 +54,7 @@ impl Losses {
         self.over.store(true, Ordering::SeqCst);
     }
 
-    /// Whether [`Losses::end`] was called.
+    /// Whether [`Failures::end`] was called.
     pub fn is_over(&self) -> bool {
         self.over.load(Ordering::SeqCst)
     }
@@ -73,11 +73,11 @@ impl Losses {
 #[cfg(test)]
 mod tests {
     use super::super::Update;
-    use super::super::endpoint::{Incoming, Port};
+    use super::super::endpoint::{Endpoint, Incoming};
     use super::super::shared::{Inboxes, Shared};
     use super::*;
     use crate::balance::{Condition, Event, Message};
-    use crate::record::What;
+    use crate::record::RecordKind;
     use crate::runlog::examples;
     use crossbeam_channel::Receiver;
     use std::sync::Arc;
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn a_link_is_cut_both_ways_and_a_node_from_all() {
-        let losses = Losses::default();
+        let losses = Failures::default();
         assert!(losses.cut_link(TWO, PARENT, true) && !losses.cut_link(PARENT, TWO, true), "it is one link");
         let are_cut =
             || [(PARENT, TWO), (TWO, PARENT), (ONE, TWO), (TWO, TWO)].map(|(one, two)| losses.is_cut(one, two));
@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn what_is_cut_at_the_end_remains_so() {
-        let losses = Losses::default();
+        let losses = Failures::default();
         losses.cut_off(1, true);
         losses.end();
         assert!(!losses.cut_off(1, false) && !losses.cut_off(2, true) && !losses.cut_link(PARENT, TWO, true));
@@ -110,8 +110,8 @@ mod tests {
     /// A node's port, and another's that sends it what it is to hear; and what the first tells.
     struct Pair {
         shared: Arc<Shared>,
-        hearer: Port,
-        sender: Port,
+        hearer: Endpoint,
+        sender: Endpoint,
         told: Receiver<Update>,
     }
 
@@ -121,8 +121,8 @@ mod tests {
             let (shared, Inboxes { mut nodes, .. }) = Shared::new(&header);
             let (updates, told) = crossbeam_channel::unbounded();
             let (unheard, _) = crossbeam_channel::unbounded();
-            let sender = Port::new(TWO, &header, &shared, nodes.remove(2), unheard);
-            let hearer = Port::new(ONE, &header, &shared, nodes.remove(1), updates);
+            let sender = Endpoint::new(TWO, &header, &shared, nodes.remove(2), unheard);
+            let hearer = Endpoint::new(ONE, &header, &shared, nodes.remove(1), updates);
             Self { shared, hearer, sender, told }
         }
 
@@ -148,8 +148,8 @@ mod tests {
                 _ => Vec::new(),
             });
             heard.extend(records.filter_map(|record| match record.what {
-                What::Received { .. } => Some('R'),
-                What::Lost { .. } => Some('L'),
+                RecordKind::Received { .. } => Some('R'),
+                RecordKind::Lost { .. } => Some('L'),
                 _ => None,
             }));
             heard

@@ -43,9 +43,9 @@ mod worker;
 
 pub use pace::{auto_pace, cores};
 pub use probe::{Probe, probe};
-pub use render_all::{RAY, Whole};
+pub use render_all::{RAY, TracedPicture};
 pub use render_tiled::trace_strips;
-pub use render_timed::Measured;
+pub use render_timed::TimedPicture;
 pub use retrace::Retrace;
 pub use run::Run;
 pub use run_to_end::run_to_end;

@@ -6,19 +6,19 @@
 use std::mem;
 use std::time::Duration;
 
-use super::endpoint::Port;
-use super::run_context::Setting;
+use super::endpoint::Endpoint;
+use super::run_context::RunContext;
 use super::shared::Inboxes;
 use super::supervisor::Threads;
-use super::worker::{Duties, Worker, take_pixels};
+use super::worker::{Worker, WorkerHandler, take_pixels};
 use crate::balance::{Action, Event, Message, Node, NodeId, Rules};
 use crate::picture::{Atom, Colour, Division};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::Header;
 
 /// Starts a thread for each node, and the parent's.
 pub(super) fn start<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
-    setting: Setting<'run>,
+    setting: RunContext<'run>,
     inboxes: Inboxes,
     threads: &mut Threads<'scope, '_, Stop>,
 ) {
@@ -56,7 +56,13 @@ impl Handler {
 
     /// Hands the node an event. `pixels` are those of the atoms that are traced and not sent; the atoms that are to be
     /// traced go to `pipe`.
-    pub fn hand_over(&mut self, event: Event, port: &mut Port, pixels: &mut Vec<Colour>, mut pipe: impl FnMut(Atom)) {
+    pub fn hand_over(
+        &mut self,
+        event: Event,
+        port: &mut Endpoint,
+        pixels: &mut Vec<Colour>,
+        mut pipe: impl FnMut(Atom),
+    ) {
         let mut actions = mem::take(&mut self.actions);
         self.node.handle(port.time(), event, &mut actions);
         for action in actions.drain(..) {
@@ -70,7 +76,7 @@ impl Handler {
                 }
                 Action::Trace(atom) => pipe(atom),
                 Action::SetTimer(at) => port.set_timer(at),
-                Action::Retire => _ = port.record(What::Retired { node: self.id }),
+                Action::Retire => _ = port.record(RecordKind::Retired { node: self.id }),
                 Action::Finish => self.finished = true,
                 Action::Estimate | Action::Fail(_) => unreachable!("only the parent asks for {action:?}"),
             }
@@ -84,7 +90,7 @@ impl Handler {
     }
 }
 
-impl Duties for Handler {
+impl WorkerHandler for Handler {
     fn event(&mut self, event: Event, worker: &mut Worker) {
         let (now, pipe) = (worker.port.time(), &mut worker.pipe);
         self.hand_over(event, &mut worker.port, &mut worker.pixels, |atom| pipe.push_back((atom, now)));

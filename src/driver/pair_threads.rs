@@ -9,18 +9,18 @@ use std::time::Duration;
 
 use crossbeam_channel::Receiver;
 
-use super::endpoint::{Incoming, Port, Stopped};
+use super::endpoint::{Endpoint, Incoming, Stopped};
 use super::node_thread::Handler;
-use super::run_context::Setting;
-use super::shared::{Content, Inboxes, Order, Parcel};
+use super::run_context::RunContext;
+use super::shared::{Content, Inboxes, Parcel, WorkerOrder};
 use super::supervisor::Threads;
-use super::worker::{Duties, Worker};
+use super::worker::{Worker, WorkerHandler};
 use crate::balance::{Event, NodeId, Party};
 use crate::picture::Atom;
 
 /// Starts two threads for each node, and the parent's.
 pub(super) fn start<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
-    setting: Setting<'run>,
+    setting: RunContext<'run>,
     inboxes: Inboxes,
     threads: &mut Threads<'scope, '_, Stop>,
 ) {
@@ -32,25 +32,25 @@ pub(super) fn start<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
 }
 
 /// Runs the handler of node `id` on this thread, then ends its worker.
-fn run_handler(setting: Setting<'_>, id: NodeId, inbox: Receiver<Parcel>) {
+fn run_handler(setting: RunContext<'_>, id: NodeId, inbox: Receiver<Parcel>) {
     let mut port = setting.port(Party::Node(id), inbox);
     let _ = handle(setting, id, &mut port);
-    pipe(setting, id, &port, Order::End);
+    pipe(setting, id, &port, WorkerOrder::End);
     port.flush();
 }
 
-fn handle(setting: Setting<'_>, id: NodeId, port: &mut Port) -> Result<(), Stopped> {
+fn handle(setting: RunContext<'_>, id: NodeId, port: &mut Endpoint) -> Result<(), Stopped> {
     let mut handler = Handler::new(setting.header, id);
     let (mut pixels, mut atoms) = (Vec::new(), Vec::new());
     while !handler.has_finished() {
-        let now = port.step(Port::flush)?;
+        let now = port.step(Endpoint::flush)?;
         match port.next(now) {
             Some(Incoming::Event(event, traced)) => {
                 pixels.extend(traced);
                 handler.hand_over(event, port, &mut pixels, |atom| atoms.push(atom));
-                atoms.drain(..).for_each(|atom| pipe(setting, id, port, Order::Trace(atom)));
+                atoms.drain(..).for_each(|atom| pipe(setting, id, port, WorkerOrder::Trace(atom)));
             }
-            Some(Incoming::Command(_) | Incoming::Order(_)) => unreachable!("these are for the worker"),
+            Some(Incoming::Command(_) | Incoming::WorkerOrder(_)) => unreachable!("these are for the worker"),
             None => port.wait(None),
         }
     }
@@ -58,12 +58,12 @@ fn handle(setting: Setting<'_>, id: NodeId, port: &mut Port) -> Result<(), Stopp
 }
 
 /// Puts something into the pipe of a node's worker.
-fn pipe(setting: Setting<'_>, id: NodeId, port: &Port, order: Order) {
-    setting.shared.deliver(setting.shared.worker(id), port.time(), Content::Order(order));
+fn pipe(setting: RunContext<'_>, id: NodeId, port: &Endpoint, order: WorkerOrder) {
+    setting.shared.deliver(setting.shared.worker(id), port.time(), Content::WorkerOrder(order));
 }
 
 /// Runs the worker of node `id` on this thread until its node ends it.
-fn run_worker(setting: Setting<'_>, id: NodeId, pipe: Receiver<Parcel>) {
+fn run_worker(setting: RunContext<'_>, id: NodeId, pipe: Receiver<Parcel>) {
     let mut worker = setting.worker(id, pipe);
     let _ = worker.work(&mut Piped { ended: false });
     worker.end();
@@ -74,15 +74,15 @@ struct Piped {
     ended: bool,
 }
 
-impl Duties for Piped {
+impl WorkerHandler for Piped {
     fn event(&mut self, event: Event, _: &mut Worker) {
         unreachable!("{event:?} is for the handler");
     }
 
-    fn order(&mut self, order: Order, worker: &mut Worker) {
+    fn order(&mut self, order: WorkerOrder, worker: &mut Worker) {
         match order {
-            Order::Trace(atom) => worker.pipe.push_back((atom, worker.port.time())),
-            Order::End => self.ended = true,
+            WorkerOrder::Trace(atom) => worker.pipe.push_back((atom, worker.port.time())),
+            WorkerOrder::End => self.ended = true,
         }
     }
 

@@ -10,14 +10,14 @@ use crate::picture::Colour;
 use crate::tracer::{RayCounts, Scratch};
 
 /// A tracer with its scratch.
-pub(super) struct Guarded {
+pub(super) struct GuardedTracer {
     trace: Arc<TracePixels>,
     scratch: Scratch,
     /// Whether a panic is caught; else it ends the thread.
     catches: bool,
 }
 
-impl Guarded {
+impl GuardedTracer {
     /// A tracer that has not traced anything.
     pub fn new(trace: Arc<TracePixels>, catches: bool) -> Self {
         Self { trace, scratch: Scratch::default(), catches }
@@ -57,7 +57,7 @@ mod tests {
                 out.push([pixel as f32; 3]);
             }
         };
-        let (mut tracer, mut out) = (Guarded::new(Arc::new(trace), true), Vec::new());
+        let (mut tracer, mut out) = (GuardedTracer::new(Arc::new(trace), true), Vec::new());
         assert!(tracer.trace(8..10, &mut out) && !tracer.trace(10..16, &mut out) && tracer.trace(20..21, &mut out));
         assert_eq!(out, [[8.0; 3], [9.0; 3], [20.0; 3]]);
         assert_eq!(tracer.rays().primary, 7);

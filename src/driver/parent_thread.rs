@@ -5,13 +5,13 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::dedup::Firsts;
-use super::endpoint::{Incoming, Port, Stopped};
+use super::dedup::PlacedOnce;
+use super::endpoint::{Endpoint, Incoming, Stopped};
 use super::meter::Meter;
 use super::{TracePixels, Update};
 use crate::balance::{Action, Event, Message, NodeId, Parent, estimate};
 use crate::picture::{Atom, Colour, Division, Size};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::Header;
 use crate::scenario::Command;
 use crate::sim::Machine;
@@ -20,14 +20,14 @@ use crate::tracer::Scratch;
 /// What the parent's thread holds.
 pub(super) struct ParentThread {
     parent: Parent,
-    port: Port,
+    port: Endpoint,
     trace: Arc<TracePixels>,
     size: Size,
     division: Division,
     /// Traces for an estimate, as fast as the reference machine.
     machine: Machine,
     placed: Placed,
-    firsts: Firsts,
+    firsts: PlacedOnce,
     /// Whether the parent has asked for an estimate.
     estimate: bool,
     finished: bool,
@@ -42,13 +42,13 @@ struct Placed {
 
 impl ParentThread {
     /// The parent of the run that `header` describes.
-    pub fn new(header: &Header, port: Port, trace: Arc<TracePixels>) -> Self {
+    pub fn new(header: &Header, port: Endpoint, trace: Arc<TracePixels>) -> Self {
         let nodes = header.speeds.len() as NodeId;
         let parent = Parent::with_spares(&header.rules, header.division, nodes, header.spares);
         let machine = Machine::new(1.0, header.pace);
         let (division, placed) = (header.division, Placed::default());
         let size = header.size;
-        let firsts = Firsts::new(division);
+        let firsts = PlacedOnce::new(division);
         Self { parent, port, trace, size, division, machine, placed, firsts, estimate: false, finished: false }
     }
 
@@ -63,7 +63,7 @@ impl ParentThread {
         self.hand_over(Event::Started);
         if self.estimate {
             let costs = self.estimate()?;
-            self.port.record(What::Estimated { costs: costs.clone() });
+            self.port.record(RecordKind::Estimated { costs: costs.clone() });
             self.hand_over(Event::Estimated(costs));
         }
         while !self.finished {
@@ -76,14 +76,14 @@ impl ParentThread {
                     self.hand_over(event);
                 }
                 Some(Incoming::Command(Command::Latency(latency))) => {
-                    self.port.record(What::LatencySet { latency });
+                    self.port.record(RecordKind::LatencySet { latency });
                 }
                 Some(Incoming::Command(Command::Link { one, other, cut })) => {
-                    self.port.record(What::Link { one, other, cut });
+                    self.port.record(RecordKind::Link { one, other, cut });
                 }
                 Some(Incoming::Command(Command::Delay { from, .. })) => self.port.delayed(from),
                 Some(Incoming::Command(other)) => unreachable!("the parent has no machine for {other:?}"),
-                Some(Incoming::Order(_)) => unreachable!("the parent is no worker"),
+                Some(Incoming::WorkerOrder(_)) => unreachable!("the parent is no worker"),
                 None => self.port.wait(None),
             }
         }
@@ -104,11 +104,11 @@ impl ParentThread {
 
     /// Samples what the picture costs, and waits until the reference machine would have done as much.
     fn estimate(&mut self) -> Result<Vec<Duration>, Stopped> {
-        self.port.record(What::Estimating);
+        self.port.record(RecordKind::Estimating);
         let (mut meter, mut scratch, mut pixels) = (Meter::new(), Scratch::default(), Vec::new());
         let mut costs = Vec::new();
         for samples in estimate::samples(self.division) {
-            self.port.step(Port::flush)?;
+            self.port.step(Endpoint::flush)?;
             meter.lap();
             for pixel in samples {
                 (self.trace)(pixel..pixel + 1, &mut scratch, &mut pixels);
@@ -123,7 +123,7 @@ impl ParentThread {
         self.machine.begin(self.port.time(), costs.iter().sum());
         // The reference machine never stands still.
         let due = self.machine.due().unwrap_or(self.port.time());
-        while self.port.step(Port::flush)? < due {
+        while self.port.step(Endpoint::flush)? < due {
             self.port.wait(Some(due));
         }
         self.port.advance(due);
@@ -141,13 +141,13 @@ impl ParentThread {
             match action {
                 Action::Send { to, message } => self.port.send(to, message, Vec::new()),
                 Action::Finish => {
-                    self.port.record(What::Finished);
+                    self.port.record(RecordKind::Finished);
                     self.finished = true;
                 }
                 Action::Estimate => self.estimate = true,
                 Action::SetTimer(at) => self.port.set_timer(at),
                 Action::Fail(atom) => {
-                    self.port.record(What::GivenUp { atom });
+                    self.port.record(RecordKind::GivenUp { atom });
                     self.finished = true;
                     self.port.shared.fail(self.no_way_to_trace(atom));
                 }
@@ -163,7 +163,7 @@ impl ParentThread {
     }
 }
 
-fn flush(port: &mut Port, placed: &mut Placed) {
+fn flush(port: &mut Endpoint, placed: &mut Placed) {
     if !placed.atoms.is_empty() {
         let Placed { atoms, pixels } = mem::take(placed);
         port.update(Update::Placed { atoms, pixels });

@@ -20,7 +20,7 @@ pub const RAY: Duration = Duration::from_nanos(100);
 
 /// A picture that is traced, and what its atoms take.
 #[derive(Clone, Debug, Default)]
-pub struct Whole {
+pub struct TracedPicture {
     /// All pixels in scan order.
     pub pixels: Vec<Colour>,
     /// By atom: how many rays of all kinds it takes.
@@ -29,7 +29,7 @@ pub struct Whole {
     pub counts: RayCounts,
 }
 
-impl Whole {
+impl TracedPicture {
     /// Traces all atoms of `division`, and tells `done` from time to time how many more are traced.
     ///
     /// # Errors
@@ -38,10 +38,10 @@ impl Whole {
         Self::unless(tracer, division, done, &|| false).map(Option::unwrap_or_default)
     }
 
-    /// As [`Whole::of`], but `None` if it `is_over` before.
+    /// As [`TracedPicture::of`], but `None` if it `is_over` before.
     ///
     /// # Errors
-    /// As [`Whole::of`].
+    /// As [`TracedPicture::of`].
     pub fn unless(
         tracer: &Arc<Tracer>,
         division: Division,
@@ -58,7 +58,7 @@ impl Whole {
     /// each costs the reference machine in virtual time. `None` if it `is_over` before.
     ///
     /// # Errors
-    /// As [`Whole::of`].
+    /// As [`TracedPicture::of`].
     pub fn by_pixel(
         tracer: &Arc<Tracer>,
         done: &(dyn Fn(u32) + Sync),

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{TracePixels, Whole};
+use super::{TracePixels, TracedPicture};
 use crate::picture::{Colour, Division, srgb8};
 use crate::tracer::{Scratch, Tracer};
 
@@ -40,7 +40,7 @@ pub fn trace_strips(
             done((sum as f64 / f64::from(pixels)).min(1.0));
         };
         let trace: &TracePixels = &trace;
-        let Some(strip) = Whole::trace(division, trace, &more, is_over)? else { return Ok(None) };
+        let Some(strip) = TracedPicture::trace(division, trace, &more, is_over)? else { return Ok(None) };
         rgb.extend(strip.pixels.into_iter().flat_map(srgb8));
     }
     Ok(Some(rgb))
@@ -66,7 +66,7 @@ mod tests {
         let tracer = tracer(size);
         let told = Mutex::new(Vec::new());
         let strips = trace_strips(&tracer, &|part| told.lock().unwrap().push(part), &|| false).unwrap().unwrap();
-        let whole = Whole::of(&tracer, Division::new(size.pixels(), 50), &|_| {}).unwrap();
+        let whole = TracedPicture::of(&tracer, Division::new(size.pixels(), 50), &|_| {}).unwrap();
         assert!(strips == Frame::of(size, &whole.pixels).to_srgb8());
         let told = told.into_inner().unwrap();
         assert!(told.iter().all(|part| (0.0..=1.0).contains(part)) && told.contains(&1.0), "{told:?}");

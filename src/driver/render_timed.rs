@@ -11,7 +11,7 @@ const PIECE: usize = 256;
 
 /// A picture that is traced, and what that took.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct TimedPicture {
     /// The picture.
     pub frame: Frame,
     /// The CPU time of the thread that traced it.
@@ -20,7 +20,7 @@ pub struct Measured {
     pub counts: RayCounts,
 }
 
-impl Measured {
+impl TimedPicture {
     /// Traces the picture on this thread. `None` if it `is_over` before.
     pub fn of(tracer: &Tracer, is_over: &dyn Fn() -> bool) -> Option<Self> {
         let (mut frame, mut scratch, mut pixels) = (Frame::new(tracer.size()), Scratch::default(), Vec::new());
@@ -52,11 +52,11 @@ mod tests {
         let tracer = Tracer::new(&scene, Size::new(30, 20).unwrap(), Quality::default());
         let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
         tracer.trace(0..600, &mut scratch, &mut pixels);
-        let found = Measured::of(&tracer, &|| false).unwrap();
+        let found = TimedPicture::of(&tracer, &|| false).unwrap();
         assert_eq!((found.frame.pixels(), found.counts), (&pixels[..], scratch.rays));
         assert!(found.cpu > Duration::ZERO);
         let asked = Cell::new(0);
         let is_over = || asked.replace(asked.get() + 1) == 2;
-        assert!(Measured::of(&tracer, &is_over).is_none());
+        assert!(TimedPicture::of(&tracer, &is_over).is_none());
     }
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use crate::balance::{Message, Party};
 use crate::picture::Atom;
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::RunLog;
 
 /// A job is an atom, or consecutive ones of at most so many pixels: else threads would get in each other's way.
@@ -22,11 +22,11 @@ pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Range<Atom>>
     let mut jobs: Vec<Range<Atom>> = Vec::new();
     for record in log.records() {
         let results = match &record.what {
-            What::Sent { id, to: Party::Parent, message: Message::Results(ranges), .. } => {
+            RecordKind::Sent { id, to: Party::Parent, message: Message::Results(ranges), .. } => {
                 on_their_way.insert(id, ranges);
                 None
             }
-            What::Received { id, by: Party::Parent } => on_their_way.remove(id),
+            RecordKind::Received { id, by: Party::Parent } => on_their_way.remove(id),
             _ => None,
         };
         for range in results.into_iter().flatten().take_while(|_| !is_over()) {
@@ -57,11 +57,11 @@ mod tests {
 
     fn sent(id: u64, ranges: impl IntoIterator<Item = Range<Atom>>) -> Record {
         let (from, to, message) = (Party::Node(0), Party::Parent, Message::Results(ranges.into_iter().collect()));
-        at(0, What::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO })
+        at(0, RecordKind::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO })
     }
 
     fn received(id: u64, by: Party) -> Record {
-        at(0, What::Received { id, by })
+        at(0, RecordKind::Received { id, by })
     }
 
     /// The jobs of a log with these records: 20 atoms of `pixels` pixels.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
-use super::run_context::Setting;
+use super::run_context::RunContext;
 use super::shared::{Inboxes, Shared};
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};
@@ -28,7 +28,7 @@ pub struct Run {
 /// What acts on the run, by its driver.
 enum Control {
     Parties(Arc<Shared>),
-    Sim(Arc<sim_thread::Shared>),
+    Sim(Arc<sim_thread::SharedSim>),
 }
 
 impl Run {
@@ -51,7 +51,7 @@ impl Run {
         let its_header = header.clone();
         match header.driver {
             Driver::Sim => {
-                let (shared, orders) = sim_thread::Shared::new();
+                let (shared, orders) = sim_thread::SharedSim::new();
                 let shared = Arc::new(shared);
                 let its = Arc::clone(&shared);
                 let play =
@@ -63,7 +63,7 @@ impl Run {
                 let (shared, inboxes) = Shared::new(&header);
                 let (its, trace): (_, Arc<TracePixels>) = (Arc::clone(&shared), Arc::new(trace));
                 let supervise = move |updates: &Sender<Update>| {
-                    supervise(Setting { header: &header, shared: &its, trace: &trace, updates }, inboxes)
+                    supervise(RunContext { header: &header, shared: &its, trace: &trace, updates }, inboxes)
                 };
                 Self { control: Control::Parties(shared), supervisor: Supervisor::start("run", supervise) }
             }
@@ -159,7 +159,7 @@ impl Drop for Run {
 }
 
 /// Runs all parties on threads of their own until all have ended.
-fn supervise(setting: Setting<'_>, inboxes: Inboxes) -> Result<(), String> {
+fn supervise(setting: RunContext<'_>, inboxes: Inboxes) -> Result<(), String> {
     thread::scope(|scope| {
         let mut threads = Threads::new(scope, || setting.shared.stop());
         match setting.header.driver {
@@ -179,7 +179,7 @@ fn supervise(setting: Setting<'_>, inboxes: Inboxes) -> Result<(), String> {
 mod tests {
     use super::*;
     use crate::balance::Condition;
-    use crate::record::What;
+    use crate::record::RecordKind;
     use crate::runlog::examples::header;
 
     /// The emulation does not depend on how busy this computer is: in the machine's own time an atom takes exactly what
@@ -200,8 +200,8 @@ mod tests {
             updates.iter().flat_map(|update| if let Update::Records(records) = update { &records[..] } else { &[] })
         {
             match record.what {
-                What::AtomStarted { node, .. } => started[usize::from(node)] = record.at,
-                What::AtomDone { node, cost, .. } => {
+                RecordKind::AtomStarted { node, .. } => started[usize::from(node)] = record.at,
+                RecordKind::AtomDone { node, cost, .. } => {
                     let rate = header.speeds[usize::from(node)] * header.pace;
                     let took = record.at.since(started[usize::from(node)]);
                     assert!(took.abs_diff(cost.div_f64(rate)) <= Duration::from_nanos(1), "{took:?} for {cost:?}");
@@ -233,13 +233,13 @@ mod tests {
         let (mut since, mut hung, mut atoms) = (Time::ZERO, None, 0);
         for record in records.iter() {
             match record.what {
-                What::AtomStarted { .. } => since = record.at,
-                What::Condition { condition: Condition::Hung, .. } => hung = Some(record.at),
+                RecordKind::AtomStarted { .. } => since = record.at,
+                RecordKind::Condition { condition: Condition::Hung, .. } => hung = Some(record.at),
                 // What of it fell into an atom does not count for that.
-                What::Condition { condition: Condition::Well, .. } => {
+                RecordKind::Condition { condition: Condition::Well, .. } => {
                     since += record.at.since(hung.take().expect("it hung").max(since));
                 }
-                What::AtomDone { cost, .. } => {
+                RecordKind::AtomDone { cost, .. } => {
                     assert_eq!(hung, None, "a machine that hangs is done with an atom");
                     let (took, takes) = (record.at.since(since), cost.div_f64(0.01));
                     assert!(took.abs_diff(takes) <= Duration::from_nanos(10), "{took:?} for {cost:?}");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crossbeam_channel::{Receiver, Sender};
 
-use super::endpoint::Port;
+use super::endpoint::Endpoint;
 use super::parent_thread::ParentThread;
 use super::shared::{Parcel, Shared};
 use super::supervisor::Threads;
@@ -15,17 +15,17 @@ use crate::runlog::Header;
 
 /// What all threads of a run are given.
 #[derive(Clone, Copy)]
-pub(super) struct Setting<'run> {
+pub(super) struct RunContext<'run> {
     pub header: &'run Header,
     pub shared: &'run Arc<Shared>,
     pub trace: &'run Arc<TracePixels>,
     pub updates: &'run Sender<Update>,
 }
 
-impl<'run> Setting<'run> {
+impl<'run> RunContext<'run> {
     /// The port of `me`, to be made on its own thread.
-    pub fn port(self, me: Party, inbox: Receiver<Parcel>) -> Port {
-        Port::new(me, self.header, self.shared, inbox, self.updates.clone())
+    pub fn port(self, me: Party, inbox: Receiver<Parcel>) -> Endpoint {
+        Endpoint::new(me, self.header, self.shared, inbox, self.updates.clone())
     }
 
     /// The worker of node `id`, to be made on its own thread.

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use super::failures::Losses;
+use super::failures::Failures;
 use crate::balance::{Event, Message, NodeId, Party};
 use crate::picture::{Atom, Colour, Division};
 use crate::runlog::{Driver, Header};
@@ -32,7 +32,7 @@ pub(super) struct Shared {
     wire: Option<Mutex<Wire>>,
     /// Whether machines and links can fail: only where a node is one thread.
     pub can_fail: bool,
-    pub losses: Losses,
+    pub losses: Failures,
     /// Why the run has failed, if it has.
     failure: OnceLock<String>,
     pub division: Division,
@@ -62,7 +62,7 @@ pub(super) enum Content {
         pixels: Vec<Colour>,
     },
     /// From a node to such a worker.
-    Order(Order),
+    WorkerOrder(WorkerOrder),
     Command(Command),
     /// Nothing but a reason to look whether the run is over or was stopped.
     Wake,
@@ -77,7 +77,7 @@ pub(super) struct Inboxes {
 }
 
 /// What a worker with a thread of its own is told through its pipe.
-pub(super) enum Order {
+pub(super) enum WorkerOrder {
     Trace(Atom),
     /// There is nothing more to do.
     End,
@@ -100,7 +100,7 @@ impl Shared {
             bandwidth: header.link.bandwidth,
             wire: header.link.shared.then(Mutex::default),
             can_fail: header.driver == Driver::Threads,
-            losses: Losses::default(),
+            losses: Failures::default(),
             failure: OnceLock::new(),
             division: header.division,
             scene_bytes: header.scene_text.len() as u64,

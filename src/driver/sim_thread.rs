@@ -8,23 +8,23 @@ use std::time::Duration;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::clock::Clock;
-use super::dedup::Firsts;
+use super::dedup::PlacedOnce;
 use super::endpoint::FLUSH;
-use super::render_all::Whole;
+use super::render_all::TracedPicture;
 use super::{TracePixels, Update};
 use crate::balance::{Message, Party};
 use crate::picture::{Atom, Division};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::Header;
 use crate::scenario::Command;
 use crate::sim::Sim;
 use crate::time::Time;
 
 /// What a simulation's thread shares with whoever started it.
-pub(super) struct Shared {
+pub(super) struct SharedSim {
     pub clock: Clock,
     going: Mutex<Going>,
-    orders: Sender<Order>,
+    orders: Sender<SimOrder>,
 }
 
 /// How the run's time follows from the clock's.
@@ -47,15 +47,15 @@ impl Going {
 }
 
 /// What a simulation's thread is told.
-pub(super) enum Order {
+pub(super) enum SimOrder {
     Do(Command),
     /// The clock goes on, or has ended.
     Wake,
 }
 
-impl Shared {
+impl SharedSim {
     /// What they share, and the orders as they come.
-    pub fn new() -> (Self, Receiver<Order>) {
+    pub fn new() -> (Self, Receiver<SimOrder>) {
         // Unbounded, but with one order for each thing that the user does.
         let (orders, receiver) = crossbeam_channel::unbounded();
         let going = Mutex::new(Going { since: None, at: Time::ZERO, rate: 1.0 });
@@ -73,7 +73,7 @@ impl Shared {
         let now = self.clock.now();
         *going = Going { since: going.since.map(|_| now), at: going.at(now), rate: rate.clamp(0.0, FASTEST) };
         drop(going);
-        self.order(Order::Wake);
+        self.order(SimOrder::Wake);
     }
 
     /// The run begins.
@@ -95,21 +95,21 @@ impl Shared {
     }
 
     pub fn command(&self, command: Command) {
-        self.order(Order::Do(command));
+        self.order(SimOrder::Do(command));
     }
 
     pub fn resume(&self) {
         self.clock.resume();
-        self.order(Order::Wake);
+        self.order(SimOrder::Wake);
     }
 
     pub fn stop(&self) {
         self.clock.end();
-        self.order(Order::Wake);
+        self.order(SimOrder::Wake);
     }
 
     /// A thread that has ended needs no orders.
-    fn order(&self, order: Order) {
+    fn order(&self, order: SimOrder) {
         let _ = self.orders.send(order);
     }
 }
@@ -120,21 +120,21 @@ impl Shared {
 /// A sentence, if it was stopped or could not trace.
 pub(super) fn play(
     header: &Header,
-    shared: &Shared,
-    orders: &Receiver<Order>,
+    shared: &SharedSim,
+    orders: &Receiver<SimOrder>,
     trace: &TracePixels,
     updates: &Sender<Update>,
 ) -> Result<(), String> {
     const STOPPED: &str = "the run was stopped";
     let is_over = || shared.clock.has_ended();
-    let whole = Whole::trace(header.division, trace, &|_| {}, &is_over)?.ok_or(STOPPED)?;
+    let whole = TracedPicture::trace(header.division, trace, &|_| {}, &is_over)?.ok_or(STOPPED)?;
     let costs = whole.costs();
     let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
-    let mut news = News {
+    let mut news = Updates {
         division: header.division,
         whole,
         on_their_way: BTreeMap::new(),
-        firsts: Firsts::new(header.division),
+        firsts: PlacedOnce::new(header.division),
         updates,
     };
     shared.begin();
@@ -165,7 +165,7 @@ pub(super) fn play(
             orders.recv_timeout(FLUSH).ok()
         };
         for order in order.into_iter().chain(orders.try_iter()) {
-            if let Order::Do(command) = order {
+            if let SimOrder::Do(command) = order {
                 sim.advance(shared.now(), &mut |record| records.push(record));
                 sim.command(command, &mut |record| records.push(record));
             }
@@ -175,24 +175,24 @@ pub(super) fn play(
 }
 
 /// Tells whoever watches.
-struct News<'a> {
+struct Updates<'a> {
     division: Division,
-    whole: Whole,
+    whole: TracedPicture,
     on_their_way: BTreeMap<u64, Vec<Range<Atom>>>,
-    firsts: Firsts,
+    firsts: PlacedOnce,
     updates: &'a Sender<Update>,
 }
 
-impl News<'_> {
+impl Updates<'_> {
     /// Tells these records, and the pixels that the parent has received by them. That nobody listens any more does no harm.
     fn tell(&mut self, records: Vec<Record>) {
         let mut atoms = Vec::new();
         for record in &records {
             match &record.what {
-                What::Sent { id, message: Message::Results(ranges), .. } => {
+                RecordKind::Sent { id, message: Message::Results(ranges), .. } => {
                     self.on_their_way.insert(*id, ranges.clone());
                 }
-                What::Received { id, by: Party::Parent } => {
+                RecordKind::Received { id, by: Party::Parent } => {
                     let ranges = self.on_their_way.remove(id).into_iter().flatten();
                     atoms.extend(ranges.flat_map(|range| self.firsts.take(range)));
                 }

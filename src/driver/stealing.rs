@@ -19,20 +19,20 @@ use std::time::Duration;
 use crossbeam_channel::Receiver;
 use rayon_core::{FnContext, ThreadBuilder, ThreadPoolBuilder};
 
-use super::run_context::Setting;
+use super::run_context::RunContext;
 use super::shared::{Inboxes, Parcel, Shared};
 use super::supervisor::Threads;
-use super::worker::{Duties, Worker};
+use super::worker::{Worker, WorkerHandler};
 use crate::balance::{Event, Message, NodeId, Party, Rules, Strategy};
 use crate::picture::{Atom, push_atom};
-use crate::runlog::{Header, Link};
+use crate::runlog::{Header, LinkSettings};
 use crate::time::Time;
 
 /// The header by which the parent runs: nothing takes a way, and the first node has it all.
 pub(super) fn header(header: &Header) -> Header {
     Header {
         rules: Rules { strategy: Strategy::Serial, ..header.rules },
-        link: Link { latency: Duration::ZERO, bandwidth: None, shared: false },
+        link: LinkSettings { latency: Duration::ZERO, bandwidth: None, shared: false },
         handling: Duration::ZERO,
         spares: 0,
         ..header.clone()
@@ -42,7 +42,7 @@ pub(super) fn header(header: &Header) -> Header {
 /// Starts a thread for each node, and the parent's; then has the picture traced. Returns when it is, or when the run is
 /// stopped.
 pub(super) fn run<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
-    setting: Setting<'run>,
+    setting: RunContext<'run>,
     inboxes: Inboxes,
     threads: &mut Threads<'scope, '_, Stop>,
 ) {
@@ -69,13 +69,13 @@ pub(super) fn run<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
 
 thread_local! {
     /// The node of this thread, while it is one of the pool's.
-    static NODE: RefCell<Option<Node>> = const { RefCell::new(None) };
+    static NODE: RefCell<Option<PoolNode>> = const { RefCell::new(None) };
 }
 
 /// Runs a node on this thread: it waits for its band, is one of the pool until that ends, and waits for its shutdown.
-fn run_node(setting: Setting<'_>, thread: ThreadBuilder, inbox: Receiver<Parcel>) {
+fn run_node(setting: RunContext<'_>, thread: ThreadBuilder, inbox: Receiver<Parcel>) {
     let worker = setting.worker(thread.index() as NodeId, inbox);
-    let mut node = Node { worker, thief: Thief { heard: 0, awaited: 1, unsent: Vec::new() }, panic: None };
+    let mut node = PoolNode { worker, thief: Thief { heard: 0, awaited: 1, unsent: Vec::new() }, panic: None };
     node.wait_to_hear();
     NODE.set(Some(node));
     // Even if the run was stopped, since the pool waits for all of its threads.
@@ -108,19 +108,19 @@ fn share(shared: &Shared, atoms: Range<Atom>) {
     rayon_core::join_context(|_| share(shared, left), share_right);
 }
 
-fn with_node<R>(f: impl FnOnce(&mut Node) -> R) -> R {
+fn with_node<R>(f: impl FnOnce(&mut PoolNode) -> R) -> R {
     NODE.with_borrow_mut(|node| f(node.as_mut().expect("each thread of the pool has its node")))
 }
 
 /// A node of the pool.
-struct Node {
+struct PoolNode {
     worker: Worker,
     thief: Thief,
     /// What the tracer said when it panicked. It is kept from rayon, which would not tell whose it was.
     panic: Option<Box<dyn Any + Send>>,
 }
 
-impl Node {
+impl PoolNode {
     /// Waits for the band, and the next time for the shutdown; a late thread may hear of both at once. That the run was
     /// stopped meanwhile is seen by whoever looks next.
     fn wait_to_hear(&mut self) {
@@ -177,7 +177,7 @@ impl Thief {
     }
 }
 
-impl Duties for Thief {
+impl WorkerHandler for Thief {
     fn event(&mut self, event: Event, worker: &mut Worker) {
         match event {
             Event::Message { message: Message::Band(_) | Message::Shutdown, .. } => self.heard += 1,

@@ -7,14 +7,14 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::endpoint::{Incoming, Port, Stopped};
+use super::endpoint::{Endpoint, Incoming, Stopped};
 use super::meter::{Batch, Meter};
-use super::panic_guard::Guarded;
-use super::shared::Order;
+use super::panic_guard::GuardedTracer;
+use super::shared::WorkerOrder;
 use super::{TracePixels, Update};
 use crate::balance::{Condition, Event, NodeId, Strategy};
 use crate::picture::{Atom, Colour, Division};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::Header;
 use crate::scenario::Command;
 use crate::sim::Machine;
@@ -28,12 +28,12 @@ const PIECE: u32 = 64;
 const AHEAD: Duration = Duration::from_millis(1);
 
 /// What a worker's thread does besides tracing.
-pub(super) trait Duties {
+pub(super) trait WorkerHandler {
     /// Answers a message or a timer.
     fn event(&mut self, event: Event, worker: &mut Worker);
 
     /// Obeys what comes through the pipe, if the worker has a thread of its own.
-    fn order(&mut self, order: Order, worker: &mut Worker) {
+    fn order(&mut self, order: WorkerOrder, worker: &mut Worker) {
         let _ = (order, worker);
         unreachable!("only a worker with a thread of its own has a pipe")
     }
@@ -62,12 +62,12 @@ pub(super) trait Duties {
 /// A worker, to be made and kept on the thread on which it traces.
 pub(super) struct Worker {
     pub id: NodeId,
-    pub port: Port,
+    pub port: Endpoint,
     /// Atoms that wait for the worker, and since when.
     pub pipe: VecDeque<(Atom, Time)>,
     /// Pixels of the atoms that are traced and not sent, and after them those of the atom in hand.
     pub pixels: Vec<Colour>,
-    tracer: Guarded,
+    tracer: GuardedTracer,
     division: Division,
     machine: Machine,
     /// Whether the user has paused the worker; a machine that hangs stands still too.
@@ -93,13 +93,13 @@ struct Hand {
 
 impl Worker {
     /// The worker of node `id`.
-    pub fn new(id: NodeId, header: &Header, port: Port, trace: Arc<TracePixels>) -> Self {
+    pub fn new(id: NodeId, header: &Header, port: Endpoint, trace: Arc<TracePixels>) -> Self {
         Self {
             id,
             port,
             pipe: VecDeque::new(),
             pixels: Vec::new(),
-            tracer: Guarded::new(trace, header.rules.strategy == Strategy::Adaptive),
+            tracer: GuardedTracer::new(trace, header.rules.strategy == Strategy::Adaptive),
             division: header.division,
             machine: Machine::new(header.speeds[usize::from(id)], header.pace),
             paused: false,
@@ -110,7 +110,7 @@ impl Worker {
     }
 
     /// Does what there is to do until the duties are over.
-    pub fn work(&mut self, duties: &mut impl Duties) -> Result<(), Stopped> {
+    pub fn work(&mut self, duties: &mut impl WorkerHandler) -> Result<(), Stopped> {
         while !duties.is_over() {
             self.turn(duties)?;
         }
@@ -118,7 +118,7 @@ impl Worker {
     }
 
     /// Traces an atom for whoever has nothing in the pipe.
-    pub fn trace_atom(&mut self, atom: Atom, duties: &mut impl Duties) -> Result<(), Stopped> {
+    pub fn trace_atom(&mut self, atom: Atom, duties: &mut impl WorkerHandler) -> Result<(), Stopped> {
         self.pipe.push_back((atom, self.port.time()));
         while self.hand.is_some() || !self.pipe.is_empty() {
             self.turn(duties)?;
@@ -155,7 +155,7 @@ impl Worker {
     }
 
     /// Handles what has come, then traces one piece, or waits.
-    fn turn(&mut self, duties: &mut impl Duties) -> Result<(), Stopped> {
+    fn turn(&mut self, duties: &mut impl WorkerHandler) -> Result<(), Stopped> {
         let now = self.step()?;
         self.handle_until(duties, |worker| worker.next_start(now).unwrap_or(now));
         // Asked again, since a message may have brought atoms or stopped the machine, and took its time.
@@ -190,28 +190,28 @@ impl Worker {
 
     /// Handles one by one what happens until `horizon`, which each may change: who was given atoms must not hear of
     /// anything later before they are done, even if its thread woke too late for both.
-    fn handle_until(&mut self, duties: &mut impl Duties, horizon: impl Fn(&Self) -> Time) {
+    fn handle_until(&mut self, duties: &mut impl WorkerHandler, horizon: impl Fn(&Self) -> Time) {
         while let Some(incoming) = self.port.next(horizon(self)) {
             match incoming {
                 Incoming::Event(event, _) => duties.event(event, self),
                 Incoming::Command(command) => self.obey(command, duties),
-                Incoming::Order(order) => duties.order(order, self),
+                Incoming::WorkerOrder(order) => duties.order(order, self),
             }
         }
     }
 
-    fn obey(&mut self, command: Command, duties: &mut impl Duties) {
+    fn obey(&mut self, command: Command, duties: &mut impl WorkerHandler) {
         let (node, at) = (self.id, self.port.time());
         let what = match command {
             Command::Speed { speed, .. } => {
                 self.machine.set_speed(speed, at);
-                What::SpeedSet { node, speed }
+                RecordKind::SpeedSet { node, speed }
             }
             Command::Pause { paused, .. } if paused == self.paused => return,
             Command::Pause { paused, .. } => {
                 self.paused = paused;
                 self.stand_still(at);
-                if paused { What::Paused { node } } else { What::Resumed { node } }
+                if paused { RecordKind::Paused { node } } else { RecordKind::Resumed { node } }
             }
             Command::Condition { condition, .. } => return self.put(condition, duties),
             Command::Delay { from, .. } => return self.port.delayed(from),
@@ -224,7 +224,7 @@ impl Worker {
     }
 
     /// Something becomes of the machine.
-    fn put(&mut self, condition: Condition, duties: &mut impl Duties) {
+    fn put(&mut self, condition: Condition, duties: &mut impl WorkerHandler) {
         let (before, at) = (self.port.condition(), self.port.time());
         if !self.port.put(condition) {
             return;
@@ -260,12 +260,12 @@ impl Worker {
 
     /// Traces one piece of the atom in hand, or of the next in the pipe, and waits until the emulated machine has
     /// done as much.
-    fn trace_piece(&mut self, start: Time, duties: &mut impl Duties) -> Result<(), Stopped> {
+    fn trace_piece(&mut self, start: Time, duties: &mut impl WorkerHandler) -> Result<(), Stopped> {
         if self.hand.is_none()
             && let Some((atom, _)) = self.pipe.pop_front()
         {
             self.port.advance(start);
-            self.port.record(What::AtomStarted { node: self.id, atom });
+            self.port.record(RecordKind::AtomStarted { node: self.id, atom });
             let (rest, cost, wall) = (self.division.pixels(atom), Duration::ZERO, Duration::ZERO);
             self.hand = Some(Hand { atom, rest, cost, wall, failed: false });
         }
@@ -297,7 +297,7 @@ impl Worker {
         match self.hand.take_if(|hand| hand.rest.is_empty()) {
             Some(Hand { atom, failed: true, .. }) => {
                 self.port.advance(self.machine.time());
-                self.port.record(What::AtomFailed { node: self.id, atom });
+                self.port.record(RecordKind::AtomFailed { node: self.id, atom });
                 duties.failed(atom, self);
             }
             Some(hand) => self.finish_atom(hand, duties),
@@ -308,7 +308,7 @@ impl Worker {
 
     /// Waits until the piece in hand is due, unless that is near; handles what happens meanwhile. An atom that nobody needs any
     /// more is dropped.
-    fn wait_until_due(&mut self, duties: &mut impl Duties) -> Result<(), Stopped> {
+    fn wait_until_due(&mut self, duties: &mut impl WorkerHandler) -> Result<(), Stopped> {
         let mut near = AHEAD;
         loop {
             let now = self.step()?;
@@ -328,9 +328,9 @@ impl Worker {
         }
     }
 
-    fn finish_atom(&mut self, Hand { atom, cost, wall, .. }: Hand, duties: &mut impl Duties) {
+    fn finish_atom(&mut self, Hand { atom, cost, wall, .. }: Hand, duties: &mut impl WorkerHandler) {
         self.port.advance(self.machine.time());
-        let index = self.port.record(What::AtomDone { node: self.id, atom, cost });
+        let index = self.port.record(RecordKind::AtomDone { node: self.id, atom, cost });
         if !wall.is_zero() {
             self.batch.push(index, wall);
             if self.batch.is_full() {
@@ -370,12 +370,12 @@ pub(super) fn take_pixels(pixels: &mut Vec<Colour>, division: Division, atoms: &
 }
 
 /// Gives each atom of the batch its share of the CPU time since the last reading.
-fn split(batch: &mut Batch, meter: &mut Meter, port: &mut Port) {
+fn split(batch: &mut Batch, meter: &mut Meter, port: &mut Endpoint) {
     if batch.is_empty() {
         return;
     }
     for (index, share) in batch.split(meter.lap()) {
-        if let What::AtomDone { cost, .. } = port.recorded(index) {
+        if let RecordKind::AtomDone { cost, .. } = port.recorded(index) {
             *cost += share;
         }
     }

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::{Lanes, Traced, node_name};
@@ -42,7 +42,7 @@ pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
         "machine": header.caption.machine,
     });
     write!(to, "{{\"displayTimeUnit\":\"ms\",\"otherData\":{about},\"traceEvents\":[")?;
-    let mut events = Events { to, any: false };
+    let mut events = TraceEvents { to, any: false };
     name_tracks(log, &mut events)?;
     let traced = trace_machines(&lanes, &mut events)?;
     let travelled = messages(log, &mut events)?;
@@ -54,12 +54,12 @@ pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
 }
 
 /// Events in the making, one a line.
-struct Events<W> {
+struct TraceEvents<W> {
     to: W,
     any: bool,
 }
 
-impl<W: Write> Events<W> {
+impl<W: Write> TraceEvents<W> {
     fn put(&mut self, event: &Value) -> io::Result<()> {
         self.to.write_all(if self.any { b",\n" } else { b"\n" })?;
         self.any = true;
@@ -67,11 +67,11 @@ impl<W: Write> Events<W> {
     }
 
     /// An arrow through these slices; a single one has nowhere to point at.
-    fn arrow(&mut self, (id, name): (u64, &str), through: &[Place]) -> io::Result<()> {
+    fn arrow(&mut self, (id, name): (u64, &str), through: &[TraceSlice]) -> io::Result<()> {
         if through.len() < 2 {
             return Ok(());
         }
-        for (i, &Place { process, track, at }) in through.iter().enumerate() {
+        for (i, &TraceSlice { process, track, at }) in through.iter().enumerate() {
             let phase = match i {
                 0 => "s",
                 _ if i + 1 == through.len() => "f",
@@ -92,7 +92,7 @@ impl<W: Write> Events<W> {
 
 /// The slice that contains a time.
 #[derive(Clone, Copy)]
-struct Place {
+struct TraceSlice {
     process: u32,
     track: usize,
     at: Time,
@@ -102,9 +102,9 @@ struct Place {
 type AtomPlaces = BTreeMap<Atom, (NodeId, Traced)>;
 
 /// By message: the slice that shows it under way.
-type Travelled = BTreeMap<u64, Place>;
+type Travelled = BTreeMap<u64, TraceSlice>;
 
-fn name_tracks(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
+fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
     let processes = [
         (MACHINES, run.as_str()),
@@ -130,7 +130,7 @@ fn name_tracks(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> 
 }
 
 /// A slice for each atom.
-fn trace_machines(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<AtomPlaces> {
+fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<AtomPlaces> {
     let mut places = AtomPlaces::new();
     for (node, lane) in (0..).zip(lanes.lanes()) {
         let mut free = Time::ZERO;
@@ -142,7 +142,7 @@ fn trace_machines(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<
             events.put(&slice(
                 &name,
                 "atom",
-                Place { process: MACHINES, track: track_of(node), at: from },
+                TraceSlice { process: MACHINES, track: track_of(node), at: from },
                 free,
                 json!({}),
             ))?;
@@ -153,12 +153,12 @@ fn trace_machines(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<
 }
 
 /// A slice for each message, from when it left to when it arrives, on the first of the tracks of its kind that is free.
-fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travelled> {
+fn messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<Travelled> {
     let mut travelled = Travelled::new();
     // By kind and track: until when it is taken.
     let mut taken: BTreeMap<u32, Vec<Time>> = BTreeMap::new();
     for record in log.records() {
-        let What::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
         let (process, what) = match message {
             Message::Band(_) => (ATOMS, "band"),
             Message::Part(_) => (ATOMS, "part"),
@@ -185,7 +185,7 @@ fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travell
             }))?;
         }
         tracks[track] = *arrives;
-        let place = Place { process, track: track + 1, at: record.at };
+        let place = TraceSlice { process, track: track + 1, at: record.at };
         let name = format!("{what} {} → {}", party(*from), party(*to));
         let args = json!({ "message": id, "atoms": atoms_in(message.ranges()), "bytes": bytes });
         events.put(&slice(&name, what, place, *arrives, args))?;
@@ -195,11 +195,11 @@ fn messages(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<Travell
 }
 
 /// An arrow through the hops of each offer, and on to the atoms that answer it.
-fn offers(log: &RunLog, travelled: &Travelled, events: &mut Events<impl Write>) -> io::Result<()> {
+fn offers(log: &RunLog, travelled: &Travelled, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     // By machine: the number of the offer that it has out, and the slices that it has gone through.
-    let mut out: BTreeMap<NodeId, (u64, Vec<Place>)> = BTreeMap::new();
+    let mut out: BTreeMap<NodeId, (u64, Vec<TraceSlice>)> = BTreeMap::new();
     for record in log.records() {
-        let What::Sent { id, from, to, message, .. } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to, message, .. } = &record.what else { continue };
         let Some(&place) = travelled.get(id) else { continue };
         match (message, to) {
             (Message::Offer { who, .. }, _) => {
@@ -231,14 +231,14 @@ fn parcels(
     log: &RunLog,
     traced: &AtomPlaces,
     travelled: &Travelled,
-    events: &mut Events<impl Write>,
+    events: &mut TraceEvents<impl Write>,
 ) -> io::Result<()> {
     // By machine: what it traced, by time.
     let mut by_node: BTreeMap<NodeId, Vec<Traced>> = BTreeMap::new();
     traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
     for record in log.records() {
-        let What::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.what else { continue };
         if !matches!(message, Message::Band(_) | Message::Part(_) | Message::Transfer(_)) {
             continue;
         }
@@ -248,28 +248,28 @@ fn parcels(
             && let Some(bar) = bars[..bars.partition_point(|bar| bar.from <= record.at)].last()
             && record.at <= bar.to
         {
-            through.push(Place { process: MACHINES, track: track_of(*giver), at: record.at });
+            through.push(TraceSlice { process: MACHINES, track: track_of(*giver), at: record.at });
         }
         through.extend(travelled.get(id));
         let here = message.ranges().iter().cloned().flatten().filter_map(|atom| traced.get(&atom));
         let first = here.filter(|(node, bar)| node == to && bar.from >= *arrives).min_by_key(|(_, bar)| bar.from);
-        through.extend(first.map(|(_, bar)| Place { process: MACHINES, track: track_of(*to), at: bar.from }));
+        through.extend(first.map(|(_, bar)| TraceSlice { process: MACHINES, track: track_of(*to), at: bar.from }));
         events.arrow((2 * id + 1, "atoms"), &through)?;
     }
     Ok(())
 }
 
 /// What is done to machines, and what ends.
-fn happenings(log: &RunLog, events: &mut Events<impl Write>) -> io::Result<()> {
+fn happenings(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     for record in log.records() {
         let (node, what) = match &record.what {
-            What::Paused { node } => (Some(*node), "paused".into()),
-            What::Resumed { node } => (Some(*node), "resumed".into()),
-            What::Retired { node } => (Some(*node), "retired".into()),
-            What::Condition { node, condition } => (Some(*node), became(*condition).into()),
-            What::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
-            What::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
-            What::Finished => (None, "the picture is complete".into()),
+            RecordKind::Paused { node } => (Some(*node), "paused".into()),
+            RecordKind::Resumed { node } => (Some(*node), "resumed".into()),
+            RecordKind::Retired { node } => (Some(*node), "retired".into()),
+            RecordKind::Condition { node, condition } => (Some(*node), became(*condition).into()),
+            RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
+            RecordKind::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
+            RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,
         };
         let (track, scope) = node.map_or((0, "g"), |node| (track_of(node), "t"));
@@ -291,7 +291,7 @@ fn became(condition: Condition) -> &'static str {
 }
 
 /// What part of the machines traced, stretch by stretch.
-fn usage(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<()> {
+fn usage(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     let bars = || lanes.lanes().iter().flat_map(|lane| lane.bars());
     let end = bars().map(|bar| bar.to.0).max().unwrap_or_default();
     let length = end.div_ceil(STRETCHES).max(1);
@@ -316,8 +316,8 @@ fn usage(lanes: &Lanes, events: &mut Events<impl Write>) -> io::Result<()> {
 }
 
 /// A slice from its place until a time.
-fn slice(name: &str, kind: &str, place: Place, until: Time, args: Value) -> Value {
-    let Place { process, track, at } = place;
+fn slice(name: &str, kind: &str, place: TraceSlice, until: Time, args: Value) -> Value {
+    let TraceSlice { process, track, at } = place;
     json!({
         "ph": "X", "name": name, "cat": kind, "pid": process, "tid": track, "ts": micros(at),
         "dur": micros(Time(until.0.saturating_sub(at.0))), "args": args,

@@ -9,7 +9,7 @@ use super::to_svg;
 use crate::balance::Strategy;
 use crate::picture::Size;
 use crate::sim::Change;
-use crate::view::{Account, Paper, trial_name};
+use crate::view::{PrintedDrawing, TimeBudget, trial_name};
 
 /// Runs of one scene that are compared.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,12 +19,12 @@ pub struct Comparison {
     /// The size of its picture.
     pub size: Size,
     /// In the order in which they stand beside each other.
-    pub runs: Vec<ComparedRun>,
+    pub runs: Vec<ComparisonEntry>,
 }
 
 /// One of them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ComparedRun {
+pub struct ComparisonEntry {
     /// How it shares the atoms.
     pub strategy: Strategy,
     /// What is changed of it.
@@ -32,12 +32,12 @@ pub struct ComparedRun {
     /// How many machines it has.
     pub machines: usize,
     /// What it amounts to; `None` if it never ends.
-    pub account: Option<Account>,
+    pub account: Option<TimeBudget>,
 }
 
 /// What is known of a run; of one that never ends most is empty.
 #[derive(Serialize)]
-struct Row {
+struct ComparisonRow {
     run: String,
     strategy: &'static str,
     machines: usize,
@@ -72,32 +72,32 @@ impl Comparison {
     /// # Errors
     /// What `to` says.
     pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<()> {
-        let names: Vec<String> = self.runs.iter().map(ComparedRun::name).collect();
+        let names: Vec<String> = self.runs.iter().map(ComparisonEntry::name).collect();
         let accounts = self.runs.iter().map(|run| run.account.as_ref());
-        let runs: Vec<(&str, &Account)> =
+        let runs: Vec<(&str, &TimeBudget)> =
             names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
         let title = format!("{}, {}, in virtual time", self.title, self.size);
-        let Paper { marks, size } = Paper::comparison(&title, &runs);
+        let PrintedDrawing { marks, size } = PrintedDrawing::comparison(&title, &runs);
         write_drawing(to, &to_svg(&marks, size, 1), is_png)
     }
 }
 
-impl ComparedRun {
+impl ComparisonEntry {
     fn name(&self) -> String {
         trial_name(self.strategy, &self.changes)
     }
 
-    fn row(&self) -> Row {
+    fn row(&self) -> ComparisonRow {
         let known = self.account.as_ref();
-        let of = |figure: fn(&Account) -> f64| known.map(figure);
-        let counted = |figure: fn(&Account) -> u64| known.map(figure);
-        Row {
+        let of = |figure: fn(&TimeBudget) -> f64| known.map(figure);
+        let counted = |figure: fn(&TimeBudget) -> u64| known.map(figure);
+        ComparisonRow {
             run: self.name(),
             strategy: self.strategy.name(),
             machines: self.machines,
             time_s: of(|account| account.makespan.as_secs_f64()),
             ideal_s: of(|account| account.ideal.as_secs_f64()),
-            efficiency: of(Account::efficiency),
+            efficiency: of(TimeBudget::efficiency),
             tracing_s: of(|account| account.spent.tracing),
             starting_s: of(|account| account.spent.starting),
             asking_s: of(|account| account.spent.asking),
@@ -126,8 +126,8 @@ mod tests {
         let costs = PixelCosts::new(ring.header.size, &costs);
         let run = |strategy, changes: Vec<Change>| {
             let trial = changes.iter().fold(ring.clone(), |trial, change| trial.with(*change));
-            let account = Account::of(&trial.run(&costs));
-            ComparedRun { strategy, changes, machines: 3, account }
+            let account = TimeBudget::of(&trial.run(&costs));
+            ComparisonEntry { strategy, changes, machines: 3, account }
         };
         let bands = run(Strategy::Static, vec![Change::Strategy(Strategy::Static)]);
         let endless = run(Strategy::Static, vec![Change::Strategy(Strategy::Static), Change::Speed(2, 0.0)]);

@@ -6,15 +6,15 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Condition, Help, Message, NodeId, Party};
+use crate::balance::{Condition, Helper, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
 use crate::time::Time;
 
 /// One row. What a record says nothing of is empty; machines are numbered from 1, as in the window.
 #[derive(Default, Serialize)]
-struct Row {
+struct RecordRow {
     /// Seconds since the run began, to the nanosecond.
     time_s: String,
     /// What happened.
@@ -80,10 +80,10 @@ const COLUMNS: [&str; 14] = [
     "latency_s",
 ];
 
-fn row(record: &Record) -> Row {
-    let of = |what, node: NodeId| Row { what, node: Some(name(Party::Node(node))), ..Row::default() };
+fn row(record: &Record) -> RecordRow {
+    let of = |what, node: NodeId| RecordRow { what, node: Some(name(Party::Node(node))), ..RecordRow::default() };
     let row = match &record.what {
-        What::Sent { id, from, to, message, bytes, arrives } => Row {
+        RecordKind::Sent { id, from, to, message, bytes, arrives } => RecordRow {
             from: Some(name(*from)),
             to: Some(name(*to)),
             message: Some(*id),
@@ -91,25 +91,30 @@ fn row(record: &Record) -> Row {
             arrives_s: Some(at(*arrives)),
             ..sent(*from, message)
         },
-        What::Received { id, by } => {
-            Row { what: "received", node: Some(name(*by)), message: Some(*id), ..Row::default() }
+        RecordKind::Received { id, by } => {
+            RecordRow { what: "received", node: Some(name(*by)), message: Some(*id), ..RecordRow::default() }
         }
-        What::AtomStarted { node, atom } => {
-            Row { atoms: Some(atom.to_string()), count: Some(1), ..of("started", *node) }
+        RecordKind::AtomStarted { node, atom } => {
+            RecordRow { atoms: Some(atom.to_string()), count: Some(1), ..of("started", *node) }
         }
-        What::AtomDone { node, atom, cost } => {
-            Row { atoms: Some(atom.to_string()), count: Some(1), cost_s: Some(seconds(*cost)), ..of("done", *node) }
+        RecordKind::AtomDone { node, atom, cost } => RecordRow {
+            atoms: Some(atom.to_string()),
+            count: Some(1),
+            cost_s: Some(seconds(*cost)),
+            ..of("done", *node)
+        },
+        RecordKind::SpeedSet { node, speed } => RecordRow { speed: Some(*speed), ..of("speed", *node) },
+        RecordKind::Paused { node } => of("paused", *node),
+        RecordKind::Resumed { node } => of("resumed", *node),
+        RecordKind::Retired { node } => of("retired", *node),
+        RecordKind::LatencySet { latency } => {
+            RecordRow { what: "latency", latency_s: Some(seconds(*latency)), ..RecordRow::default() }
         }
-        What::SpeedSet { node, speed } => Row { speed: Some(*speed), ..of("speed", *node) },
-        What::Paused { node } => of("paused", *node),
-        What::Resumed { node } => of("resumed", *node),
-        What::Retired { node } => of("retired", *node),
-        What::LatencySet { latency } => Row { what: "latency", latency_s: Some(seconds(*latency)), ..Row::default() },
-        What::Estimating => Row { what: "estimating", ..Row::default() },
-        What::Estimated { costs } => {
-            Row { what: "estimated", cost_s: Some(seconds(costs.iter().sum())), ..Row::default() }
+        RecordKind::Estimating => RecordRow { what: "estimating", ..RecordRow::default() },
+        RecordKind::Estimated { costs } => {
+            RecordRow { what: "estimated", cost_s: Some(seconds(costs.iter().sum())), ..RecordRow::default() }
         }
-        What::Condition { node, condition } => {
+        RecordKind::Condition { node, condition } => {
             let what = match condition {
                 Condition::Well => "well",
                 Condition::Hung => "hung",
@@ -118,53 +123,61 @@ fn row(record: &Record) -> Row {
             };
             of(what, *node)
         }
-        What::Link { one, other, cut } => {
+        RecordKind::Link { one, other, cut } => {
             let what = if *cut { "link cut" } else { "link mended" };
-            Row { what, from: Some(name(*one)), to: Some(name(*other)), ..Row::default() }
+            RecordRow { what, from: Some(name(*one)), to: Some(name(*other)), ..RecordRow::default() }
         }
-        What::Delayed { from, to, until } => Row {
+        RecordKind::Delayed { from, to, until } => RecordRow {
             what: "held up",
             from: Some(name(*from)),
             to: Some(name(*to)),
             latency_s: Some(seconds(until.since(record.at))),
-            ..Row::default()
+            ..RecordRow::default()
         },
-        What::Lost { id } => Row { what: "lost", message: Some(*id), ..Row::default() },
-        What::AtomFailed { node, atom } => Row { atoms: Some(atom.to_string()), count: Some(1), ..of("failed", *node) },
-        What::GivenUp { atom } => Row { what: "given up", atoms: Some(atom.to_string()), ..Row::default() },
-        What::Finished => Row { what: "finished", ..Row::default() },
+        RecordKind::Lost { id } => RecordRow { what: "lost", message: Some(*id), ..RecordRow::default() },
+        RecordKind::AtomFailed { node, atom } => {
+            RecordRow { atoms: Some(atom.to_string()), count: Some(1), ..of("failed", *node) }
+        }
+        RecordKind::GivenUp { atom } => {
+            RecordRow { what: "given up", atoms: Some(atom.to_string()), ..RecordRow::default() }
+        }
+        RecordKind::Finished => RecordRow { what: "finished", ..RecordRow::default() },
     };
-    Row { time_s: at(record.at), ..row }
+    RecordRow { time_s: at(record.at), ..row }
 }
 
 /// What a message says.
-fn sent(from: Party, message: &Message) -> Row {
+fn sent(from: Party, message: &Message) -> RecordRow {
     let ranges = message.ranges();
-    let carried = |what| Row { what, atoms: Some(atoms(ranges)), count: Some(atoms_in(ranges)), ..Row::default() };
+    let carried =
+        |what| RecordRow { what, atoms: Some(atoms(ranges)), count: Some(atoms_in(ranges)), ..RecordRow::default() };
     match message {
         Message::Band(_) => carried("band"),
         Message::Part(_) => carried("part"),
         Message::Transfer(_) => carried("transfer"),
         Message::Results(_) => carried("results"),
-        Message::Request => Row { what: "request", ..Row::default() },
+        Message::Request => RecordRow { what: "request", ..RecordRow::default() },
         Message::Again(_) => carried("again"),
-        Message::Wake => Row { what: "wake", ..Row::default() },
+        Message::Wake => RecordRow { what: "wake", ..RecordRow::default() },
         Message::Beat { holds, .. } => {
-            Row { what: "beat", atoms: Some(atoms(holds)), count: Some(atoms_in(holds)), ..Row::default() }
+            RecordRow { what: "beat", atoms: Some(atoms(holds)), count: Some(atoms_in(holds)), ..RecordRow::default() }
         }
-        Message::Gone(nodes) => Row { what: "gone", count: Some(nodes.len() as u32), ..Row::default() },
-        Message::Placed(placed) => {
-            Row { what: "placed", atoms: Some(atoms(placed)), count: Some(atoms_in(placed)), ..Row::default() }
-        }
-        Message::Failed(atom) => Row { what: "failed", atoms: Some(atom.to_string()), ..Row::default() },
-        Message::Shutdown => Row { what: "shutdown", ..Row::default() },
+        Message::Gone(nodes) => RecordRow { what: "gone", count: Some(nodes.len() as u32), ..RecordRow::default() },
+        Message::Placed(placed) => RecordRow {
+            what: "placed",
+            atoms: Some(atoms(placed)),
+            count: Some(atoms_in(placed)),
+            ..RecordRow::default()
+        },
+        Message::Failed(atom) => RecordRow { what: "failed", atoms: Some(atom.to_string()), ..RecordRow::default() },
+        Message::Shutdown => RecordRow { what: "shutdown", ..RecordRow::default() },
         Message::Offer { who, done, help } => {
             let what = match help {
-                Some(Help { left: None, .. }) => "note",
+                Some(Helper { left: None, .. }) => "note",
                 _ if from == Party::Node(*who) => "offer",
                 _ => "hop",
             };
-            Row { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..Row::default() }
+            RecordRow { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..RecordRow::default() }
         }
     }
 }
@@ -203,7 +216,7 @@ mod tests {
     use super::*;
     use crate::balance::Strategy as Sharing;
     use crate::picture::Size;
-    use crate::runlog::{Driver, Header, Tally};
+    use crate::runlog::{Driver, Header, Metrics};
     use crate::sim::Sim;
 
     fn log(speeds: Vec<f64>, pixels: u32, strategy: Sharing) -> RunLog {
@@ -229,7 +242,7 @@ mod tests {
             speeds in prop::collection::vec(0.1..1.0f64, 1..6), pixels in 1..60u32, strategy in prop::sample::select(&Sharing::ALL),
         ) {
             let log = log(speeds, pixels, strategy);
-            let (rows, tally) = (read(&log), Tally::of(&log));
+            let (rows, tally) = (read(&log), Metrics::of(&log));
             prop_assert_eq!(rows.len(), log.records().len());
             let rows_of = |what: &str| rows.iter().filter(|row| row["what"] == what).count() as u64;
             let messages = tally.messages();

@@ -6,7 +6,7 @@ use super::{Raster, to_hatched_svg};
 use crate::picture::encode_png;
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::Paper;
+use crate::view::PrintedDrawing;
 
 /// What is drawn of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,9 +21,9 @@ impl Drawing {
     /// The text of an SVG file.
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
-        let Paper { marks, size } = match self {
-            Self::Ring(at) => Paper::ring(log, at),
-            Self::Timeline => Paper::timeline(log),
+        let PrintedDrawing { marks, size } = match self {
+            Self::Ring(at) => PrintedDrawing::ring(log, at),
+            Self::Timeline => PrintedDrawing::timeline(log),
         };
         to_hatched_svg(&marks, size, nodes)
     }

@@ -12,7 +12,7 @@ use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::{Anchor, Canvas, Hue, Layer, Mark, Moment, Outcome, Overlay, TextSize, ring, time_words};
+use crate::view::{Anchor, Canvas, Hue, Layer, Mark, RingOverlay, Snapshot, Summary, TextSize, ring, time_words};
 
 /// How a film is made of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl Film {
     ) -> io::Result<()> {
         let layout = Layout::new(self.width, log.header.size);
         let mut animation = Animation::begin(to, layout.whole)?;
-        let mut projector = Projector::new(log, frame, self, layout);
+        let mut projector = FilmFrames::new(log, frame, self, layout);
         let frames = (self.length.as_millis() as u64 / (10 * u64::from(SEEN))).max(1);
         for number in 0..=frames {
             if !tell(number as f64 / frames as f64) {
@@ -104,14 +104,14 @@ impl Layout {
 }
 
 /// Goes through a run and draws its moments.
-struct Projector<'a> {
+struct FilmFrames<'a> {
     log: &'a RunLog,
     look: (Layer, f32),
-    moment: Moment,
+    moment: Snapshot,
     canvas: Canvas,
     raster: Raster,
     layout: Layout,
-    outcome: Option<Outcome>,
+    outcome: Option<Summary>,
     /// When the picture was complete, or else the last record.
     end: Time,
     /// How many of the run's seconds go by in one of the film.
@@ -120,21 +120,21 @@ struct Projector<'a> {
     words: (String, RgbImage),
 }
 
-impl<'a> Projector<'a> {
+impl<'a> FilmFrames<'a> {
     fn new(log: &'a RunLog, frame: &Frame, film: Film, layout: Layout) -> Self {
         let header = &log.header;
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours, PRINT.ground);
         canvas.take(0..header.division.atoms(), frame.pixels());
-        let finished = log.records().iter().rfind(|record| record.what == crate::record::What::Finished);
+        let finished = log.records().iter().rfind(|record| record.what == crate::record::RecordKind::Finished);
         let end = finished.map_or_else(|| log.end(), |finished| finished.at);
         Self {
             look: film.look,
-            moment: Moment::new(header),
+            moment: Snapshot::new(header),
             canvas,
             raster: Raster::new(),
             layout,
-            outcome: Outcome::of(log),
+            outcome: Summary::of(log),
             end,
             rate: end.secs() / film.length.as_secs_f64().max(1e-3),
             words: Default::default(),
@@ -177,7 +177,7 @@ impl<'a> Projector<'a> {
     fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, String> {
         /// Longer than the last message is drawn.
         const LINGER: Duration = Duration::from_secs(5);
-        let overlay = Overlay { outcome: self.outcome.filter(|_| is_last), ..Overlay::default() };
+        let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
         self.drawn(&ring(&self.moment.state, &overlay, at, [width as f32, height as f32]), [width, height])

@@ -14,7 +14,7 @@ mod raster;
 mod svg;
 
 pub use chrome::write_chrome;
-pub use comparison::{ComparedRun, Comparison};
+pub use comparison::{Comparison, ComparisonEntry};
 pub use csv::write_csv;
 pub use drawing::Drawing;
 pub use film::Film;

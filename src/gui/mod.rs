@@ -17,8 +17,8 @@ pub use app::App;
 pub use session::opening::Opening;
 pub use session::{Phase, Session, Stage};
 pub use settings::Settings;
-pub use settings::pace::Tempo;
-pub use settings::speed_preset::Preset;
+pub use settings::pace::Pace;
+pub use settings::speed_preset::SpeedPreset;
 
 use crate::language::Language;
 

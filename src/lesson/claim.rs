@@ -2,19 +2,19 @@
 
 use serde::Deserialize;
 
-use super::perform::Performed;
+use super::perform::LessonRun;
 use super::{Lesson, Moment, Step};
 use crate::picture::atoms_in;
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::RunLog;
-use crate::view::Account;
+use crate::view::TimeBudget;
 
 /// A figure of a run within bounds; or how many times that of another run it is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
     /// Which figure.
-    pub figure: Figure,
+    pub figure: ClaimFigure,
     /// Of which run; of the one that the step shows if `None`.
     #[serde(default)]
     pub of: Option<String>,
@@ -31,7 +31,7 @@ pub struct Claim {
 
 /// A figure of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-pub enum Figure {
+pub enum ClaimFigure {
     /// From the first band sent to the last atom placed.
     Seconds,
     /// The ideal time over that, 0 to 1.
@@ -66,9 +66,9 @@ pub enum Figure {
     Ends,
 }
 
-impl Figure {
+impl ClaimFigure {
     /// Its value in a run of which this is the account; `None` where there is none, since its picture is never completed.
-    fn of(self, log: &RunLog, account: Option<&Account>) -> Option<f64> {
+    fn of(self, log: &RunLog, account: Option<&TimeBudget>) -> Option<f64> {
         match self {
             Self::Ends => return Some(if account.is_some() { 1.0 } else { 0.0 }),
             Self::Atoms => return Some(log.header.division.atoms().into()),
@@ -99,7 +99,7 @@ impl Figure {
 fn largest(log: &RunLog) -> f64 {
     let Some((records, _)) = Moment::BiggestTransfer.of(log) else { return 0.0 };
     match &log.records()[records - 1].what {
-        What::Sent { message, .. } => atoms_in(message.ranges()).into(),
+        RecordKind::Sent { message, .. } => atoms_in(message.ranges()).into(),
         _ => 0.0,
     }
 }
@@ -111,19 +111,19 @@ fn dearest(log: &RunLog) -> f64 {
 }
 
 /// A run of which something is claimed.
-struct Run<'a> {
+struct ClaimRun<'a> {
     name: &'a str,
     log: &'a RunLog,
-    account: Option<Account>,
+    account: Option<TimeBudget>,
 }
 
-fn known(performed: &[(String, Performed)]) -> Vec<Run<'_>> {
-    performed.iter().map(|(name, run)| Run { name, log: &run.log, account: Account::of(&run.log) }).collect()
+fn known(performed: &[(String, LessonRun)]) -> Vec<ClaimRun<'_>> {
+    performed.iter().map(|(name, run)| ClaimRun { name, log: &run.log, account: TimeBudget::of(&run.log) }).collect()
 }
 
 impl Claim {
     /// The claim's value, and whether it holds; `run` is what the step shows.
-    fn holds(&self, run: &str, runs: &[Run<'_>]) -> (Option<f64>, bool) {
+    fn holds(&self, run: &str, runs: &[ClaimRun<'_>]) -> (Option<f64>, bool) {
         let value = |name: &str| {
             let run = runs.iter().find(|run| run.name == name)?;
             self.figure.of(run.log, run.account.as_ref())
@@ -142,7 +142,7 @@ impl Claim {
 
 impl Step {
     /// What is to be said if its run does not have the moment to which it leads.
-    fn missing(&self, performed: &[(String, Performed)]) -> Option<String> {
+    fn missing(&self, performed: &[(String, LessonRun)]) -> Option<String> {
         let (until, (name, run)) = (self.until?, performed.iter().find(|(name, _)| *name == self.run)?);
         let lasts = run.log.records().last().map_or(0.0, |record| record.at.secs());
         until.of(&run.log).is_none().then(|| format!("the run `{name}` has no {until:?}; it lasts {lasts:.1} s"))
@@ -154,20 +154,20 @@ impl Lesson {
     ///
     /// # Errors
     /// A sentence on the first that a run does not have.
-    pub fn has_moments(&self, performed: &[(String, Performed)]) -> Result<(), String> {
+    pub fn has_moments(&self, performed: &[(String, LessonRun)]) -> Result<(), String> {
         let missing = (1..).zip(&self.steps).find_map(|(number, step)| Some((number, step.missing(performed)?)));
         missing.map_or(Ok(()), |(number, why)| Err(format!("step {number}: {why}")))
     }
 
     /// What each step claims and what that comes to in these runs; `None` where a run never ends.
-    pub fn values(&self, performed: &[(String, Performed)]) -> Vec<Vec<Option<f64>>> {
+    pub fn values(&self, performed: &[(String, LessonRun)]) -> Vec<Vec<Option<f64>>> {
         let runs = known(performed);
         let of = |step: &Step| step.holds.iter().map(|claim| claim.holds(&step.run, &runs).0).collect();
         self.steps.iter().map(of).collect()
     }
 
     /// Every claim with its value, and whether it holds; and every moment that a run does not have.
-    pub fn check(&self, performed: &[(String, Performed)]) -> Vec<(String, bool)> {
+    pub fn check(&self, performed: &[(String, LessonRun)]) -> Vec<(String, bool)> {
         let runs = known(performed);
         let mut told = Vec::new();
         for (number, step) in (1..).zip(&self.steps) {

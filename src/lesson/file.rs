@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use super::{BUILT_IN, Claim, Lesson, Look, Moment, Plan, Question, Step, Words};
+use super::{BUILT_IN, Claim, Lesson, LowerView, Moment, Question, RunPlan, Step, Words};
 use crate::balance::{Condition, NodeId, Remedies, Remedy, Strategy};
 use crate::picture::Size;
 use crate::ron_file::{self, FileError, find_path, skipped};
@@ -92,24 +92,24 @@ struct PlanFile {
     spares: usize,
     #[serde(deserialize_with = "remedies")]
     without: Vec<Remedy>,
-    script: Vec<Deed>,
+    script: Vec<ScriptStep>,
 }
 
 /// At some second a machine gets another speed, or something else becomes of it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Deed {
+struct ScriptStep {
     at: f64,
     machine: usize,
     #[serde(default)]
     speed: Option<f64>,
     #[serde(default)]
-    becomes: Option<Becomes>,
+    becomes: Option<ConditionFile>,
 }
 
 /// What becomes of a machine.
 #[derive(Clone, Copy, Deserialize)]
-enum Becomes {
+enum ConditionFile {
     Well,
     Hung,
     CutOff,
@@ -127,7 +127,7 @@ struct StepFile {
     #[serde(default)]
     machine: Option<usize>,
     #[serde(default)]
-    look: Look,
+    look: LowerView,
     #[serde(default)]
     ask: Option<QuestionFile>,
     #[serde(default)]
@@ -209,7 +209,7 @@ impl LessonFile {
 }
 
 impl PlanFile {
-    fn resolve(self, directory: &Path) -> Result<Plan, Wrong> {
+    fn resolve(self, directory: &Path) -> Result<RunPlan, Wrong> {
         if scene::built_in(&self.scene).is_none() && !directory.join(&self.scene).is_file() {
             let names: Vec<_> = scene::BUILT_IN.iter().map(|(name, _)| *name).collect();
             let (scene, names) = (&self.scene, names.join(", "));
@@ -254,7 +254,7 @@ impl PlanFile {
         }
         script.sort_by_key(|(at, _)| *at);
         let lasts = within("`seconds`", self.seconds, 0.1, 3600.0).map_err(|why| Wrong::new(&["seconds"], why))?;
-        Ok(Plan {
+        Ok(RunPlan {
             scene: self.scene,
             size,
             atom: self.atom,
@@ -272,7 +272,7 @@ impl PlanFile {
     }
 }
 
-impl Deed {
+impl ScriptStep {
     fn resolve(self, machines: usize) -> Result<(Time, Command), String> {
         let node = node(self.machine, machines)?;
         let at = within("the second at which a machine changes", self.at, 0.0, 3600.0)?;
@@ -285,7 +285,7 @@ impl Deed {
     }
 }
 
-impl Becomes {
+impl ConditionFile {
     fn condition(self) -> Condition {
         match self {
             Self::Well => Condition::Well,
@@ -297,7 +297,7 @@ impl Becomes {
 }
 
 impl StepFile {
-    fn resolve(self, runs: &BTreeMap<String, Plan>, run: String) -> Result<Step, Wrong> {
+    fn resolve(self, runs: &BTreeMap<String, RunPlan>, run: String) -> Result<Step, Wrong> {
         let known = |name: &String, path: &[&str]| {
             let all: Vec<_> = runs.keys().map(|name| format!("`{name}`")).collect();
             let wrong = || Wrong::new(path, format!("there is no run `{name}`; there are {}", all.join(", ")));

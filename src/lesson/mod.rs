@@ -8,10 +8,10 @@ mod perform;
 mod validate;
 mod words;
 
-pub use claim::{Claim, Figure};
+pub use claim::{Claim, ClaimFigure};
 pub use file::is_lesson_file;
 pub use moment::Moment;
-pub use perform::Performed;
+pub use perform::LessonRun;
 pub use words::Words;
 
 use std::collections::BTreeMap;
@@ -36,14 +36,14 @@ pub struct Lesson {
     /// What it is about, in a line.
     pub about: Words,
     /// The runs that it shows, by name.
-    pub runs: BTreeMap<String, Plan>,
+    pub runs: BTreeMap<String, RunPlan>,
     /// What is said and shown, one after the other; at least one.
     pub steps: Vec<Step>,
 }
 
 /// A run that a lesson shows.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct RunPlan {
     /// A built-in scene, or a scene's file beside the lesson's.
     pub scene: String,
     /// Width and height of the picture.
@@ -82,7 +82,7 @@ pub struct Step {
     /// Which machine stands out.
     pub machine: Option<NodeId>,
     /// What is looked at.
-    pub look: Look,
+    pub look: LowerView,
     /// What is asked before one sees.
     pub ask: Option<Question>,
     /// What is claimed.
@@ -91,7 +91,7 @@ pub struct Step {
 
 /// What stands below the picture and the ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum Look {
+pub enum LowerView {
     /// The machines.
     #[default]
     Machines,

@@ -4,10 +4,10 @@ use serde::Deserialize;
 
 use crate::balance::{Message, Party};
 use crate::picture::atoms_in;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::About;
+use crate::view::Subject;
 
 /// A moment of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -44,9 +44,9 @@ pub enum Moment {
 
 impl Moment {
     /// How many records have happened then, and what the last of them is about. `None` if the run has no such moment.
-    pub fn of(self, log: &RunLog) -> Option<(usize, Option<About>)> {
+    pub fn of(self, log: &RunLog) -> Option<(usize, Option<Subject>)> {
         let records = log.records();
-        let first = |is_it: &dyn Fn(&What) -> bool| records.iter().position(|record| is_it(&record.what));
+        let first = |is_it: &dyn Fn(&RecordKind) -> bool| records.iter().position(|record| is_it(&record.what));
         let index = match self {
             Self::Start => return Some((0, None)),
             Self::End => return Some((records.len(), None)),
@@ -56,7 +56,7 @@ impl Moment {
             }
             Self::Traced(part) => {
                 let wanted = (part * f64::from(log.header.division.atoms())).ceil() as usize;
-                let mut done = (0..records.len()).filter(|&i| matches!(records[i].what, What::AtomDone { .. }));
+                let mut done = (0..records.len()).filter(|&i| matches!(records[i].what, RecordKind::AtomDone { .. }));
                 return Some((done.nth(wanted.saturating_sub(1))? + 1, None));
             }
             Self::FirstOffer => first(&|what| is_own_offer(what)),
@@ -67,33 +67,33 @@ impl Moment {
             Self::SmallestTransfer => {
                 transfers(records).min_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
             }
-            Self::FirstRetired => first(&|what| matches!(what, What::Retired { .. })),
-            Self::FirstFailure => first(&|what| matches!(what, What::Condition { .. })),
+            Self::FirstRetired => first(&|what| matches!(what, RecordKind::Retired { .. })),
+            Self::FirstFailure => first(&|what| matches!(what, RecordKind::Condition { .. })),
             Self::FirstGone => records.iter().position(|record| {
                 // At the beginning only the seats are empty that were never taken.
-                record.at > Time::ZERO && matches!(record.what, What::Sent { message: Message::Gone(_), .. })
+                record.at > Time::ZERO && matches!(record.what, RecordKind::Sent { message: Message::Gone(_), .. })
             }),
-            Self::FirstAgain => first(&|what| matches!(what, What::Sent { message: Message::Again(_), .. })),
-            Self::FirstWake => first(&|what| matches!(what, What::Sent { message: Message::Wake, .. })),
+            Self::FirstAgain => first(&|what| matches!(what, RecordKind::Sent { message: Message::Again(_), .. })),
+            Self::FirstWake => first(&|what| matches!(what, RecordKind::Sent { message: Message::Wake, .. })),
             Self::LastAlone => alone(log),
         }?;
         let about = match &records[index].what {
-            What::Sent { id, .. } => Some(About::Message(*id)),
-            What::Retired { node } | What::Condition { node, .. } => Some(About::Node(*node)),
+            RecordKind::Sent { id, .. } => Some(Subject::Message(*id)),
+            RecordKind::Retired { node } | RecordKind::Condition { node, .. } => Some(Subject::Node(*node)),
             _ => None,
         };
         Some((index + 1, about))
     }
 }
 
-fn is_own_offer(what: &What) -> bool {
-    matches!(what, What::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
+fn is_own_offer(what: &RecordKind) -> bool {
+    matches!(what, RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
 }
 
 /// How many atoms go from one machine to another.
-fn moved(what: &What) -> u32 {
+fn moved(what: &RecordKind) -> u32 {
     match what {
-        What::Sent { message: Message::Transfer(ranges), .. } => atoms_in(ranges),
+        RecordKind::Sent { message: Message::Transfer(ranges), .. } => atoms_in(ranges),
         _ => 0,
     }
 }
@@ -106,7 +106,7 @@ fn transfers(records: &[Record]) -> impl Iterator<Item = (usize, u32)> {
 fn alone(log: &RunLog) -> Option<usize> {
     let mut ends = vec![None; log.header.speeds.len()];
     for (i, record) in log.records().iter().enumerate() {
-        if let What::AtomDone { node, .. } = record.what
+        if let RecordKind::AtomDone { node, .. } = record.what
             && let Some(end) = ends.get_mut(usize::from(node))
         {
             *end = Some(i);

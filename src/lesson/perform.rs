@@ -5,18 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Lesson, Plan};
+use super::{Lesson, RunPlan};
 use crate::balance::Rules;
-use crate::driver::Whole;
+use crate::driver::TracedPicture;
 use crate::picture::Quality;
-use crate::runlog::{Header, Link, RunLog};
+use crate::runlog::{Header, LinkSettings, RunLog};
 use crate::scene::{Opened, built_in};
 use crate::sim::{PixelCosts, Trial};
 use crate::tracer::Tracer;
 
 /// A run of a lesson that has been run.
 #[derive(Clone)]
-pub struct Performed {
+pub struct LessonRun {
     /// Its scene.
     pub opened: Arc<Opened>,
     /// The scene, compiled for its picture.
@@ -26,7 +26,7 @@ pub struct Performed {
 }
 
 /// A scene's picture at a size, and what its pixels cost.
-struct Traced {
+struct TracedPixels {
     opened: Arc<Opened>,
     tracer: Arc<Tracer>,
     costs: PixelCosts,
@@ -41,9 +41,9 @@ impl Lesson {
         &self,
         done: &(dyn Fn(u32) + Sync),
         is_over: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Vec<(String, Performed)>>, String> {
+    ) -> Result<Option<Vec<(String, LessonRun)>>, String> {
         // Each scene is traced once at each size.
-        let mut known: BTreeMap<(&str, u32, u32), Traced> = BTreeMap::new();
+        let mut known: BTreeMap<(&str, u32, u32), TracedPixels> = BTreeMap::new();
         let mut performed = Vec::new();
         for (name, plan) in &self.runs {
             let traced = match known.entry(plan.picture()) {
@@ -58,19 +58,19 @@ impl Lesson {
             };
             let log = Arc::new(plan.trial(&traced.opened, &traced.costs).run(&traced.costs));
             let (opened, tracer) = (Arc::clone(&traced.opened), Arc::clone(&traced.tracer));
-            performed.push((name.clone(), Performed { opened, tracer, log }));
+            performed.push((name.clone(), LessonRun { opened, tracer, log }));
         }
         Ok(Some(performed))
     }
 
     /// How many pixels are traced to run all runs.
     pub fn pixels(&self) -> u32 {
-        let pictures: BTreeSet<_> = self.runs.values().map(Plan::picture).collect();
+        let pictures: BTreeSet<_> = self.runs.values().map(RunPlan::picture).collect();
         pictures.iter().map(|(_, width, height)| width * height).sum()
     }
 }
 
-impl Plan {
+impl RunPlan {
     /// The picture that is to be traced: its scene, width and height.
     fn picture(&self) -> (&str, u32, u32) {
         (&self.scene, self.size.width(), self.size.height())
@@ -95,7 +95,7 @@ impl Plan {
             },
             spares: self.spares,
             pace: pace.clamp(1e-9, 1.0),
-            link: Link { latency: self.latency, ..plain.link },
+            link: LinkSettings { latency: self.latency, ..plain.link },
             handling: self.handling,
             ..plain
         };
@@ -104,16 +104,16 @@ impl Plan {
 }
 
 fn trace(
-    plan: &Plan,
+    plan: &RunPlan,
     directory: &Path,
     done: &(dyn Fn(u32) + Sync),
     is_over: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Traced>, String> {
+) -> Result<Option<TracedPixels>, String> {
     let beside = directory.join(&plan.scene);
     let argument =
         if built_in(&plan.scene).is_some() { plan.scene.clone() } else { beside.to_string_lossy().into_owned() };
     let opened = Arc::new(Opened::new(&argument).map_err(|error| error.to_string())?);
     let tracer = Arc::new(Tracer::new(&opened.scene, plan.size, Quality::default()));
-    let Some((_, costs)) = Whole::by_pixel(&tracer, done, is_over)? else { return Ok(None) };
-    Ok(Some(Traced { opened, tracer, costs }))
+    let Some((_, costs)) = TracedPicture::by_pixel(&tracer, done, is_over)? else { return Ok(None) };
+    Ok(Some(TracedPixels { opened, tracer, costs }))
 }

@@ -1,6 +1,6 @@
 //! What claims came to, for whoever takes the lesson.
 
-use super::{Claim, Figure, Step};
+use super::{Claim, ClaimFigure, Step};
 use crate::language::{decimal, say, word};
 use crate::view::{count, fraction};
 
@@ -26,7 +26,7 @@ impl Claim {
     }
 }
 
-impl Figure {
+impl ClaimFigure {
     fn name(self) -> Option<&'static str> {
         Some(match self {
             Self::Seconds => word!("time", "tempo"),

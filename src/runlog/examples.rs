@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::Header;
 use crate::balance::{Message, NodeId, Party, Strategy};
 use crate::picture::{Atom, Size};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
 /// A run of 10 × 10 pixels in atoms of 5 on nodes of these speeds, at full pace on 2 cores.
@@ -17,17 +17,17 @@ pub fn header(speeds: &[f64]) -> Header {
 }
 
 /// `what` at `at` seconds.
-pub fn at(at: u64, what: What) -> Record {
+pub fn at(at: u64, what: RecordKind) -> Record {
     Record { at: Time::ZERO + Duration::from_secs(at), what }
 }
 
 /// At `at` seconds, `node` is done with `atom`, at a cost of `cost` seconds.
 pub fn done(at: u64, node: NodeId, atom: Atom, cost: u64) -> Record {
-    self::at(at, What::AtomDone { node, atom, cost: Duration::from_secs(cost) })
+    self::at(at, RecordKind::AtomDone { node, atom, cost: Duration::from_secs(cost) })
 }
 
 /// At `at` seconds a message of 10 bytes leaves.
 pub fn sent(at: u64, from: Party, to: Party, message: Message) -> Record {
     let arrives = Time::ZERO + Duration::from_secs(at + 1);
-    self::at(at, What::Sent { id: 0, from, to, message, bytes: 10, arrives })
+    self::at(at, RecordKind::Sent { id: 0, from, to, message, bytes: 10, arrives })
 }

@@ -159,10 +159,10 @@ fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::super::examples::{done, header};
-    use super::super::{Driver, Link};
+    use super::super::{Driver, LinkSettings};
     use super::*;
-    use crate::balance::{Condition, Help, Message, Party, Rules, Strategy as Sharing};
-    use crate::record::What;
+    use crate::balance::{Condition, Helper, Message, Party, Rules, Strategy as Sharing};
+    use crate::record::RecordKind;
     use crate::time::Time;
     use proptest::prelude::*;
     use std::time::Duration;
@@ -201,42 +201,42 @@ mod tests {
         ]
     }
 
-    fn help() -> impl Strategy<Value = Help> {
+    fn help() -> impl Strategy<Value = Helper> {
         let numbers = (any::<u32>(), any::<u64>(), any::<u16>(), prop::option::of(any::<u16>()));
-        numbers.prop_map(|(speed, sent, stop, left)| Help { speed, sent: Time(sent), stop, left })
+        numbers.prop_map(|(speed, sent, stop, left)| Helper { speed, sent: Time(sent), stop, left })
     }
 
     fn conditions() -> impl Strategy<Value = Condition> {
         prop::sample::select(vec![Condition::Well, Condition::Hung, Condition::CutOff, Condition::Off])
     }
 
-    fn happenings() -> impl Strategy<Value = What> {
+    fn happenings() -> impl Strategy<Value = RecordKind> {
         let sent = ((any::<u64>(), 0..1u64 << 32), parties(), parties(), messages());
         let cost = || (0..=365 * 24 * 3600u64).prop_map(Duration::from_secs);
         prop_oneof![
             sent.prop_map(|((id, bytes), from, to, message)| {
-                What::Sent { id, from, to, message, bytes, arrives: Time(u64::MAX) }
+                RecordKind::Sent { id, from, to, message, bytes, arrives: Time(u64::MAX) }
             }),
-            (any::<u64>(), parties()).prop_map(|(id, by)| What::Received { id, by }),
-            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomStarted { node, atom }),
-            (0..NODES, 0..ATOMS, cost()).prop_map(|(node, atom, cost)| What::AtomDone { node, atom, cost }),
-            (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| What::SpeedSet { node, speed }),
-            (0..NODES).prop_map(|node| What::Paused { node }),
-            (0..NODES).prop_map(|node| What::Resumed { node }),
-            (0..=3_600_000u64).prop_map(|ms| What::LatencySet { latency: Duration::from_millis(ms) }),
-            (0..NODES).prop_map(|node| What::Retired { node }),
-            (0..NODES, conditions()).prop_map(|(node, condition)| What::Condition { node, condition }),
-            (parties(), parties(), any::<bool>()).prop_map(|(one, other, cut)| What::Link { one, other, cut }),
+            (any::<u64>(), parties()).prop_map(|(id, by)| RecordKind::Received { id, by }),
+            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| RecordKind::AtomStarted { node, atom }),
+            (0..NODES, 0..ATOMS, cost()).prop_map(|(node, atom, cost)| RecordKind::AtomDone { node, atom, cost }),
+            (0..NODES, 0.0..=1.0f64).prop_map(|(node, speed)| RecordKind::SpeedSet { node, speed }),
+            (0..NODES).prop_map(|node| RecordKind::Paused { node }),
+            (0..NODES).prop_map(|node| RecordKind::Resumed { node }),
+            (0..=3_600_000u64).prop_map(|ms| RecordKind::LatencySet { latency: Duration::from_millis(ms) }),
+            (0..NODES).prop_map(|node| RecordKind::Retired { node }),
+            (0..NODES, conditions()).prop_map(|(node, condition)| RecordKind::Condition { node, condition }),
+            (parties(), parties(), any::<bool>()).prop_map(|(one, other, cut)| RecordKind::Link { one, other, cut }),
             (parties(), parties(), 0..=3_600_000u64).prop_map(|(from, to, ms)| {
                 let until = Time::ZERO + Duration::from_millis(ms);
-                What::Delayed { from, to, until }
+                RecordKind::Delayed { from, to, until }
             }),
-            any::<u64>().prop_map(|id| What::Lost { id }),
-            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| What::AtomFailed { node, atom }),
-            (0..ATOMS).prop_map(|atom| What::GivenUp { atom }),
-            Just(What::Estimating),
-            cost().prop_map(|cost| What::Estimated { costs: vec![cost] }),
-            Just(What::Finished),
+            any::<u64>().prop_map(|id| RecordKind::Lost { id }),
+            (0..NODES, 0..ATOMS).prop_map(|(node, atom)| RecordKind::AtomFailed { node, atom }),
+            (0..ATOMS).prop_map(|atom| RecordKind::GivenUp { atom }),
+            Just(RecordKind::Estimating),
+            cost().prop_map(|cost| RecordKind::Estimated { costs: vec![cost] }),
+            Just(RecordKind::Finished),
         ]
     }
 
@@ -254,7 +254,7 @@ mod tests {
                 driver: Driver::Sim,
                 rules: Rules { strategy: Sharing::FarmBySpeed, part, batch, ..header(&speeds).rules },
                 pace,
-                link: Link { latency, bandwidth, shared },
+                link: LinkSettings { latency, bandwidth, shared },
                 handling,
                 ..header(&speeds)
             },

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::Caption;
+use super::Metadata;
 use crate::balance::{NodeId, Remedies, Rules, Strategy};
 use crate::picture::{Division, Quality, Size};
 
@@ -35,14 +35,14 @@ pub struct Header {
     /// speed 1 never waits.
     pub pace: f64,
     /// The network.
-    pub link: Link,
+    pub link: LinkSettings,
     /// How long the parent is busy with each message.
     pub handling: Duration,
     /// Cores of the computer that emulates the machines; in virtual time as many as there are machines.
     pub cores: usize,
     /// What is said of the run; nothing in older files.
-    #[serde(default, skip_serializing_if = "Caption::is_empty")]
-    pub caption: Caption,
+    #[serde(default, skip_serializing_if = "Metadata::is_empty")]
+    pub caption: Metadata,
 }
 
 /// Who executes a run.
@@ -86,12 +86,12 @@ impl Header {
             driver: Driver::Threads,
             rules: Rules::usual(strategy, division, speeds.len()),
             pace: 1.0,
-            link: Link { latency: Duration::ZERO, bandwidth: None, shared: false },
+            link: LinkSettings { latency: Duration::ZERO, bandwidth: None, shared: false },
             handling: Duration::ZERO,
             cores: speeds.len(),
             speeds,
             spares: 0,
-            caption: Caption::default(),
+            caption: Metadata::default(),
         }
     }
 
@@ -128,7 +128,7 @@ fn is_zero(count: &NodeId) -> bool {
 
 /// Latency and bandwidth between any two parties, the parent included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Link {
+pub struct LinkSettings {
     /// How long the last byte travels once it has left.
     pub latency: Duration,
     /// Bytes a second; `None` is unlimited.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Header;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
 /// A run's records under its header.
@@ -40,7 +40,7 @@ impl RunLog {
     pub fn costs(&self) -> Vec<Option<Duration>> {
         let mut costs = vec![None; self.header.division.atoms() as usize];
         for record in &self.records {
-            if let What::AtomDone { atom, cost, .. } = record.what
+            if let RecordKind::AtomDone { atom, cost, .. } = record.what
                 && let Some(known) = costs.get_mut(atom as usize)
             {
                 *known = Some(cost);
@@ -88,7 +88,7 @@ mod tests {
                         at += later;
                         // The id tells those made at the same time apart.
                         let id = (made[node].len() + records.len()) as u64;
-                        let what = What::Received { id, by: Party::Node(node as u16) };
+                        let what = RecordKind::Received { id, by: Party::Node(node as u16) };
                         records.push(Record { at: Time(at), what });
                     }
                     made[node].extend(records.clone());
@@ -99,7 +99,7 @@ mod tests {
             prop_assert!(log.records().is_sorted_by_key(|record| record.at));
             for (node, made) in made.into_iter().enumerate() {
                 let by_node = |record: &&Record| {
-                    matches!(record.what, What::Received { by: Party::Node(by), .. } if usize::from(by) == node)
+                    matches!(record.what, RecordKind::Received { by: Party::Node(by), .. } if usize::from(by) == node)
                 };
                 let of_node: Vec<_> = log.records().iter().filter(by_node).cloned().collect();
                 prop_assert_eq!(of_node, made);

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use crate::balance::{Help, Message, Party};
+use crate::balance::{Helper, Message, Party};
 use crate::picture::atoms_in;
 
 /// How much was said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Messages {
+pub struct MessageCounts {
     /// Requests to the parent: for work in a farm, and to be let in by who begins anew.
     pub requests: u64,
     /// The parent's answers.
@@ -38,7 +38,7 @@ pub struct Messages {
     pub bytes: u64,
 }
 
-impl Messages {
+impl MessageCounts {
     /// All that was said for the atoms' sake, and neither to bring results nor only to say what one has.
     pub fn sharing(&self) -> u64 {
         self.total - self.results - self.beats
@@ -49,7 +49,7 @@ impl Messages {
         self.total += 1;
         self.bytes += bytes;
         match message {
-            Message::Offer { help: Some(Help { left: None, .. }), .. } => self.notes += 1,
+            Message::Offer { help: Some(Helper { left: None, .. }), .. } => self.notes += 1,
             Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
             Message::Offer { .. } => self.hops += 1,
             Message::Transfer(ranges) => {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// What stands beside a run for people. It changes nothing in the run, and what is empty was not said.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Caption {
+pub struct Metadata {
     /// What the run is called.
     pub title: String,
     /// What is to be known of it.
@@ -17,7 +17,7 @@ pub struct Caption {
     pub machine: String,
 }
 
-impl Caption {
+impl Metadata {
     /// For a run on this computer, which has so many cores.
     pub fn here(cores: usize) -> Self {
         let processor = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| model(&text));
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn a_computer_is_described_without_its_names() {
-        let here = Caption::here(3);
+        let here = Metadata::here(3);
         assert!(here.machine.contains("3 cores") && here.machine.ends_with(OS), "{}", here.machine);
         assert_eq!((here.title, here.memo), Default::default());
     }

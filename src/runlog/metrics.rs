@@ -2,14 +2,14 @@
 
 use std::time::Duration;
 
-use super::{Header, Messages, RunLog};
+use super::{Header, MessageCounts, RunLog};
 use crate::balance::{Condition, Message, NodeId};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
 /// A count of everything that a run amounts to.
 #[derive(Clone, Debug)]
-pub struct Tally {
+pub struct Metrics {
     speeds: Vec<f64>,
     pace: f64,
     cores: usize,
@@ -22,18 +22,18 @@ pub struct Tally {
     twice: Duration,
     /// By node: how many atoms it has traced, and when the last.
     nodes: Vec<(u32, Time)>,
-    changes: Vec<(Time, NodeId, Change)>,
-    messages: Messages,
+    changes: Vec<(Time, NodeId, CapacityChange)>,
+    messages: MessageCounts,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Change {
+enum CapacityChange {
     Speed(f64),
     Paused(bool),
     Condition(Condition),
 }
 
-impl Tally {
+impl Metrics {
     /// Nothing has happened yet.
     pub fn new(header: &Header) -> Self {
         Self {
@@ -48,9 +48,9 @@ impl Tally {
             nodes: vec![(0, Time::ZERO); header.speeds.len()],
             changes: (0..header.speeds.len() as NodeId)
                 .filter(|&node| header.is_spare(node))
-                .map(|node| (Time::ZERO, node, Change::Condition(Condition::Off)))
+                .map(|node| (Time::ZERO, node, CapacityChange::Condition(Condition::Off)))
                 .collect(),
-            messages: Messages::default(),
+            messages: MessageCounts::default(),
         }
     }
 
@@ -65,14 +65,14 @@ impl Tally {
     pub fn add(&mut self, record: &Record) {
         let at = record.at;
         match &record.what {
-            What::Sent { from, message, bytes, .. } => {
+            RecordKind::Sent { from, message, bytes, .. } => {
                 if matches!(message, Message::Band(_)) {
                     self.start.get_or_insert(at);
                 }
                 self.messages.add(*from, message, *bytes);
             }
-            What::Estimating => _ = self.start.get_or_insert(at),
-            What::AtomDone { node, atom, cost } => {
+            RecordKind::Estimating => _ = self.start.get_or_insert(at),
+            RecordKind::AtomDone { node, atom, cost } => {
                 match self.traced.get_mut(*atom as usize) {
                     Some(traced) if !*traced => (*traced, self.work) = (true, self.work + *cost),
                     _ => self.twice += *cost,
@@ -81,21 +81,23 @@ impl Tally {
                     (*atoms, *end) = (*atoms + 1, at);
                 }
             }
-            What::SpeedSet { node, speed } => self.changes.push((at, *node, Change::Speed(*speed))),
-            What::Paused { node } => self.changes.push((at, *node, Change::Paused(true))),
-            What::Resumed { node } => self.changes.push((at, *node, Change::Paused(false))),
-            What::Condition { node, condition } => self.changes.push((at, *node, Change::Condition(*condition))),
-            What::Finished => self.finished = Some(at),
-            What::Received { .. }
-            | What::Estimated { .. }
-            | What::AtomStarted { .. }
-            | What::LatencySet { .. }
-            | What::Link { .. }
-            | What::Delayed { .. }
-            | What::Lost { .. }
-            | What::AtomFailed { .. }
-            | What::GivenUp { .. }
-            | What::Retired { .. } => {}
+            RecordKind::SpeedSet { node, speed } => self.changes.push((at, *node, CapacityChange::Speed(*speed))),
+            RecordKind::Paused { node } => self.changes.push((at, *node, CapacityChange::Paused(true))),
+            RecordKind::Resumed { node } => self.changes.push((at, *node, CapacityChange::Paused(false))),
+            RecordKind::Condition { node, condition } => {
+                self.changes.push((at, *node, CapacityChange::Condition(*condition)))
+            }
+            RecordKind::Finished => self.finished = Some(at),
+            RecordKind::Received { .. }
+            | RecordKind::Estimated { .. }
+            | RecordKind::AtomStarted { .. }
+            | RecordKind::LatencySet { .. }
+            | RecordKind::Link { .. }
+            | RecordKind::Delayed { .. }
+            | RecordKind::Lost { .. }
+            | RecordKind::AtomFailed { .. }
+            | RecordKind::GivenUp { .. }
+            | RecordKind::Retired { .. } => {}
         }
     }
 
@@ -116,12 +118,12 @@ impl Tally {
     }
 
     /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
-    /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Tally::work`].
+    /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Metrics::work`].
     /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is cut
     /// off has done reaches nobody. `None` if the machines stand still before the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
-        let machine = |&speed| Machine { speed, paused: false, condition: Condition::Well };
+        let machine = |&speed| MachineMetrics { speed, paused: false, condition: Condition::Well };
         let mut machines: Vec<_> = self.speeds.iter().map(machine).collect();
         let mut left = self.work.as_secs_f64();
         let mut since = start;
@@ -135,9 +137,9 @@ impl Tally {
             since = since.max(at);
             if let Some(machine) = machines.get_mut(usize::from(node)) {
                 match change {
-                    Change::Speed(speed) => machine.speed = speed,
-                    Change::Paused(paused) => machine.paused = paused,
-                    Change::Condition(condition) => machine.condition = condition,
+                    CapacityChange::Speed(speed) => machine.speed = speed,
+                    CapacityChange::Paused(paused) => machine.paused = paused,
+                    CapacityChange::Condition(condition) => machine.condition = condition,
                 }
             }
         }
@@ -145,7 +147,7 @@ impl Tally {
         since.since(start).checked_add(rest)
     }
 
-    /// [`Tally::ideal`] / [`Tally::makespan`]: 1 is perfect; `None` while either is unknown.
+    /// [`Metrics::ideal`] / [`Metrics::makespan`]: 1 is perfect; `None` while either is unknown.
     pub fn efficiency(&self) -> Option<f64> {
         let (ideal, makespan) = (self.ideal()?, self.makespan()?);
         (!makespan.is_zero()).then(|| ideal.div_duration_f64(makespan))
@@ -176,24 +178,24 @@ impl Tally {
     }
 
     /// How much was said.
-    pub fn messages(&self) -> Messages {
+    pub fn messages(&self) -> MessageCounts {
         self.messages
     }
 
     /// CPU seconds of this computer that all machines together do in a second.
-    fn rate(&self, machines: &[Machine]) -> f64 {
+    fn rate(&self, machines: &[MachineMetrics]) -> f64 {
         let speeds = machines.iter().filter(|machine| machine.works()).map(|machine| machine.speed);
         (speeds.sum::<f64>() * self.pace).min(self.cores as f64)
     }
 }
 
-struct Machine {
+struct MachineMetrics {
     speed: f64,
     paused: bool,
     condition: Condition,
 }
 
-impl Machine {
+impl MachineMetrics {
     fn works(&self) -> bool {
         !self.paused && self.condition == Condition::Well
     }
@@ -205,8 +207,8 @@ mod tests {
     use super::*;
     use crate::balance::Party;
 
-    fn tally(header: &Header, records: &[Record]) -> Tally {
-        let mut tally = Tally::new(header);
+    fn tally(header: &Header, records: &[Record]) -> Metrics {
+        let mut tally = Metrics::new(header);
         records.iter().for_each(|record| tally.add(record));
         tally
     }
@@ -234,7 +236,7 @@ mod tests {
             sent(10, node(0), node(1), Message::offer(1, 1)),
             done(12, 0, 15, 8),
             sent(12, node(0), PARENT, Message::Results(vec![0..1, 15..16])),
-            at(13, What::Finished),
+            at(13, RecordKind::Finished),
             sent(13, PARENT, node(0), Message::Shutdown),
         ]
     }
@@ -272,11 +274,11 @@ mod tests {
         let header = header(&[1.0, 1.0]);
         let mut run = run();
         // Two a second for 3 s, from then on one a second for the 14 that are left.
-        run.insert(2, at(4, What::SpeedSet { node: 1, speed: 0.0 }));
+        run.insert(2, at(4, RecordKind::SpeedSet { node: 1, speed: 0.0 }));
         assert_eq!(ideal(&header, &run), secs(17));
-        run.insert(3, at(5, What::SpeedSet { node: 0, speed: 0.0 }));
+        run.insert(3, at(5, RecordKind::SpeedSet { node: 0, speed: 0.0 }));
         assert_eq!(ideal(&header, &run), None, "nobody works any more");
-        run.insert(6, at(8, What::SpeedSet { node: 0, speed: 0.5 }));
+        run.insert(6, at(8, RecordKind::SpeedSet { node: 0, speed: 0.5 }));
         assert_eq!(ideal(&header, &run), secs(7 + 26));
     }
 
@@ -285,12 +287,12 @@ mod tests {
         let header = header(&[1.0, 1.0]);
         let mut run = run();
         // Two a second for 3 s, one a second for 5, and again two a second for the 9 that are left.
-        run.insert(2, at(4, What::Paused { node: 1 }));
+        run.insert(2, at(4, RecordKind::Paused { node: 1 }));
         assert_eq!(ideal(&header, &run), secs(17), "until the end");
-        run.insert(6, at(9, What::Resumed { node: 1 }));
+        run.insert(6, at(9, RecordKind::Resumed { node: 1 }));
         assert_eq!(ideal(&header, &run), Some(Duration::from_millis(12_500)));
         // A speed that is set meanwhile counts from then on.
-        run.insert(3, at(5, What::SpeedSet { node: 1, speed: 0.5 }));
+        run.insert(3, at(5, RecordKind::SpeedSet { node: 1, speed: 0.5 }));
         assert_eq!(ideal(&header, &run), secs(8 + 6));
     }
 
@@ -299,21 +301,21 @@ mod tests {
         let run = [sent(0, PARENT, node(0), Message::Band(0..20)), done(1, 0, 0, 1)];
         // The end of the second that this takes is more than 2⁶⁴ s away, if only since the change.
         let slow = 1.0 / (2f64.powi(64) + 1e10);
-        let change = at(18_000_000_000, What::SpeedSet { node: 0, speed: slow });
+        let change = at(18_000_000_000, RecordKind::SpeedSet { node: 0, speed: slow });
         assert_eq!(ideal(&header(&[slow]), &[&run[..], &[change]].concat()), None);
     }
 
     #[test]
     fn a_change_after_the_ideal_end_does_not_matter() {
         let mut run = run();
-        run.push(at(14, What::SpeedSet { node: 0, speed: 0.0 }));
+        run.push(at(14, RecordKind::SpeedSet { node: 0, speed: 0.0 }));
         assert_eq!(ideal(&header(&[1.0, 1.0]), &run), secs(10));
     }
 
     #[test]
     fn an_estimate_counts_from_its_beginning() {
         let mut run = run();
-        run.insert(0, at(0, What::Estimating));
+        run.insert(0, at(0, RecordKind::Estimating));
         assert_eq!(tally(&header(&[1.0, 1.0]), &run).makespan(), secs(13));
     }
 
@@ -322,7 +324,7 @@ mod tests {
         let mut run = run();
         run.push(sent(14, node(0), PARENT, Message::Request));
         run.push(sent(14, PARENT, node(0), Message::Part(3..4)));
-        let expected = Messages {
+        let expected = MessageCounts {
             requests: 1,
             parts: 1,
             offers: 2,
@@ -332,7 +334,7 @@ mod tests {
             results: 1,
             total: 10,
             bytes: 100,
-            ..Messages::default()
+            ..MessageCounts::default()
         };
         assert_eq!(tally(&header(&[1.0, 1.0]), &run).messages(), expected);
     }

@@ -11,8 +11,8 @@ mod metrics;
 mod validate;
 
 pub use file::{LogError, is_run_file};
-pub use header::{Driver, Header, Link};
+pub use header::{Driver, Header, LinkSettings};
 pub use log::RunLog;
-pub use messages::Messages;
-pub use metadata::Caption;
-pub use metrics::Tally;
+pub use messages::MessageCounts;
+pub use metadata::Metadata;
+pub use metrics::Metrics;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::Header;
 use crate::balance::{Message, NodeId, Party, Strategy, estimate};
 use crate::picture::{Atom, Division, Size};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
 /// Nobody waits longer for a message.
@@ -58,50 +58,52 @@ impl<'a> Checker<'a> {
         ensure(record.at >= self.last, "this record is earlier than the one before")?;
         self.last = record.at;
         match &record.what {
-            What::Sent { from, to, message, bytes, arrives, .. } => {
+            RecordKind::Sent { from, to, message, bytes, arrives, .. } => {
                 party(header, *from)?;
                 party(header, *to)?;
                 ensure(*arrives >= record.at, "a message arrives before it is sent")?;
                 ensure(*bytes < HEAVIEST, "a message is heavier than any can be")?;
                 self.message(message)
             }
-            What::Received { by, .. } => party(header, *by),
-            What::AtomStarted { node: id, atom } => {
+            RecordKind::Received { by, .. } => party(header, *by),
+            RecordKind::AtomStarted { node: id, atom } => {
                 self.atom(*atom)?;
                 node(header, *id)
             }
-            What::AtomDone { node: id, atom, cost } => {
+            RecordKind::AtomDone { node: id, atom, cost } => {
                 self.atom(*atom)?;
                 possible_cost(cost)?;
                 node(header, *id)
             }
-            What::SpeedSet { node: id, speed } => {
+            RecordKind::SpeedSet { node: id, speed } => {
                 ensure((0.0..=1.0).contains(speed), "a speed is not between 0 and 1")?;
                 node(header, *id)
             }
-            What::Paused { node: id } | What::Resumed { node: id } | What::Retired { node: id } => node(header, *id),
-            What::Condition { node: id, .. } => node(header, *id),
-            What::Link { one, other, .. } => {
+            RecordKind::Paused { node: id } | RecordKind::Resumed { node: id } | RecordKind::Retired { node: id } => {
+                node(header, *id)
+            }
+            RecordKind::Condition { node: id, .. } => node(header, *id),
+            RecordKind::Link { one, other, .. } => {
                 party(header, *one)?;
                 party(header, *other)
             }
-            What::Delayed { from, to, until } => {
+            RecordKind::Delayed { from, to, until } => {
                 party(header, *from)?;
                 party(header, *to)?;
                 ensure(until.since(record.at) <= HOUR, "messages are held up for more than an hour")
             }
-            What::AtomFailed { node: id, atom } => {
+            RecordKind::AtomFailed { node: id, atom } => {
                 self.atom(*atom)?;
                 node(header, *id)
             }
-            What::GivenUp { atom } => self.atom(*atom),
-            What::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
-            What::Estimated { costs } => {
+            RecordKind::GivenUp { atom } => self.atom(*atom),
+            RecordKind::LatencySet { latency } => ensure(*latency <= HOUR, "a message takes longer than an hour"),
+            RecordKind::Estimated { costs } => {
                 let stretches = estimate::samples(header.division).len();
                 ensure(costs.len() == stretches, "the sample is not of this picture")?;
                 costs.iter().try_for_each(possible_cost)
             }
-            What::Estimating | What::Lost { .. } | What::Finished => Ok(()),
+            RecordKind::Estimating | RecordKind::Lost { .. } | RecordKind::Finished => Ok(()),
         }
     }
 
@@ -176,10 +178,16 @@ mod tests {
         assert_eq!(complaint(&[sent(1, parent, node, Message::Band(0..20)), done(2, 0, 0, 9)]), Ok(()));
         let long = done(2, 0, 0, 2 * YEAR.as_secs());
         assert_eq!(complaint(&[long]), Err("an atom takes longer than a year".into()));
-        let sample = at(2, What::Estimated { costs: vec![Duration::MAX] });
+        let sample = at(2, RecordKind::Estimated { costs: vec![Duration::MAX] });
         assert_eq!(complaint(&[sample]), Err("an atom takes longer than a year".into()));
-        let heavy =
-            What::Sent { id: 0, from: parent, to: node, message: Message::Shutdown, bytes: HEAVIEST, arrives: Time(9) };
+        let heavy = RecordKind::Sent {
+            id: 0,
+            from: parent,
+            to: node,
+            message: Message::Shutdown,
+            bytes: HEAVIEST,
+            arrives: Time(9),
+        };
         assert_eq!(complaint(&[at(0, heavy)]), Err("a message is heavier than any can be".into()));
     }
 

@@ -32,7 +32,7 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
         materials.push(material);
     }
     let mut names =
-        Names { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
+        NameResolver { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
     let mut solids = Vec::new();
     for (index, object) in file.objects.iter().enumerate() {
         let solid = names.place(object, DAffine3::IDENTITY, 0);
@@ -54,7 +54,7 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
     Ok(Scene { camera, background, ambient, lights, materials, names: called, solids })
 }
 
-struct Names<'a> {
+struct NameResolver<'a> {
     tags: BTreeMap<String, u32>,
     solids: &'a BTreeMap<String, SolidFields>,
     used: BTreeSet<&'a str>,
@@ -64,7 +64,7 @@ struct Names<'a> {
     depth: usize,
 }
 
-impl<'a> Names<'a> {
+impl<'a> NameResolver<'a> {
     /// `outer` and `tag` are the transform and material of what the solid stands in.
     fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
         use SolidFields as S;

@@ -20,16 +20,16 @@ pub(super) struct SceneFile {
     #[serde(default)]
     pub lights: Vec<Light>,
     #[serde(default)]
-    pub materials: Named<Material>,
+    pub materials: UniqueNames<Material>,
     #[serde(default)]
-    pub solids: Named<SolidFields>,
+    pub solids: UniqueNames<SolidFields>,
     pub objects: Vec<SolidFields>,
 }
 
 /// A map from names that refuses to be given the same name twice.
-pub(super) struct Named<T>(pub BTreeMap<String, T>);
+pub(super) struct UniqueNames<T>(pub BTreeMap<String, T>);
 
-impl<T> Default for Named<T> {
+impl<T> Default for UniqueNames<T> {
     fn default() -> Self {
         Self(BTreeMap::new())
     }
@@ -210,17 +210,17 @@ impl<'de> Deserialize<'de> for SolidFields {
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for UniqueNames<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         struct Entries<T>(std::marker::PhantomData<T>);
         impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-            type Value = Named<T>;
+            type Value = UniqueNames<T>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a map from names")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Named<T>, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<UniqueNames<T>, A::Error> {
                 let mut named = BTreeMap::new();
                 while let Some(name) = entries.next_key::<String>()? {
                     if named.contains_key(&name) {
@@ -228,7 +228,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
                     }
                     named.insert(name, entries.next_value()?);
                 }
-                Ok(Named(named))
+                Ok(UniqueNames(named))
             }
         }
         from.deserialize_map(Entries(std::marker::PhantomData))

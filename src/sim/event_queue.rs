@@ -10,13 +10,13 @@ use crate::time::Time;
 
 /// What happens.
 #[derive(Debug)]
-pub(super) enum Happening {
+pub(super) enum SimEvent {
     /// The run begins.
     Started,
     /// A message arrives; its receiver may be busy.
-    Arrival { to: Party, mail: Mail },
+    Arrival { to: Party, mail: InTransit },
     /// The parent has handled a message.
-    Handled(Mail),
+    Handled(InTransit),
     /// The parent has sampled what the picture costs.
     Estimated(Vec<Duration>),
     /// A worker is done with its atom, unless it has been given another due time since: only the latest plan holds.
@@ -31,7 +31,7 @@ pub(super) enum Happening {
 
 /// A message on its way.
 #[derive(Debug)]
-pub(super) struct Mail {
+pub(super) struct InTransit {
     pub id: u64,
     pub from: Party,
     pub message: Message,
@@ -39,7 +39,7 @@ pub(super) struct Mail {
 
 /// All that is planned.
 #[derive(Debug, Default)]
-pub(super) struct Future {
+pub(super) struct EventQueue {
     events: BinaryHeap<Reverse<Planned>>,
     planned: u64,
 }
@@ -48,12 +48,12 @@ pub(super) struct Future {
 struct Planned {
     at: Time,
     sequence: u64,
-    happening: Happening,
+    happening: SimEvent,
 }
 
-impl Future {
+impl EventQueue {
     /// Plans something.
-    pub fn plan(&mut self, at: Time, happening: Happening) {
+    pub fn plan(&mut self, at: Time, happening: SimEvent) {
         self.events.push(Reverse(Planned { at, sequence: self.planned, happening }));
         self.planned += 1;
     }
@@ -64,12 +64,12 @@ impl Future {
     }
 
     /// Whether anything of this kind is planned.
-    pub fn has(&self, kind: impl Fn(&Happening) -> bool) -> bool {
+    pub fn has(&self, kind: impl Fn(&SimEvent) -> bool) -> bool {
         self.events.iter().any(|Reverse(planned)| kind(&planned.happening))
     }
 
     /// Plans what is of this kind for another time, in the order in which it was to happen.
-    pub fn move_to(&mut self, at: impl Fn(Time) -> Time, kind: impl Fn(&Happening) -> bool) {
+    pub fn move_to(&mut self, at: impl Fn(Time) -> Time, kind: impl Fn(&SimEvent) -> bool) {
         let (mut moved, others): (Vec<_>, Vec<_>) =
             self.events.drain().map(|Reverse(planned)| planned).partition(|planned| kind(&planned.happening));
         self.events = others.into_iter().map(Reverse).collect();
@@ -78,7 +78,7 @@ impl Future {
     }
 
     /// Takes out what happens next, if that is until `horizon`.
-    pub fn pop(&mut self, horizon: Time) -> Option<(Time, Happening)> {
+    pub fn pop(&mut self, horizon: Time) -> Option<(Time, SimEvent)> {
         self.next().filter(|&at| at <= horizon)?;
         self.events.pop().map(|Reverse(planned)| (planned.at, planned.happening))
     }

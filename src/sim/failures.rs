@@ -3,10 +3,10 @@
 use std::mem;
 use std::time::Duration;
 
-use super::event_queue::Happening;
-use super::simulation::{Sim, Tell};
+use super::event_queue::SimEvent;
+use super::simulation::{RecordSink, Sim};
 use crate::balance::{Condition, Event, NodeId, Party, Strategy};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
 /// After so many beats in which nobody has worked nobody will, unless something is planned that may change it.
@@ -24,16 +24,16 @@ impl Sim {
         while let Some(next) = self.next() {
             let mut works = false;
             self.advance(next, &mut |record| {
-                works |= matches!(record.what, What::AtomStarted { .. } | What::AtomDone { .. });
+                works |= matches!(record.what, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. });
                 tell(record);
             });
             if works {
                 worked = self.now;
             } else if self.now.since(worked) > self.rules.beat * STANDSTILL {
-                let may_change = |happening: &Happening| match happening {
-                    Happening::Command(_) => true,
-                    Happening::AtomDone { node, plan } => self.nodes[usize::from(*node)].plan == *plan,
-                    Happening::Arrival { mail, .. } | Happening::Handled(mail) => {
+                let may_change = |happening: &SimEvent| match happening {
+                    SimEvent::Command(_) => true,
+                    SimEvent::AtomDone { node, plan } => self.nodes[usize::from(*node)].plan == *plan,
+                    SimEvent::Arrival { mail, .. } | SimEvent::Handled(mail) => {
                         mail.message.ranges().iter().any(|range| !range.is_empty())
                     }
                     _ => false,
@@ -47,7 +47,7 @@ impl Sim {
     }
 
     /// Something becomes of a node's machine.
-    pub(super) fn put(&mut self, node: NodeId, condition: Condition, tell: Tell<'_>) {
+    pub(super) fn put(&mut self, node: NodeId, condition: Condition, tell: RecordSink<'_>) {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
         let nodes = self.nodes.len() as NodeId;
         let party = &mut self.nodes[index];
@@ -58,13 +58,13 @@ impl Sim {
         let before = mem::replace(&mut party.condition, condition);
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
         self.faults.cut_off(node, condition == Condition::CutOff);
-        self.note(What::Condition { node, condition }, tell);
+        self.note(RecordKind::Condition { node, condition }, tell);
         let party = &mut self.nodes[index];
         match (before, condition) {
             (_, Condition::Off) => {
                 let unheard = mem::take(&mut party.mailbox);
                 party.lose_all(&self.rules, node, nodes, self.now);
-                unheard.into_iter().for_each(|mail| self.note(What::Lost { id: mail.id }, tell));
+                unheard.into_iter().for_each(|mail| self.note(RecordKind::Lost { id: mail.id }, tell));
             }
             (Condition::Off, _) => self.hand_over(Party::Node(node), Event::Started, tell),
             (Condition::Hung, _) => {
@@ -78,19 +78,19 @@ impl Sim {
     }
 
     /// Holds up the way from one party to another.
-    pub(super) fn delay(&mut self, from: Party, to: Party, by: Duration, tell: Tell<'_>) {
+    pub(super) fn delay(&mut self, from: Party, to: Party, by: Duration, tell: RecordSink<'_>) {
         let is_missing = |party| matches!(party, Party::Node(node) if self.machine(node).is_none());
         if self.finished || from == to || is_missing(from) || is_missing(to) {
             return;
         }
         let until = self.faults.delay(from, to, self.now, self.now + by);
-        let on_this_way = |happening: &Happening| match happening {
-            Happening::Arrival { to: other, mail } => (mail.from, *other) == (from, to),
+        let on_this_way = |happening: &SimEvent| match happening {
+            SimEvent::Arrival { to: other, mail } => (mail.from, *other) == (from, to),
             _ => false,
         };
         let faults = &self.faults;
         self.future.move_to(|at| faults.arrival(from, to, at), on_this_way);
-        self.note(What::Delayed { from, to, until }, tell);
+        self.note(RecordKind::Delayed { from, to, until }, tell);
     }
 
     /// The parent has nothing more to do. Nodes that its last message cannot reach are abandoned: whoever owns their machines
@@ -125,12 +125,12 @@ mod tests {
         for (script, is_cut) in [(held, false), (cut, true)] {
             let (mut sent, mut came, mut lost) = (Vec::new(), Vec::new(), 0);
             Sim::new(&header, &script, |_| Duration::from_micros(1)).run(&mut |record| match record.what {
-                What::Sent { id, from: Party::Node(1), to: Party::Parent, arrives, .. } => {
+                RecordKind::Sent { id, from: Party::Node(1), to: Party::Parent, arrives, .. } => {
                     assert!(is_cut || record.at <= at || arrives >= until, "it is known when it is sent");
                     sent.push(id);
                 }
-                What::Received { id, by: Party::Parent } if sent.contains(&id) => came.push((record.at, id)),
-                What::Lost { .. } => lost += 1,
+                RecordKind::Received { id, by: Party::Parent } if sent.contains(&id) => came.push((record.at, id)),
+                RecordKind::Lost { .. } => lost += 1,
                 _ => {}
             });
             let late = came.iter().filter(|(when, _)| *when > at).collect::<Vec<_>>();

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::event_queue::Mail;
+use super::event_queue::InTransit;
 use super::link::Link;
 use super::machine::Machine;
 use crate::balance::{Condition, Node, NodeId, Rules};
@@ -12,7 +12,7 @@ use crate::time::Time;
 
 /// A node with its machine.
 #[derive(Debug)]
-pub(super) struct Party {
+pub(super) struct SimNode {
     pub node: Node,
     pub machine: Machine,
     pub pipe: VecDeque<Atom>,
@@ -23,7 +23,7 @@ pub(super) struct Party {
     pub timer: Option<Time>,
     pub condition: Condition,
     /// What has arrived while the machine hangs.
-    pub mailbox: Vec<Mail>,
+    pub mailbox: Vec<InTransit>,
     /// Whether the user has paused the worker; a machine that hangs stands still too.
     pub paused: bool,
     pub finished: bool,
@@ -31,7 +31,7 @@ pub(super) struct Party {
     pub links: BTreeMap<usize, Link>,
 }
 
-impl Party {
+impl SimNode {
     /// Node `id` of the run that `header` describes.
     pub fn new(header: &Header, id: NodeId) -> Self {
         Self {

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::time::Duration;
 
-use super::event_queue::{Future, Happening, Mail};
+use super::event_queue::{EventQueue, InTransit, SimEvent};
 use super::faults::Faults;
 use super::link::{Link, Wire};
-use super::sim_node::Party as Machinery;
+use super::sim_node::SimNode;
 use crate::balance::{Action, Condition, Event, Message, NodeId, Parent, Party, Rules, estimate};
 use crate::picture::{Atom, Division};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
 use crate::time::Time;
@@ -18,13 +18,13 @@ use crate::time::Time;
 /// A run in virtual time. It happens as far as it is asked to, and tells its records in the order of time.
 pub struct Sim {
     pub(super) now: Time,
-    pub(super) future: Future,
+    pub(super) future: EventQueue,
     parent: Parent,
     parent_links: BTreeMap<usize, Link>,
     /// Until when the parent is busy with what has arrived so far.
     parent_busy: Time,
     pub(super) finished: bool,
-    pub(super) nodes: Vec<Machinery>,
+    pub(super) nodes: Vec<SimNode>,
     /// What all share, if they do.
     wire: Option<Wire>,
     pub(super) faults: Faults,
@@ -53,7 +53,7 @@ type Tamper = dyn FnMut(Party, &Action) -> usize + Send;
 type Cost = dyn Fn(Atom) -> Duration + Send;
 
 /// Whoever is told of records.
-pub(super) type Tell<'a> = &'a mut dyn FnMut(Record);
+pub(super) type RecordSink<'a> = &'a mut dyn FnMut(Record);
 
 impl Sim {
     /// The run that `header` describes, to which `script` is done; nothing has happened yet.
@@ -63,9 +63,9 @@ impl Sim {
     pub fn new(header: &Header, script: &[(Time, Command)], cost: impl Fn(Atom) -> Duration + Send + 'static) -> Self {
         let nodes = header.speeds.len();
         assert!((1..=usize::from(NodeId::MAX)).contains(&nodes), "a run of {nodes} nodes is impossible");
-        let mut future = Future::default();
+        let mut future = EventQueue::default();
         for &(at, command) in script {
-            future.plan(at, Happening::Command(command));
+            future.plan(at, SimEvent::Command(command));
         }
         let mut sim = Self {
             now: Time::ZERO,
@@ -74,7 +74,7 @@ impl Sim {
             parent_links: BTreeMap::new(),
             parent_busy: Time::ZERO,
             finished: false,
-            nodes: (0..nodes as NodeId).map(|id| Machinery::new(header, id)).collect(),
+            nodes: (0..nodes as NodeId).map(|id| SimNode::new(header, id)).collect(),
             wire: header.link.shared.then(Wire::default),
             faults: Faults::default(),
             parent_timer: None,
@@ -92,7 +92,7 @@ impl Sim {
             actions: Vec::new(),
             tamper: None,
         };
-        sim.future.plan(Time::ZERO, Happening::Started);
+        sim.future.plan(Time::ZERO, SimEvent::Started);
         sim
     }
 
@@ -119,7 +119,7 @@ impl Sim {
             measured.costs().into_iter().collect::<Option<_>>().ok_or("not all atoms were traced")?;
         let mut sim = Self::new(header, &[], move |atom| costs[atom as usize]);
         sim.sample = measured.records().iter().find_map(|record| match &record.what {
-            What::Estimated { costs } => Some(costs.clone()),
+            RecordKind::Estimated { costs } => Some(costs.clone()),
             _ => None,
         });
         Ok(sim)
@@ -170,7 +170,7 @@ impl Sim {
             Command::Speed { node, speed } => {
                 let Some(index) = self.machine(node) else { return };
                 self.nodes[index].machine.set_speed(speed, self.now);
-                self.note(What::SpeedSet { node, speed }, tell);
+                self.note(RecordKind::SpeedSet { node, speed }, tell);
                 self.go_on(node, tell);
             }
             Command::Pause { node, paused } => {
@@ -180,20 +180,20 @@ impl Sim {
                     return;
                 }
                 party.machine.set_paused(paused || party.condition == Condition::Hung, self.now);
-                self.note(if paused { What::Paused { node } } else { What::Resumed { node } }, tell);
+                self.note(if paused { RecordKind::Paused { node } } else { RecordKind::Resumed { node } }, tell);
                 self.go_on(node, tell);
             }
             Command::Condition { node, condition } => self.put(node, condition, tell),
             Command::Link { one, other, cut } => {
                 if !self.finished && self.faults.cut_link(one, other, cut) {
-                    self.note(What::Link { one, other, cut }, tell);
+                    self.note(RecordKind::Link { one, other, cut }, tell);
                 }
             }
             Command::Delay { from, to, by } => self.delay(from, to, by, tell),
             Command::Latency(latency) if self.finished || latency == self.latency => {}
             Command::Latency(latency) => {
                 self.latency = latency;
-                self.note(What::LatencySet { latency }, tell);
+                self.note(RecordKind::LatencySet { latency }, tell);
             }
         }
     }
@@ -204,37 +204,37 @@ impl Sim {
         self.nodes.get(index).filter(|party| !party.finished).map(|_| index)
     }
 
-    fn happen(&mut self, happening: Happening, tell: Tell<'_>) {
+    fn happen(&mut self, happening: SimEvent, tell: RecordSink<'_>) {
         match happening {
-            Happening::Started => self.hand_over(Party::Parent, Event::Started, tell),
-            Happening::Lost(id) => self.note(What::Lost { id }, tell),
-            Happening::Arrival { to, mail } if self.faults.is_cut(mail.from, to) => {
-                self.note(What::Lost { id: mail.id }, tell);
+            SimEvent::Started => self.hand_over(Party::Parent, Event::Started, tell),
+            SimEvent::Lost(id) => self.note(RecordKind::Lost { id }, tell),
+            SimEvent::Arrival { to, mail } if self.faults.is_cut(mail.from, to) => {
+                self.note(RecordKind::Lost { id: mail.id }, tell);
             }
-            Happening::Arrival { to: Party::Parent, mail } if !self.handling.is_zero() => {
+            SimEvent::Arrival { to: Party::Parent, mail } if !self.handling.is_zero() => {
                 self.parent_busy = self.parent_busy.max(self.now) + self.handling;
-                self.future.plan(self.parent_busy, Happening::Handled(mail));
+                self.future.plan(self.parent_busy, SimEvent::Handled(mail));
             }
-            Happening::Arrival { to, mail } => self.receive(to, mail, tell),
-            Happening::Handled(mail) => self.receive(Party::Parent, mail, tell),
-            Happening::Estimated(costs) => {
-                self.note(What::Estimated { costs: costs.clone() }, tell);
+            SimEvent::Arrival { to, mail } => self.receive(to, mail, tell),
+            SimEvent::Handled(mail) => self.receive(Party::Parent, mail, tell),
+            SimEvent::Estimated(costs) => {
+                self.note(RecordKind::Estimated { costs: costs.clone() }, tell);
                 self.hand_over(Party::Parent, Event::Estimated(costs), tell);
             }
-            Happening::Timer(Party::Node(node)) => self.timer(node, tell),
-            Happening::Timer(Party::Parent) => {
+            SimEvent::Timer(Party::Node(node)) => self.timer(node, tell),
+            SimEvent::Timer(Party::Parent) => {
                 let now = self.now;
                 if self.parent_timer.take_if(|at| *at <= now).is_some() {
                     self.hand_over(Party::Parent, Event::Timer, tell);
                 }
             }
-            Happening::AtomDone { node, plan } => self.atom_done(node, plan, tell),
-            Happening::Command(command) => self.command(command, tell),
+            SimEvent::AtomDone { node, plan } => self.atom_done(node, plan, tell),
+            SimEvent::Command(command) => self.command(command, tell),
         }
     }
 
     /// A node's timer, unless it has been set anew since; who hangs looks at it later.
-    pub(super) fn timer(&mut self, node: NodeId, tell: Tell<'_>) {
+    pub(super) fn timer(&mut self, node: NodeId, tell: RecordSink<'_>) {
         let now = self.now;
         let party = &mut self.nodes[usize::from(node)];
         if party.condition != Condition::Hung && party.timer.take_if(|at| *at <= now).is_some() {
@@ -243,18 +243,18 @@ impl Sim {
     }
 
     /// Who has ended no longer listens.
-    pub(super) fn receive(&mut self, to: Party, mail: Mail, tell: Tell<'_>) {
+    pub(super) fn receive(&mut self, to: Party, mail: InTransit, tell: RecordSink<'_>) {
         if let Party::Node(node) = to {
             let party = &mut self.nodes[usize::from(node)];
             match party.condition {
-                Condition::Off => return self.note(What::Lost { id: mail.id }, tell),
+                Condition::Off => return self.note(RecordKind::Lost { id: mail.id }, tell),
                 Condition::Hung if !party.finished => return party.mailbox.push(mail),
                 _ => {}
             }
         }
-        let Mail { id, from, message } = mail;
+        let InTransit { id, from, message } = mail;
         if !self.has_ended(to) {
-            self.note(What::Received { id, by: to }, tell);
+            self.note(RecordKind::Received { id, by: to }, tell);
             self.hand_over(to, Event::Message { from, message }, tell);
         }
     }
@@ -266,7 +266,7 @@ impl Sim {
         }
     }
 
-    fn atom_done(&mut self, node: NodeId, plan: u32, tell: Tell<'_>) {
+    fn atom_done(&mut self, node: NodeId, plan: u32, tell: RecordSink<'_>) {
         let party = &mut self.nodes[usize::from(node)];
         if plan != party.plan {
             return;
@@ -275,13 +275,13 @@ impl Sim {
         party.machine.finish(self.now);
         party.in_hand = false;
         let cost = (self.cost)(atom);
-        self.note(What::AtomDone { node, atom, cost }, tell);
+        self.note(RecordKind::AtomDone { node, atom, cost }, tell);
         self.go_on(node, tell);
         self.hand_over(Party::Node(node), Event::AtomDone { atom, cost }, tell);
     }
 
     /// Hands a party that has not ended an event, and does what it asks for.
-    pub(super) fn hand_over(&mut self, to: Party, event: Event, tell: Tell<'_>) {
+    pub(super) fn hand_over(&mut self, to: Party, event: Event, tell: RecordSink<'_>) {
         if self.has_ended(to) {
             return;
         }
@@ -298,7 +298,7 @@ impl Sim {
         self.actions = actions;
     }
 
-    fn carry_out(&mut self, party: Party, action: Action, tell: Tell<'_>) {
+    fn carry_out(&mut self, party: Party, action: Action, tell: RecordSink<'_>) {
         match (party, action) {
             (from, Action::Send { to, message }) => self.send(from, to, message, tell),
             (Party::Node(node), Action::Trace(atom)) => {
@@ -313,24 +313,24 @@ impl Sim {
                     Party::Parent => self.parent_timer = Some(at),
                     Party::Node(node) => self.nodes[usize::from(node)].timer = Some(at),
                 }
-                self.future.plan(at, Happening::Timer(party));
+                self.future.plan(at, SimEvent::Timer(party));
             }
-            (Party::Node(node), Action::Retire) => self.note(What::Retired { node }, tell),
+            (Party::Node(node), Action::Retire) => self.note(RecordKind::Retired { node }, tell),
             (Party::Node(node), Action::Finish) => self.nodes[usize::from(node)].finished = true,
             (Party::Parent, Action::Estimate) => self.estimate(tell),
             (Party::Parent, Action::Finish) => {
-                self.note(What::Finished, tell);
+                self.note(RecordKind::Finished, tell);
                 self.end();
             }
             (Party::Parent, Action::Fail(atom)) => {
-                self.note(What::GivenUp { atom }, tell);
+                self.note(RecordKind::GivenUp { atom }, tell);
                 self.end();
             }
             (party, other) => unreachable!("{party:?} never asks for {other:?}"),
         }
     }
 
-    fn send(&mut self, from: Party, to: Party, message: Message, tell: Tell<'_>) {
+    fn send(&mut self, from: Party, to: Party, message: Message, tell: RecordSink<'_>) {
         let bytes = message.bytes(self.division, self.scene_bytes);
         let links = match from {
             Party::Parent => &mut self.parent_links,
@@ -342,16 +342,16 @@ impl Sim {
         let arrives = self.faults.arrival(from, to, arrives);
         let id = self.sent;
         self.sent += 1;
-        self.note(What::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
+        self.note(RecordKind::Sent { id, from, to, message: message.clone(), bytes, arrives }, tell);
         let cut = self.faults.is_cut(from, to);
-        let arrival = Happening::Arrival { to, mail: Mail { id, from, message } };
-        self.future.plan(arrives, if cut { Happening::Lost(id) } else { arrival });
+        let arrival = SimEvent::Arrival { to, mail: InTransit { id, from, message } };
+        self.future.plan(arrives, if cut { SimEvent::Lost(id) } else { arrival });
     }
 
     /// The parent samples the picture as fast as the reference machine would; if it was not measured, a pixel costs what is
     /// its atom's share.
-    fn estimate(&mut self, tell: Tell<'_>) {
-        self.note(What::Estimating, tell);
+    fn estimate(&mut self, tell: RecordSink<'_>) {
+        self.note(RecordKind::Estimating, tell);
         let cost_of = |pixel: u32| {
             let atom = pixel / self.division.atom_pixels();
             (self.cost)(atom) / self.division.pixels_in(&(atom..atom + 1))
@@ -361,11 +361,11 @@ impl Sim {
             .clone()
             .unwrap_or_else(|| estimate::samples(self.division).map(|pixels| pixels.map(cost_of).sum()).collect());
         let all: Duration = costs.iter().sum();
-        self.future.plan(self.now + all.div_f64(self.pace), Happening::Estimated(costs));
+        self.future.plan(self.now + all.div_f64(self.pace), SimEvent::Estimated(costs));
     }
 
     /// The worker begins the next atom, unless it has one in hand, stands still, or has none; its speed is a new one.
-    pub(super) fn go_on(&mut self, node: NodeId, tell: Tell<'_>) {
+    pub(super) fn go_on(&mut self, node: NodeId, tell: RecordSink<'_>) {
         let party = &mut self.nodes[usize::from(node)];
         if let Some(&atom) = party.pipe.front()
             && !party.in_hand
@@ -373,18 +373,18 @@ impl Sim {
         {
             party.in_hand = true;
             party.machine.begin(self.now, (self.cost)(atom));
-            tell(Record { at: self.now, what: What::AtomStarted { node, atom } });
+            tell(Record { at: self.now, what: RecordKind::AtomStarted { node, atom } });
         }
         // What was planned for the atom in hand is void now.
         party.plan = party.plan.wrapping_add(1);
         if party.in_hand
             && let Some(due) = party.machine.due()
         {
-            self.future.plan(due, Happening::AtomDone { node, plan: party.plan });
+            self.future.plan(due, SimEvent::AtomDone { node, plan: party.plan });
         }
     }
 
-    pub(super) fn note(&self, what: What, tell: Tell<'_>) {
+    pub(super) fn note(&self, what: RecordKind, tell: RecordSink<'_>) {
         tell(Record { at: self.now, what });
     }
 }

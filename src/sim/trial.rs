@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::Sim;
 use crate::balance::{NodeId, Remedy, Rules, Strategy};
 use crate::picture::{Division, Size};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::{Driver, Header, RunLog};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
@@ -45,14 +45,14 @@ pub enum Change {
 impl Trial {
     /// The run that a log is of, in virtual time, with all that was done to it.
     pub fn of(log: &RunLog) -> Self {
-        let command = |at: Time, what: &What| match *what {
-            What::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
-            What::Paused { node } => Some(Command::Pause { node, paused: true }),
-            What::Resumed { node } => Some(Command::Pause { node, paused: false }),
-            What::LatencySet { latency } => Some(Command::Latency(latency)),
-            What::Condition { node, condition } => Some(Command::Condition { node, condition }),
-            What::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
-            What::Delayed { from, to, until } => Some(Command::Delay { from, to, by: until.since(at) }),
+        let command = |at: Time, what: &RecordKind| match *what {
+            RecordKind::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
+            RecordKind::Paused { node } => Some(Command::Pause { node, paused: true }),
+            RecordKind::Resumed { node } => Some(Command::Pause { node, paused: false }),
+            RecordKind::LatencySet { latency } => Some(Command::Latency(latency)),
+            RecordKind::Condition { node, condition } => Some(Command::Condition { node, condition }),
+            RecordKind::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
+            RecordKind::Delayed { from, to, until } => Some(Command::Delay { from, to, by: until.since(at) }),
             _ => None,
         };
         let script =
@@ -182,7 +182,7 @@ mod tests {
 
     use super::*;
     use crate::balance::Condition;
-    use crate::runlog::Tally;
+    use crate::runlog::Metrics;
     use crate::runlog::examples::header;
 
     fn costs(size: Size) -> PixelCosts {
@@ -191,7 +191,7 @@ mod tests {
     }
 
     fn makespan(trial: &Trial) -> Duration {
-        Tally::of(&trial.run(&costs(trial.header.size))).makespan().expect("it ends")
+        Metrics::of(&trial.run(&costs(trial.header.size))).makespan().expect("it ends")
     }
 
     #[test]

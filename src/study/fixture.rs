@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::balance::{Rules, Strategy};
-use crate::driver::{Whole, probe};
+use crate::driver::{TracedPicture, probe};
 use crate::picture::{Division, Quality, Size};
-use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::scenario::Command;
 use crate::scene::Opened;
 use crate::sim::Sim;
@@ -14,7 +14,7 @@ use crate::time::Time;
 use crate::tracer::Tracer;
 
 /// What each atom costs the reference machine.
-pub(super) type Costs = Arc<[Duration]>;
+pub(super) type AtomCosts = Arc<[Duration]>;
 
 /// What studies compare.
 pub(super) const STRATEGIES: [Strategy; 6] = [
@@ -30,7 +30,7 @@ pub(super) const STRATEGIES: [Strategy; 6] = [
 pub(super) const GRAIN: u32 = 5;
 
 /// A scene that is compiled, and whose picture is traced.
-pub(super) struct Workbench {
+pub(super) struct Fixture {
     pub scene: Opened,
     pub size: Size,
     pub samples: u32,
@@ -39,19 +39,19 @@ pub(super) struct Workbench {
     rays: Vec<u32>,
 }
 
-impl Workbench {
+impl Fixture {
     /// Compiles the scene and traces its picture once.
     ///
     /// # Errors
     /// A sentence, if it could not be traced.
     pub fn new(scene: &Opened, size: Size, samples: u32) -> Result<Self, String> {
         let tracer = Arc::new(Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() }));
-        let whole = Whole::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {})?;
+        let whole = TracedPicture::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {})?;
         Ok(Self { scene: scene.clone(), size, samples, tracer, rays: whole.rays })
     }
 
     /// What atoms of `atom_pixels` (a multiple of [`GRAIN`]) cost, by their rays, if the whole picture costs `whole`.
-    pub fn costs(&self, atom_pixels: u32, whole: Duration) -> Costs {
+    pub fn costs(&self, atom_pixels: u32, whole: Duration) -> AtomCosts {
         let all: u64 = self.rays.iter().map(|&rays| u64::from(rays)).sum();
         let a_ray = whole.as_secs_f64() / all as f64;
         let atom =
@@ -73,10 +73,10 @@ impl Workbench {
 }
 
 /// Costs of atoms in proportion to these numbers, `mean` on average.
-pub(super) fn weighted(weights: Vec<f64>, mean: Duration) -> Costs {
+pub(super) fn weighted(weights: Vec<f64>, mean: Duration) -> AtomCosts {
     let all: f64 = weights.iter().sum();
     let each = mean.as_secs_f64() * weights.len() as f64 / all;
-    Costs::from_iter(weights.into_iter().map(|weight| Duration::from_secs_f64(each * weight)))
+    AtomCosts::from_iter(weights.into_iter().map(|weight| Duration::from_secs_f64(each * weight)))
 }
 
 /// The CPU time of a scene's picture on one thread, by a sample of it.
@@ -86,7 +86,7 @@ pub(super) fn cost_of(scene: &Opened, size: Size, samples: u32) -> Duration {
 }
 
 /// Runs in virtual time what `header` describes, and counts what it amounts to.
-pub(super) fn simulate(header: &Header, script: &[(Time, Command)], costs: &Costs) -> Tally {
+pub(super) fn simulate(header: &Header, script: &[(Time, Command)], costs: &AtomCosts) -> Metrics {
     let (header, costs) = (virtually(header), costs.clone());
     tally(&header, Sim::new(&header, script, move |atom| costs[atom as usize]))
 }
@@ -97,8 +97,8 @@ fn virtually(header: &Header) -> Header {
 }
 
 /// Lets it run, and counts what it amounts to.
-fn tally(header: &Header, mut sim: Sim) -> Tally {
-    let mut tally = Tally::new(header);
+fn tally(header: &Header, mut sim: Sim) -> Metrics {
+    let mut tally = Metrics::new(header);
     sim.run(&mut |record| tally.add(&record));
     tally
 }
@@ -107,7 +107,7 @@ fn tally(header: &Header, mut sim: Sim) -> Tally {
 ///
 /// # Errors
 /// A sentence, if not all atoms were traced.
-pub(super) fn twin(log: &RunLog) -> Result<Tally, String> {
+pub(super) fn twin(log: &RunLog) -> Result<Metrics, String> {
     let header = virtually(&log.header);
     Ok(tally(&header, Sim::measured(&header, log)?))
 }

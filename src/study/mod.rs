@@ -20,7 +20,7 @@ pub use chaos::chaos;
 pub use needs::needs;
 pub use paper::{article_over_ideal, paper};
 pub use peer::peer;
-pub use progress::Tell;
+pub use progress::ProgressSink;
 pub use remedies::remedies;
 pub use rivals::rivals;
 pub use scale_report::scale;

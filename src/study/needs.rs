@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::preview_time::{Looks, picture};
+use super::preview_time::{PreviewTimes, picture};
 use super::progress::Progress;
-use super::{Study, Tell, median, say};
-use crate::csg::{Reduction, Reductions};
+use super::{ProgressSink, Study, median, say};
+use crate::csg::{Pass, Passes};
 use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
@@ -32,7 +32,7 @@ struct Saving {
 ///
 /// # Errors
 /// A sentence, if the rows cannot be written.
-pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
+pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String> {
     let size = Size::new(240, 180)?;
     let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
     let (mut rows, mut looks) = (Vec::new(), Vec::new());
@@ -40,10 +40,10 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
         progress.next(&format!("{}, a first look", scene.name));
         looks.push(first_look(scene)?);
         let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
-        let all = tracer(Reductions::default());
-        let without = Reduction::ALL.map(|reduction| tracer(Reductions::default().without(reduction)));
-        let mut ratios = Reduction::ALL.map(|_| Vec::new());
-        let mut differing = Reduction::ALL.map(|_| 0);
+        let all = tracer(Passes::default());
+        let without = Pass::ALL.map(|reduction| tracer(Passes::default().without(reduction)));
+        let mut ratios = Pass::ALL.map(|_| Vec::new());
+        let mut differing = Pass::ALL.map(|_| 0);
         let mut seconds = Vec::new();
         for turn in 0..TURNS {
             progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
@@ -57,7 +57,7 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
             }
         }
         let cpu_s = median(&mut seconds);
-        for (index, reduction) in Reduction::ALL.into_iter().enumerate() {
+        for (index, reduction) in Pass::ALL.into_iter().enumerate() {
             rows.push(Saving {
                 scene: scene.name.clone(),
                 reduction: format!("{reduction:?}").to_lowercase(),
@@ -74,22 +74,22 @@ pub fn needs(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
 }
 
 /// The turn in the middle.
-fn first_look(scene: &Opened) -> Result<Looks, String> {
+fn first_look(scene: &Opened) -> Result<PreviewTimes, String> {
     let size = Size::new(640, 480)?;
-    let look = |_| Looks::new(|| Tracer::new(&scene.scene, size, Quality::default()));
-    let mut looks: Vec<Looks> = (0..TURNS).map(look).collect();
+    let look = |_| PreviewTimes::new(|| Tracer::new(&scene.scene, size, Quality::default()));
+    let mut looks: Vec<PreviewTimes> = (0..TURNS).map(look).collect();
     looks.sort_by(|a, b| a.exact.total_cmp(&b.exact));
     Ok(looks[TURNS / 2])
 }
 
-fn looks_report(scenes: &[Opened], looks: &[Looks]) -> String {
+fn looks_report(scenes: &[Opened], looks: &[PreviewTimes]) -> String {
     let mut text = String::from(
         "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the scene that is read to \
          it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as above:\n\n\
          | scene | compiled | first look | exact picture | without a preview | with / without | the same |\n\
          |---|---:|---:|---:|---:|---:|---|\n",
     );
-    for (scene, Looks { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
+    for (scene, PreviewTimes { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
         let same = if *same { "yes" } else { "no" };
         let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
         say!(
@@ -142,8 +142,8 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
     );
     say!(text, "| reduction | {} |", scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | "));
     say!(text, "|---|{}", "---:|".repeat(scenes.len()));
-    for (index, reduction) in Reduction::ALL.into_iter().enumerate() {
-        let of_each = rows.iter().skip(index).step_by(Reduction::ALL.len());
+    for (index, reduction) in Pass::ALL.into_iter().enumerate() {
+        let of_each = rows.iter().skip(index).step_by(Pass::ALL.len());
         let cells: Vec<_> = of_each
             .map(|saving| match saving.differing_pixels {
                 0 => format!("{:.3}", saving.ratio),

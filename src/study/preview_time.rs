@@ -2,12 +2,12 @@
 
 use cpu_time::ThreadTime;
 
-use crate::driver::Measured;
+use crate::driver::TimedPicture;
 use crate::tracer::Tracer;
 
 /// How long looking at a scene takes, in seconds of CPU time on this thread.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Looks {
+pub(super) struct PreviewTimes {
     /// Until it is compiled.
     pub compiled: f64,
     /// Until its coarsest preview is there.
@@ -20,7 +20,7 @@ pub(super) struct Looks {
     pub same: bool,
 }
 
-impl Looks {
+impl PreviewTimes {
     pub fn new(compile: impl Fn() -> Tracer) -> Self {
         let begun = ThreadTime::now();
         let mut tracer = compile();
@@ -34,7 +34,7 @@ impl Looks {
 }
 
 /// A picture that is traced on this thread, and what that takes.
-pub(super) fn picture(tracer: &Tracer) -> Measured {
+pub(super) fn picture(tracer: &Tracer) -> TimedPicture {
     // Nobody ends it before.
-    Measured::of(tracer, &|| false).expect("a whole picture")
+    TimedPicture::of(tracer, &|| false).expect("a whole picture")
 }

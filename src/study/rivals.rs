@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::fixture::{Workbench, cost_of};
+use super::fixture::{Fixture, cost_of};
 use super::progress::Progress;
-use super::{Study, Tell, median};
+use super::{ProgressSink, Study, median};
 use crate::balance::Strategy;
 use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, Tally};
+use crate::runlog::{Driver, Header, Metrics};
 use crate::scene::Opened;
 
 /// Runs of each kind.
@@ -41,7 +41,7 @@ pub(super) struct Needs {
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn rivals(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
+pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String> {
     let mut progress = Progress::new(scenes.len() * STEPS, tell);
     let size = Size::new(640, 480)?;
     let mut rows = Vec::new();
@@ -49,7 +49,7 @@ pub fn rivals(scenes: &[Opened], tell: Tell<'_>) -> Result<Study, String> {
         // Enough that starting threads does not show.
         let least = Duration::from_millis(500) * cores() as u32;
         let samples = (1..8).find(|&samples| cost_of(scene, size, samples) >= least).unwrap_or(8);
-        rows.extend(compete(&Workbench::new(scene, size, samples)?, &mut progress)?);
+        rows.extend(compete(&Fixture::new(scene, size, samples)?, &mut progress)?);
     }
     let mut study = Study::new("rivals");
     study.add_rows(&rows)?;
@@ -64,7 +64,7 @@ pub(super) const STEPS: usize = TURNS * RIVALS.len();
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub(super) fn compete(bench: &Workbench, progress: &mut Progress<'_>) -> Result<[Needs; 3], String> {
+pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], String> {
     let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
     let mut turns = Vec::new();
     for _ in 0..TURNS {
@@ -102,12 +102,12 @@ struct Sample {
 
 impl Sample {
     #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-    fn take(bench: &Workbench, header: &Header) -> Result<Self, String> {
+    fn take(bench: &Fixture, header: &Header) -> Result<Self, String> {
         let (begun, before) = (Instant::now(), context_switches());
         let log = run_to_end(&bench.tracer, header, &[])?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
-        let makespan = Tally::of(&log).makespan().unwrap_or_default().as_secs_f64();
+        let makespan = Metrics::of(&log).makespan().unwrap_or_default().as_secs_f64();
         Ok(Self { wall, makespan, switches })
     }
 }

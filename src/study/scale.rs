@@ -5,11 +5,11 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::fixture::{Costs, STRATEGIES, Workbench, simulate};
-use super::progress::{Progress, Tell};
+use super::fixture::{AtomCosts, Fixture, STRATEGIES, simulate};
+use super::progress::{Progress, ProgressSink};
 use crate::balance::Rules;
 use crate::picture::{Division, Size};
-use crate::runlog::{Driver, Header, Link};
+use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scene::Opened;
 
 /// What an atom costs on average: a run of one machine on the strong picture takes about half a minute.
@@ -29,7 +29,7 @@ const ATOM: u32 = 50;
 
 /// One run.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct ScaleRow {
     pub nodes: usize,
     pub latency_s: f64,
     /// How long the parent is busy with each message.
@@ -59,9 +59,9 @@ pub(super) fn node_counts() -> impl Iterator<Item = usize> + Clone {
 ///
 /// # Errors
 /// A sentence, if the scene could not be traced.
-pub(super) fn measure(scene: &Opened, tell: Tell<'_>) -> Result<Vec<Row>, String> {
+pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, String> {
     let size = Size::new(SIZE.0, SIZE.1)?;
-    let bench = Workbench::new(scene, size, 1)?;
+    let bench = Fixture::new(scene, size, 1)?;
     let atoms = Division::new(size.pixels(), ATOM).atoms();
     let strong = bench.costs(ATOM, ATOM_COST * atoms);
     let mut progress = Progress::new(2 * node_counts().count(), tell);
@@ -85,7 +85,7 @@ pub(super) fn measure(scene: &Opened, tell: Tell<'_>) -> Result<Vec<Row>, String
 
 /// What the strong picture's atoms cost, for a picture of [`ATOMS_A_NODE`] atoms a node: each has the cost of the atom at the
 /// same height of the picture; and that picture's size.
-fn resample(costs: &Costs, nodes: usize) -> Result<(Costs, Size), String> {
+fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), String> {
     let atoms = ATOMS_A_NODE as usize * nodes;
     let at = |atom: usize| costs[(atom as u64 * costs.len() as u64 / atoms as u64) as usize];
     let total: Duration = (0..atoms).map(at).sum();
@@ -94,9 +94,9 @@ fn resample(costs: &Costs, nodes: usize) -> Result<(Costs, Size), String> {
     Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32)?))
 }
 
-fn row(plain: Header, network: (f64, f64), weak: bool, costs: &Costs) -> Row {
+fn row(plain: Header, network: (f64, f64), weak: bool, costs: &AtomCosts) -> ScaleRow {
     let (latency, handling) = (Duration::from_secs_f64(network.0 * 1e-3), Duration::from_secs_f64(network.1 * 1e-3));
-    let mut header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, handling, ..plain };
+    let mut header = Header { driver: Driver::Sim, link: LinkSettings { latency, ..plain.link }, handling, ..plain };
     let nodes = header.speeds.len();
     header.rules.beat = Rules::beat_for(handling, nodes);
     header.rules.part = header.rules.strategy.usual_part(header.division, nodes);
@@ -104,7 +104,7 @@ fn row(plain: Header, network: (f64, f64), weak: bool, costs: &Costs) -> Row {
     let (messages, atoms) = (tally.messages(), header.division.atoms());
     let a_node = |count: u64| count as f64 / nodes as f64;
     let (w, m) = (f64::from(atoms), nodes as f64);
-    Row {
+    ScaleRow {
         nodes,
         latency_s: latency.as_secs_f64(),
         handling_s: handling.as_secs_f64(),
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_grown_picture_costs_as_much_an_atom_and_where_the_old_one_did() {
-        let costs: Costs = (0..3000u64).map(|atom| Duration::from_micros(500 + atom)).collect();
+        let costs: AtomCosts = (0..3000u64).map(|atom| Duration::from_micros(500 + atom)).collect();
         for nodes in [1, 8] {
             let (grown, size) = resample(&costs, nodes).unwrap();
             assert_eq!(grown.len(), 1024 * nodes);

@@ -3,18 +3,18 @@
 use std::fmt::Write;
 
 use super::fixture::STRATEGIES;
-use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, Row, SIZE, measure, node_counts};
-use super::{Study, Tell};
+use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
+use super::{ProgressSink, Study};
 use crate::balance::Strategy;
 use crate::scene::Opened;
-use crate::view::{Axis, CHART_SIZE, Chart, Scale, Series, Style, series_hue};
+use crate::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue};
 
 /// From one machine to 1,024, in virtual time: the same picture, and one that grows with the machines, at latencies of 0.1, 1
 /// and 10 ms, for every strategy.
 ///
 /// # Errors
 /// A sentence, if the scene could not be traced.
-pub fn scale(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
     let rows = measure(scene, tell)?;
     let mut study = Study::new("scale");
     study.add_rows(&rows)?;
@@ -46,7 +46,12 @@ fn words((latency, handling): (f64, f64)) -> String {
     format!("{latency} ms a message{busy}")
 }
 
-fn of(rows: &[Row], weak: bool, network: (f64, f64), strategy: Strategy) -> impl Iterator<Item = &Row> + Clone {
+fn of(
+    rows: &[ScaleRow],
+    weak: bool,
+    network: (f64, f64),
+    strategy: Strategy,
+) -> impl Iterator<Item = &ScaleRow> + Clone {
     let is = |seconds: f64, ms: f64| (seconds - ms * 1e-3).abs() < 1e-9;
     rows.iter().filter(move |row| {
         row.weak == weak
@@ -56,11 +61,11 @@ fn of(rows: &[Row], weak: bool, network: (f64, f64), strategy: Strategy) -> impl
     })
 }
 
-fn points<'a>(rows: impl Iterator<Item = &'a Row>, value: impl Fn(&Row) -> f64) -> Vec<(f64, f64)> {
+fn points<'a>(rows: impl Iterator<Item = &'a ScaleRow>, value: impl Fn(&ScaleRow) -> f64) -> Vec<(f64, f64)> {
     rows.map(|row| (row.nodes as f64, value(row))).collect()
 }
 
-fn efficiency(rows: &[Row], weak: bool, network: (f64, f64)) -> Chart {
+fn efficiency(rows: &[ScaleRow], weak: bool, network: (f64, f64)) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
@@ -74,7 +79,7 @@ fn efficiency(rows: &[Row], weak: bool, network: (f64, f64)) -> Chart {
         points: points(of(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
         style: Style::Dashed,
     });
-    Chart {
+    LineChart {
         title: if weak { "A picture that grows with the machines" } else { "The same picture" }.into(),
         note: format!("{}; dashed: work stealing whose messages cost nothing", words(network)),
         x: nodes_axis(),
@@ -87,14 +92,14 @@ fn efficiency(rows: &[Row], weak: bool, network: (f64, f64)) -> Chart {
     }
 }
 
-fn messages(rows: &[Row], weak: bool) -> Chart {
+fn messages(rows: &[ScaleRow], weak: bool) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
         points: points(of(rows, weak, NETWORKS[1], strategy), |row| row.messages_per_node),
         style: Style::Line,
     };
-    Chart {
+    LineChart {
         title: format!("Messages a machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
         note: words(NETWORKS[1]),
         x: nodes_axis(),
@@ -104,7 +109,7 @@ fn messages(rows: &[Row], weak: bool) -> Chart {
 }
 
 /// How the ring decays: the one chart that later work has to beat.
-fn decay(rows: &[Row]) -> Chart {
+fn decay(rows: &[ScaleRow]) -> LineChart {
     let line = |(i, (weak, network)): (usize, (bool, (f64, f64)))| Series {
         name: format!("{} {} ms", if weak { "grown," } else { "same," }, network.0),
         hue: series_hue(i),
@@ -113,7 +118,7 @@ fn decay(rows: &[Row]) -> Chart {
     };
     let free = NETWORKS.into_iter().filter(|(_, handling)| *handling == 0.0);
     let kinds = [false, true].into_iter().flat_map(|weak| free.clone().map(move |network| (weak, network)));
-    Chart {
+    LineChart {
         title: "How the ring decays".into(),
         note: "Dashed: the picture grows with the machines".into(),
         x: nodes_axis(),
@@ -122,7 +127,7 @@ fn decay(rows: &[Row]) -> Chart {
     }
 }
 
-fn report(rows: &[Row], scene: &str) -> String {
+fn report(rows: &[ScaleRow], scene: &str) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut say = |line: std::fmt::Arguments<'_>| _ = writeln!(text, "{line}");
@@ -170,7 +175,7 @@ fn report(rows: &[Row], scene: &str) -> String {
 }
 
 /// The paragraph on the ring's decay, with the figures that bear it out.
-fn why(rows: &[Row]) -> String {
+fn why(rows: &[ScaleRow]) -> String {
     let ring = |weak, network, nodes| of(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
     let most = node_counts().max().unwrap_or(1);
     let (Some(few), Some(many), Some(slow)) =
@@ -178,7 +183,7 @@ fn why(rows: &[Row]) -> String {
     else {
         return String::new();
     };
-    let parcel = |row: &Row| row.atoms_moved as f64 / row.transfers.max(1) as f64;
+    let parcel = |row: &ScaleRow| row.atoms_moved as f64 / row.transfers.max(1) as f64;
     format!(
         "An offer goes to the left neighbour first and ends at the first node that still has one atom to give. Neighbours have \
          neighbouring bands, which cost about the same, so the first that could take it is usually nearly done itself: it gives \

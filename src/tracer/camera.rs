@@ -7,7 +7,7 @@ use crate::picture::Size;
 use crate::scene;
 
 #[derive(Debug)]
-pub(super) struct Camera {
+pub(super) struct RayCamera {
     eye: DVec3,
     /// From the eye to the upper left corner of the picture's plane.
     corner: DVec3,
@@ -16,7 +16,7 @@ pub(super) struct Camera {
     down: DVec3,
 }
 
-impl Camera {
+impl RayCamera {
     pub fn new(camera: &scene::Camera, size: Size) -> Self {
         let forward = (camera.look_at - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();

@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use super::bvh::Bvh;
 use super::media::Medium;
-use super::scene_stats::Given;
-use crate::csg::{Reduction, Reductions, Solid, Surface, Tree};
+use super::scene_stats::SourceCounts;
+use crate::csg::{Pass, Passes, Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
 #[derive(Debug)]
-pub(super) struct World {
+pub(super) struct CompiledScene {
     pub tree: Tree,
     /// The roots with bounds.
     pub bounded: Bvh,
@@ -19,16 +19,16 @@ pub(super) struct World {
     pub lights: Vec<Light>,
     /// The solids that transmit and that the eye is in.
     pub eye_media: Vec<Medium>,
-    pub finishes: Vec<Finish>,
+    pub finishes: Vec<Shading>,
     /// What the scene's file has.
-    pub given: Given,
+    pub given: SourceCounts,
     /// Solids that were proved empty.
     pub dropped: usize,
 }
 
 /// A material with its constants multiplied out.
 #[derive(Debug)]
-pub(super) struct Finish {
+pub(super) struct Shading {
     /// Ka Ia times the colour.
     pub ambient: DVec3,
     /// Kd times the colour.
@@ -55,13 +55,13 @@ impl Exponent {
     }
 }
 
-impl World {
-    pub fn new(scene: &Scene, reductions: Reductions) -> Self {
+impl CompiledScene {
+    pub fn new(scene: &Scene, reductions: Passes) -> Self {
         let mut tree = Tree::new(reductions);
         let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
         let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
-            if reductions.has(Reduction::Apart) {
+            if reductions.has(Pass::Apart) {
                 split(solid, scene, &mut solids);
             } else {
                 solids.push(solid);
@@ -86,18 +86,22 @@ impl World {
         tree.finish();
         Self {
             tree,
-            bounded: if reductions.has(Reduction::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
+            bounded: if reductions.has(Pass::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
             unbounded,
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
-            finishes: scene.materials.iter().map(|material| Finish::new(material, scene.ambient, reductions)).collect(),
-            given: Given::of(&scene.solids),
+            finishes: scene
+                .materials
+                .iter()
+                .map(|material| Shading::new(material, scene.ambient, reductions))
+                .collect(),
+            given: SourceCounts::of(&scene.solids),
             dropped,
         }
     }
 
-    pub fn finish(&self, surface: Surface) -> &Finish {
+    pub fn finish(&self, surface: Surface) -> &Shading {
         &self.finishes[self.tree.leaf(surface).tag as usize]
     }
 }
@@ -122,15 +126,15 @@ fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
     }
 }
 
-impl Finish {
-    fn new(material: &Material, ambient: DVec3, reductions: Reductions) -> Self {
+impl Shading {
+    fn new(material: &Material, ambient: DVec3, reductions: Passes) -> Self {
         let Material { colour, ka, kd, ks, kt, n, ior } = *material;
         Self {
             ambient: colour * ambient * ka,
             diffuse: colour * kd,
             ks,
             kt,
-            exponent: if n.fract() == 0.0 && reductions.has(Reduction::Powers) {
+            exponent: if n.fract() == 0.0 && reductions.has(Pass::Powers) {
                 Exponent::Whole(n as i32)
             } else {
                 Exponent::Real(n)

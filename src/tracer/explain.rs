@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::observer::{Lit, Met, Note, Path, RayKind, Watch};
+use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::{Scratch, Tracer};
-use crate::csg::{Figure, Start};
+use crate::csg::{RayStart, SpanDiagram};
 use crate::geometry::Ray;
 
 /// One sample of a pixel.
@@ -28,13 +28,13 @@ pub struct RayNotes {
     pub path: Path,
 
     /// What it met; nothing, if it met no solid.
-    pub met: Option<Met>,
+    pub met: Option<Intersection>,
     /// In how many solids that transmit it was.
     pub inside: usize,
     /// The term Ka Ia; the background's colour if it met nothing.
     pub ambient: DVec3,
     /// The terms Kd Il (N·L) and Ks Il (S·R)ⁿ of each light that is on its side.
-    pub lights: Vec<Lit>,
+    pub lights: Vec<LightTerm>,
     /// The ways of the rays to these lights.
     pub shadows: Vec<Path>,
     /// What rays from its end would count, which the limit of the tree of rays forbids.
@@ -91,10 +91,10 @@ impl Tracer {
 
     /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
     /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
-    pub fn figures(&self, ray: &Ray, start: Option<Start>, to: f64) -> Vec<(u32, Figure)> {
+    pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(u32, SpanDiagram)> {
         let roots = self.world.unbounded.iter().copied().chain(self.world.bounded.roots());
         let figures = roots.map(|root| (root, self.world.tree.figure(root, ray, start)));
-        let mut passed: Vec<(f64, u32, Figure)> =
+        let mut passed: Vec<(f64, u32, SpanDiagram)> =
             figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         passed.into_iter().map(|(_, root, figure)| (root, figure)).collect()
@@ -102,7 +102,7 @@ impl Tracer {
 }
 
 /// Where a ray first enters a solid or any of its operands; infinite if it enters none.
-fn entered(figure: &Figure) -> f64 {
+fn entered(figure: &SpanDiagram) -> f64 {
     let own = figure.stays.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
     figure.operands.iter().map(entered).fold(own, f64::min)
 }
@@ -111,7 +111,7 @@ fn entered(figure: &Figure) -> f64 {
 #[derive(Default)]
 struct Notes(Vec<Explained>);
 
-impl Watch for Notes {
+impl Observer for Notes {
     fn see(&mut self, path: impl FnOnce() -> Path) {
         let path = path();
         match path.kind {
@@ -146,8 +146,10 @@ impl Watch for Notes {
         let Some(ray) = sample.rays.last_mut() else { return };
         match note {
             Note::Background(colour) => ray.ambient = colour,
-            Note::Met { met, ambient, inside } => (ray.met, ray.ambient, ray.inside) = (Some(met), ambient, inside),
-            Note::Lit(lit) => ray.lights.push(lit),
+            Note::Intersection { met, ambient, inside } => {
+                (ray.met, ray.ambient, ray.inside) = (Some(met), ambient, inside)
+            }
+            Note::LightTerm(lit) => ray.lights.push(lit),
             Note::TooDeep(weight) => ray.too_deep = weight,
             // What is left of a sum may be less than nothing by rounding.
             Note::LeftOut(weight, rays) => (sample.left_out, sample.rays_left_out) = (weight.max(0.0), rays),

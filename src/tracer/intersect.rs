@@ -4,14 +4,14 @@
 //! have two, and the compiler would no longer take them in by itself, which costs 3 to 4 %: so it is told to.
 
 use super::bvh::Pending;
-use super::compiled_scene::World;
+use super::compiled_scene::CompiledScene;
 use super::media::Medium;
-use crate::csg::{Hit, Stack, Start, rank};
+use crate::csg::{Hit, RayStart, Stack, rank};
 use crate::geometry::Ray;
 
 /// What finding a hit needs of memory, kept from ray to ray.
 #[derive(Debug, Default)]
-pub(super) struct Memory {
+pub(super) struct HitScratch {
     spans: Stack,
     boxes: Pending,
     surfaces: Vec<Transparent>,
@@ -28,15 +28,15 @@ struct Transparent {
 }
 
 /// Whether a ray is on its way back at the distance `t`: it turned where it starts and is still there.
-pub(super) fn has_turned_at(start: Option<Start>, ray: &Ray, t: f64) -> bool {
+pub(super) fn has_turned_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
     start.is_some_and(|start| start.turned) && t <= ray.tolerance(0.0)
 }
 
-impl World {
+impl CompiledScene {
     /// The nearest boundary on `ray`, and the root that it bounds.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, start: Option<Start>, memory: &mut Memory) -> Option<(u32, Hit)> {
-        let Memory { spans, boxes, .. } = memory;
+    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(u32, Hit)> {
+        let HitScratch { spans, boxes, .. } = memory;
         let mut nearest: Option<(u32, Hit)> = None;
         let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
@@ -69,8 +69,15 @@ impl World {
     /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
     /// every surface between two media on the way, 0 behind anything that does not transmit.
     #[inline(always)]
-    pub fn light_arriving(&self, ray: &Ray, start: Start, media: &[Medium], t_max: f64, memory: &mut Memory) -> f64 {
-        let Memory { spans, boxes, surfaces, media: inside } = memory;
+    pub fn light_arriving(
+        &self,
+        ray: &Ray,
+        start: RayStart,
+        media: &[Medium],
+        t_max: f64,
+        memory: &mut HitScratch,
+    ) -> f64 {
+        let HitScratch { spans, boxes, surfaces, media: inside } = memory;
         let mut arriving = 1.0;
         surfaces.clear();
         let mut test = |root: u32, t_max: f64| {
@@ -97,10 +104,10 @@ impl World {
     }
 
     /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
-    /// transmits nothing, else at `t_max`. Unlike [`World::light_arriving`] it goes on from the first that it finds to
+    /// transmits nothing, else at `t_max`. Unlike [`CompiledScene::light_arriving`] it goes on from the first that it finds to
     /// the nearest.
-    pub fn light_ends(&self, ray: &Ray, start: Start, t_max: f64, memory: &mut Memory) -> f64 {
-        let Memory { spans, boxes, .. } = memory;
+    pub fn light_ends(&self, ray: &Ray, start: RayStart, t_max: f64, memory: &mut HitScratch) -> f64 {
+        let HitScratch { spans, boxes, .. } = memory;
         let mut end = t_max;
         let mut test = |root: u32, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {

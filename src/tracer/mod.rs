@@ -15,9 +15,9 @@ mod scene_stats;
 mod shade;
 
 pub use explain::{Explained, RayNotes};
-pub use observer::{Lit, Met, Path, RayKind};
+pub use observer::{Intersection, LightTerm, Path, RayKind};
 pub use preview::Preview;
-pub use scene_stats::Compiled;
+pub use scene_stats::SceneStats;
 pub use shade::Scratch;
 
 use std::ops::{AddAssign, Range};
@@ -25,13 +25,13 @@ use std::ops::{AddAssign, Range};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::csg::Reductions;
+use crate::csg::Passes;
 use crate::geometry::Aabb;
 use crate::picture::{Colour, Quality, Size};
 use crate::scene::Scene;
-use camera::Camera;
-use compiled_scene::World;
-use observer::{Note, Watch};
+use camera::RayCamera;
+use compiled_scene::CompiledScene;
+use observer::{Note, Observer};
 use pattern::Pattern;
 
 /// How many rays of each kind were traced.
@@ -75,8 +75,8 @@ impl AddAssign for RayCounts {
 /// A compiled scene, seen by its camera at one size and quality; shared by all threads.
 #[derive(Debug)]
 pub struct Tracer {
-    world: World,
-    camera: Camera,
+    world: CompiledScene,
+    camera: RayCamera,
     size: Size,
     quality: Quality,
     preview: Option<Preview>,
@@ -85,14 +85,14 @@ pub struct Tracer {
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        Self::reduced(scene, size, quality, Reductions::default())
+        Self::reduced(scene, size, quality, Passes::default())
     }
 
     /// Compiles `scene` by some of the reductions only. The picture is the same.
-    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Reductions) -> Self {
+    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Passes) -> Self {
         Self {
-            world: World::new(scene, reductions),
-            camera: Camera::new(&scene.camera, size),
+            world: CompiledScene::new(scene, reductions),
+            camera: RayCamera::new(&scene.camera, size),
             size,
             quality,
             preview: None,
@@ -122,7 +122,7 @@ impl Tracer {
         out.extend(pixels.map(|pixel| self.known_or_traced(pixel, scratch)));
     }
 
-    fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Watch) -> Colour {
+    fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Observer) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
         let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
         let Quality { samples, threshold, .. } = self.quality;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::csg::Start;
+use crate::csg::RayStart;
 use crate::geometry::Ray;
 
 /// A ray's way, from where it starts to where it ends.
@@ -21,7 +21,7 @@ pub struct Path {
     /// Where it starts and where it goes.
     pub ray: Ray,
     /// The face that it starts on; a primary ray starts on none.
-    pub start: Option<Start>,
+    pub start: Option<RayStart>,
     /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
     /// no light through. Infinite if it ends nowhere.
     pub to: f64,
@@ -42,9 +42,9 @@ pub enum RayKind {
 
 /// What a ray met.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
+pub struct Intersection {
     /// The solid and its face, and where a ray starts that goes on from there.
-    pub start: Start,
+    pub start: RayStart,
     /// The primitive's number for its surface (which material it has).
     pub tag: u32,
     /// The solid is entered; else left.
@@ -55,7 +55,7 @@ pub struct Met {
 
 /// What a light adds where a ray ends.
 #[derive(Clone, Debug)]
-pub struct Lit {
+pub struct LightTerm {
     /// The light's place in the scene's list.
     pub light: usize,
     /// What part of its intensity arrives.
@@ -71,12 +71,12 @@ pub struct Lit {
 /// What is known of a ray.
 pub(super) enum Note {
     Background(DVec3),
-    Met {
-        met: Met,
+    Intersection {
+        met: Intersection,
         ambient: DVec3,
         inside: usize,
     },
-    Lit(Lit),
+    LightTerm(LightTerm),
     TooDeep(f64),
     /// What was left out of the whole sample, and how many rays these were.
     LeftOut(f64, u64),
@@ -84,7 +84,7 @@ pub(super) enum Note {
     FirstCount(bool),
 }
 
-impl Lit {
+impl LightTerm {
     /// Kd Il (N·L)
     pub fn diffuse(&self) -> DVec3 {
         self.coming * self.diffuse
@@ -97,7 +97,7 @@ impl Lit {
 }
 
 /// Whoever looks on while rays are traced. It is compiled in, so that nobody costs nothing.
-pub(super) trait Watch {
+pub(super) trait Observer {
     /// A ray was traced; `path` tells its way, which may take work.
     fn see(&mut self, path: impl FnOnce() -> Path);
 
@@ -106,14 +106,14 @@ pub(super) trait Watch {
 }
 
 /// Does not look, so that no path is ever worked out.
-pub(super) struct Nobody;
+pub(super) struct NoObserver;
 
-impl Watch for Nobody {
+impl Observer for NoObserver {
     #[inline(always)]
     fn see(&mut self, _: impl FnOnce() -> Path) {}
 }
 
-impl<F: FnMut(Path)> Watch for F {
+impl<F: FnMut(Path)> Observer for F {
     fn see(&mut self, path: impl FnOnce() -> Path) {
         self(path());
     }

@@ -2,7 +2,7 @@
 //!
 //! Its pixels are those of the picture itself and are never traced again, so that it costs the picture nothing.
 
-use super::observer::Nobody;
+use super::observer::NoObserver;
 use super::{RayCounts, Scratch, Tracer};
 use crate::picture::{Colour, Size};
 
@@ -70,7 +70,7 @@ impl Tracer {
                 let known = self.preview.as_ref().and_then(|coarser| coarser.get(pixel)).copied();
                 finer.known.push(known.unwrap_or_else(|| {
                     scratch.rays = RayCounts::default();
-                    (self.pixel(pixel, &mut scratch, &mut Nobody), scratch.rays)
+                    (self.pixel(pixel, &mut scratch, &mut NoObserver), scratch.rays)
                 }));
             }
         }
@@ -85,7 +85,7 @@ impl Tracer {
                 scratch.rays += *rays;
                 *colour
             }
-            None => self.pixel(pixel, scratch, &mut Nobody),
+            None => self.pixel(pixel, scratch, &mut NoObserver),
         }
     }
 }

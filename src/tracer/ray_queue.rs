@@ -5,12 +5,12 @@ use std::collections::BinaryHeap;
 
 use super::media::Media;
 use super::observer::RayKind;
-use crate::csg::Start;
+use crate::csg::RayStart;
 use crate::geometry::Ray;
 
 /// A ray of the tree of rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Branch {
+pub(super) struct QueuedRay {
     pub kind: RayKind,
     /// What the sample keeps of the ray's colour.
     pub weight: f64,
@@ -21,7 +21,7 @@ pub(super) struct Branch {
     /// That of the ray at whose end it starts.
     pub from: Option<u64>,
     pub ray: Ray,
-    pub start: Option<Start>,
+    pub start: Option<RayStart>,
     /// What it is in.
     pub media: Media,
 }
@@ -40,13 +40,13 @@ const LEFT_OUT: f64 = 1e-3;
 /// has a limit: to end each branch where it is weak (Hall and Greenberg, *A Testbed for Realistic Image Synthesis*, 1983)
 /// says nothing of what many weak branches add up to.
 #[derive(Debug, Default)]
-pub(super) struct Branches {
+pub(super) struct RayQueue {
     waiting: BinaryHeap<Waiting>,
     /// Where those that wait are, and places that are free.
-    places: Vec<Branch>,
+    places: Vec<QueuedRay>,
     free: Vec<u32>,
     /// To be traced before those that wait, the last one first.
-    at_once: Vec<Branch>,
+    at_once: Vec<QueuedRay>,
     /// What all of them count together, and what was left out already.
     weight: f64,
     /// What was left out of those to be traced at once: at most half of the cutoff.
@@ -76,7 +76,7 @@ impl PartialOrd for Waiting {
     }
 }
 
-impl Branches {
+impl RayQueue {
     /// Begins with a primary ray, which is traced now.
     pub fn restart(&mut self) {
         self.waiting.clear();
@@ -90,7 +90,7 @@ impl Branches {
     }
 
     #[inline(always)]
-    pub fn add(&mut self, branch: Branch) {
+    pub fn add(&mut self, branch: QueuedRay) {
         self.weight += branch.weight;
         if self.waiting.len() == MOST_WAITING {
             self.at_once.push(branch);
@@ -106,7 +106,7 @@ impl Branches {
 
     /// The next to be traced, unless what waits counts no more than `cutoff`.
     #[inline(always)]
-    pub fn next(&mut self, cutoff: f64) -> Option<Branch> {
+    pub fn next(&mut self, cutoff: f64) -> Option<QueuedRay> {
         if self.weight <= cutoff {
             return None;
         }
@@ -118,7 +118,7 @@ impl Branches {
         self.weight -= next.weight;
         let number = self.traced;
         self.traced += 1;
-        Some(Branch { number, ..next })
+        Some(QueuedRay { number, ..next })
     }
 
     /// What all of them that were not traced count together.
@@ -132,7 +132,7 @@ impl Branches {
     }
 
     #[inline(always)]
-    fn next_at_once(&mut self, cutoff: f64) -> Option<Branch> {
+    fn next_at_once(&mut self, cutoff: f64) -> Option<QueuedRay> {
         while let Some(next) = self.at_once.pop() {
             if next.weight > LEFT_OUT * (cutoff / 2.0 - self.left_out) {
                 return Some(next);
@@ -151,10 +151,10 @@ mod tests {
 
     use super::*;
 
-    fn branch(weight: f64) -> Branch {
+    fn branch(weight: f64) -> QueuedRay {
         let ray = Ray::new(DVec3::ZERO, DVec3::Y);
         let (kind, level, number) = (RayKind::Reflected, 2, 0);
-        Branch { kind, weight, level, number, from: Some(0), ray, start: None, media: Media::default() }
+        QueuedRay { kind, weight, level, number, from: Some(0), ray, start: None, media: Media::default() }
     }
 
     proptest! {
@@ -162,7 +162,7 @@ mod tests {
         fn what_counts_most_comes_first_and_what_is_left_counts_no_more_than_the_cutoff(
             weights in prop::collection::vec(1e-6..1.0f64, 0..50), cutoff in 0.0..3.0f64
         ) {
-            let mut branches = Branches::default();
+            let mut branches = RayQueue::default();
             branches.restart();
             weights.iter().for_each(|&weight| branches.add(branch(weight)));
             let traced: Vec<f64> = std::iter::from_fn(|| branches.next(cutoff)).map(|branch| branch.weight).collect();
@@ -178,14 +178,14 @@ mod tests {
 
     #[test]
     fn however_many_rays_there_are_they_take_little_memory() {
-        let mut branches = Branches::default();
+        let mut branches = RayQueue::default();
         branches.restart();
         branches.add(branch(1.0));
         for _ in 0..1_000_000 {
             let next = branches.next(0.0).expect("more of them");
-            branches.add(Branch { level: next.level + 1, ..branch(next.weight * 0.6) });
+            branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.6) });
             if next.level < 60 {
-                branches.add(Branch { level: next.level + 1, ..branch(next.weight * 0.4) });
+                branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.4) });
             }
         }
         assert!(branches.places.len() <= MOST_WAITING && branches.at_once.len() < 100);

@@ -9,9 +9,9 @@ use crate::csg::{Dropped, Solid};
 
 /// What a compiled scene kept and dropped.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Compiled {
+pub struct SceneStats {
     /// What the scene has as it is written.
-    pub given: Given,
+    pub given: SourceCounts,
     /// Solids that a ray is tested against one by one. Opaque unions count as their parts.
     pub solids: usize,
     /// Solids of these that are made of several primitives.
@@ -37,14 +37,14 @@ pub struct Compiled {
 
 /// What a scene has as it is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Given {
+pub struct SourceCounts {
     /// Placed primitives.
     pub primitives: usize,
     /// Unions, intersections and differences.
     pub operations: usize,
 }
 
-impl Given {
+impl SourceCounts {
     pub(super) fn of(solids: &[Solid]) -> Self {
         let mut given = Self::default();
         for solid in solids {
@@ -63,7 +63,7 @@ impl Given {
 
 impl Tracer {
     /// What the compiled scene kept and dropped, in figures.
-    pub fn compiled(&self) -> Compiled {
+    pub fn compiled(&self) -> SceneStats {
         let world = &self.world;
         let roots: Vec<u32> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
         let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
@@ -73,7 +73,7 @@ impl Tracer {
             *primitives.entry(leaf.kind()).or_default() += 1;
         }
         let operations = roots.iter().map(|&root| world.tree.operations_of(root));
-        Compiled {
+        SceneStats {
             given: world.given,
             solids: roots.len(),
             compositions: operations.clone().filter(|&operations| operations > 0).count(),

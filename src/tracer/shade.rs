@@ -4,13 +4,13 @@
 
 use glam::DVec3;
 
-use super::compiled_scene::Finish;
-use super::intersect::{Memory, has_turned_at};
+use super::compiled_scene::Shading;
+use super::intersect::{HitScratch, has_turned_at};
 use super::media::{Media, MediaSets, Medium};
-use super::observer::{Lit, Met, Note, Path, RayKind, Watch};
-use super::ray_queue::{Branch, Branches};
+use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
+use super::ray_queue::{QueuedRay, RayQueue};
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, Start, rank};
+use crate::csg::{Hit, RayStart, rank};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
@@ -19,44 +19,44 @@ use crate::scene::Light;
 pub struct Scratch {
     /// Rays traced with this scratch so far.
     pub rays: RayCounts,
-    memory: Memory,
+    memory: HitScratch,
     media: MediaSets,
-    branches: Branches,
+    branches: RayQueue,
 }
 
 /// A hit with what the equation needs of it.
-struct Place<'a> {
-    start: Start,
+struct ShadingPoint<'a> {
+    start: RayStart,
     enters: bool,
     t: f64,
     /// Of length 1, on the side that the ray comes from.
     normal: DVec3,
-    finish: &'a Finish,
+    finish: &'a Shading,
     /// What the ray is in before it.
     media: Media,
     /// What is around the solid, if that transmits and it is not air.
     around: Option<Medium>,
 }
 
-impl Place<'_> {
+impl ShadingPoint<'_> {
     /// The solid as a medium.
     fn medium(&self) -> Medium {
         Medium { root: self.start.root, ior: self.finish.ior }
     }
 
     /// For rays that stay on the side from which the place was met: to a light, or reflected.
-    fn turned(&self) -> Start {
-        Start { turned: !self.start.turned, ..self.start }
+    fn turned(&self) -> RayStart {
+        RayStart { turned: !self.start.turned, ..self.start }
     }
 }
 
 impl Tracer {
     /// The colour that a primary ray brings, in linear light.
-    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
+    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
         scratch.rays.count(RayKind::Primary);
         let media = scratch.media.restart(&self.world.eye_media);
         scratch.branches.restart();
-        let primary = Branch {
+        let primary = QueuedRay {
             kind: RayKind::Primary,
             weight: 1.0,
             level: 1,
@@ -77,8 +77,8 @@ impl Tracer {
 
     /// The colour that a ray brings, but for what comes by rays that start at its end: these now wait.
     #[inline(always)]
-    fn colour(&self, branch: &Branch, scratch: &mut Scratch, watch: &mut impl Watch) -> DVec3 {
-        let Branch { ray, start, media, .. } = branch;
+    fn colour(&self, branch: &QueuedRay, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
+        let QueuedRay { ray, start, media, .. } = branch;
         let nearest = self.world.nearest(ray, *start, &mut scratch.memory);
         let around = self.around(nearest, *media, scratch);
         if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, around)) {
@@ -100,10 +100,10 @@ impl Tracer {
     #[cold]
     fn colour_behind<'a>(
         &'a self,
-        branch: &Branch,
-        mut place: Place<'a>,
+        branch: &QueuedRay,
+        mut place: ShadingPoint<'a>,
         scratch: &mut Scratch,
-        watch: &mut impl Watch,
+        watch: &mut impl Observer,
     ) -> DVec3 {
         let (mut ray, mut passed) = (branch.ray, 0.0);
         loop {
@@ -141,17 +141,17 @@ impl Tracer {
     fn shade(
         &self,
         ray: &Ray,
-        place: &Place<'_>,
-        branch: &Branch,
+        place: &ShadingPoint<'_>,
+        branch: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Watch,
+        watch: &mut impl Observer,
     ) -> DVec3 {
         let finish = place.finish;
         let mut colour = finish.ambient;
         watch.note(|| {
-            let Place { start, enters, normal, media, .. } = *place;
-            let met = Met { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
-            Note::Met { met, ambient: colour, inside: scratch.media.get(media).len() }
+            let ShadingPoint { start, enters, normal, media, .. } = *place;
+            let met = Intersection { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
+            Note::Intersection { met, ambient: colour, inside: scratch.media.get(media).len() }
         });
         for index in 0..self.world.lights.len() {
             colour += self.light(index, ray, place, branch, scratch, watch);
@@ -167,7 +167,7 @@ impl Tracer {
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
         let mut follow = |kind, coefficient: f64, direction, start, media| {
-            scratch.branches.add(Branch {
+            scratch.branches.add(QueuedRay {
                 kind,
                 weight: branch.weight * coefficient,
                 level: branch.level + 1,
@@ -189,11 +189,19 @@ impl Tracer {
     }
 
     #[inline(always)]
-    fn place(&self, ray: &Ray, root: u32, hit: &Hit, turned: bool, media: Media, around: Option<Medium>) -> Place<'_> {
+    fn place(
+        &self,
+        ray: &Ray,
+        root: u32,
+        hit: &Hit,
+        turned: bool,
+        media: Media,
+        around: Option<Medium>,
+    ) -> ShadingPoint<'_> {
         let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
-        Place {
-            start: Start { root, surface: hit.surface, leaves: rank(root, hit.enters, turned).0, turned },
+        ShadingPoint {
+            start: RayStart { root, surface: hit.surface, leaves: rank(root, hit.enters, turned).0, turned },
             enters: hit.enters,
             t: hit.t,
             normal,
@@ -209,10 +217,10 @@ impl Tracer {
         &self,
         index: usize,
         ray: &Ray,
-        place: &Place<'_>,
-        branch: &Branch,
+        place: &ShadingPoint<'_>,
+        branch: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Watch,
+        watch: &mut impl Observer,
     ) -> DVec3 {
         let point = ray.at(place.t);
         let (direction, distance, intensity) = match self.world.lights[index] {
@@ -244,7 +252,13 @@ impl Tracer {
         let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
         if arriving == 0.0 {
             watch.note(|| {
-                Note::Lit(Lit { light: index, arriving, coming: DVec3::ZERO, diffuse: DVec3::ZERO, specular: 0.0 })
+                Note::LightTerm(LightTerm {
+                    light: index,
+                    arriving,
+                    coming: DVec3::ZERO,
+                    diffuse: DVec3::ZERO,
+                    specular: 0.0,
+                })
             });
             return DVec3::ZERO;
         }
@@ -257,7 +271,7 @@ impl Tracer {
             }
         }
         let coming = intensity * arriving;
-        watch.note(|| Note::Lit(Lit { light: index, arriving, coming, diffuse, specular }));
+        watch.note(|| Note::LightTerm(LightTerm { light: index, arriving, coming, diffuse, specular }));
         coming * (diffuse + specular)
     }
 }
@@ -267,7 +281,7 @@ fn is_hidden(root: u32, around: Option<Medium>) -> bool {
     around.is_some_and(|medium| medium.root < root)
 }
 
-fn path(branch: &Branch, to: f64) -> Path {
+fn path(branch: &QueuedRay, to: f64) -> Path {
     Path {
         kind: branch.kind,
         level: branch.level,
@@ -285,7 +299,7 @@ fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
 }
 
 /// Snell's law, between the place's solid and what is around it; nothing under total internal reflection.
-fn refract(direction: DVec3, place: &Place<'_>) -> Option<DVec3> {
+fn refract(direction: DVec3, place: &ShadingPoint<'_>) -> Option<DVec3> {
     let (inside, outside) = (place.finish.ior, place.around.map_or(1.0, |medium| medium.ior));
     let ratio = if place.enters { outside / inside } else { inside / outside };
     let cosine = -direction.dot(place.normal);

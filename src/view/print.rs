@@ -2,23 +2,23 @@
 
 use std::time::Duration;
 
-use super::analysis::summary::Outcome;
-use super::analysis::time_budget::Account;
+use super::analysis::summary::Summary;
+use super::analysis::time_budget::TimeBudget;
 use super::charts::time_budget_chart::{spent, spent_height};
 use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
-use super::playback::snapshots::Moment;
-use super::ring::{Overlay, ring};
+use super::playback::snapshots::Snapshot;
+use super::ring::{RingOverlay, ring};
 use super::state::lanes::Lanes;
 use super::text::format::{duration, fraction, node_name, time_words};
 use super::timeline::time_window::TimeWindow;
-use super::timeline::{LanePlan, axis, timeline};
+use super::timeline::{TimelineLayout, axis, timeline};
 use crate::runlog::RunLog;
 use crate::sentence::shown;
 use crate::time::Time;
 
 /// What is drawn on a sheet of paper, and how large that is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Paper {
+pub struct PrintedDrawing {
     /// What is drawn.
     pub marks: Vec<Mark>,
     /// Width and height.
@@ -37,23 +37,23 @@ const RING: Point = [900.0, 760.0];
 const WIDTH: f32 = 1200.0;
 const LEFT: f32 = 96.0;
 
-impl Paper {
+impl PrintedDrawing {
     /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
     /// After the end it is as at the end.
     pub fn ring(log: &RunLog, at: Time) -> Self {
         /// Longer than the last message is drawn: at the end all is at rest.
         const LINGER: Duration = Duration::from_secs(5);
         let at = at.min(log.end());
-        let mut moment = Moment::new(&log.header);
+        let mut moment = Snapshot::new(&log.header);
         log.records()[..log.until(at)].iter().for_each(|record| moment.apply(record));
         let state = &moment.state;
-        let outcome = Outcome::of(log).filter(|_| state.finished().is_some());
+        let outcome = Summary::of(log).filter(|_| state.finished().is_some());
         let is_over = outcome.is_some() && at == log.end();
         let drawn_at = if is_over { at + LINGER } else { at };
         let [width, height] = RING;
         let mut marks = Vec::new();
         let top = heading(log, outcome.as_ref(), width, &mut marks);
-        let overlay = Overlay { outcome, ..Overlay::default() };
+        let overlay = RingOverlay { outcome, ..RingOverlay::default() };
         let room = [width - 2.0 * MARGIN, height - top - 2.5 * MARGIN];
         marks.extend(ring(state, &overlay, drawn_at, room).into_iter().map(|mark| mark.moved([MARGIN, top])));
         let sentence = format!("At {}: {}", time_words(at, grain(log)), moment.narrator.sentence(state, at));
@@ -67,11 +67,11 @@ impl Paper {
         let lanes = Lanes::of(log);
         let nodes = log.header.speeds.len();
         let mut marks = Vec::new();
-        let top = heading(log, Outcome::of(log).as_ref(), WIDTH, &mut marks);
+        let top = heading(log, Summary::of(log).as_ref(), WIDTH, &mut marks);
         let lane = (640.0 / nodes as f32).clamp(4.0, 26.0);
         // Enough for the strip above the lanes and the axis below.
         let room = (58.0 + lane * nodes as f32).max(121.0);
-        let plan = LanePlan { lane, ..LanePlan::new(nodes, WIDTH - LEFT - MARGIN, room) };
+        let plan = TimelineLayout { lane, ..TimelineLayout::new(nodes, WIDTH - LEFT - MARGIN, room) };
         let end = log.end();
         let mut window = TimeWindow::default();
         window.fit(end);
@@ -103,9 +103,9 @@ impl Paper {
     }
 }
 
-impl Paper {
+impl PrintedDrawing {
     /// Where the time of several runs went.
-    pub fn comparison(title: &str, runs: &[(&str, &Account)]) -> Self {
+    pub fn comparison(title: &str, runs: &[(&str, &TimeBudget)]) -> Self {
         const TOP: f32 = MARGIN + 36.0;
         let room = WIDTH - 2.0 * MARGIN;
         let title = shown(title, LONGEST);
@@ -117,7 +117,7 @@ impl Paper {
 }
 
 /// Number and speed of the machines, as many as there is room for, and what the strip above them is.
-fn heads(log: &RunLog, plan: &LanePlan, marks: &mut Vec<Mark>) {
+fn heads(log: &RunLog, plan: &TimelineLayout, marks: &mut Vec<Mark>) {
     let every = (TextSize::SMALL / plan.lane).ceil().max(1.0) as usize;
     for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
         let [top, bottom] = plan.lane(node);
@@ -131,7 +131,7 @@ fn heads(log: &RunLog, plan: &LanePlan, marks: &mut Vec<Mark>) {
 }
 
 /// The axis below the lanes.
-fn times(log: &RunLog, window: &TimeWindow, plan: &LanePlan, marks: &mut Vec<Mark>) {
+fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut Vec<Mark>) {
     let ink = Hue::Quiet.full();
     let y = plan.bottom() + 2.0;
     marks.push(Mark::Line { points: vec![[0.0, y], [plan.width, y]], width: 1.0, ink });
@@ -148,7 +148,7 @@ fn times(log: &RunLog, window: &TimeWindow, plan: &LanePlan, marks: &mut Vec<Mar
 }
 
 /// What the run is called, what it was, and what is said of it; returns where it ends.
-fn heading(log: &RunLog, outcome: Option<&Outcome>, width: f32, marks: &mut Vec<Mark>) -> f32 {
+fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<Mark>) -> f32 {
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };
@@ -196,9 +196,9 @@ mod tests {
 
     use super::super::tests::sample_runs;
     use super::*;
-    use crate::runlog::{Caption, Header};
+    use crate::runlog::{Header, Metadata};
 
-    fn texts(paper: &Paper) -> Vec<&str> {
+    fn texts(paper: &PrintedDrawing) -> Vec<&str> {
         let text = |mark: &'_ Mark| matches!(mark, Mark::Label { .. });
         let labels = paper.marks.iter().filter(|mark| text(mark));
         labels.filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(&**text) } else { None }).collect()
@@ -211,7 +211,7 @@ mod tests {
         ) {
             let mut log = sample_runs::log(&speeds, atoms);
             log.header.caption.title = title;
-            for paper in [Paper::ring(&log, Time::from_secs(at)), Paper::timeline(&log)] {
+            for paper in [PrintedDrawing::ring(&log, Time::from_secs(at)), PrintedDrawing::timeline(&log)] {
                 let [width, height] = paper.size;
                 let inside = |[x, y]: Point| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
                 for mark in &paper.marks {
@@ -233,22 +233,22 @@ mod tests {
     #[test]
     fn a_sheet_says_what_it_is_of() {
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
-        let caption = Caption { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
+        let caption = Metadata { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
         let mut named = RunLog::new(Header { caption, ..log.header.clone() });
         named.add(log.records().to_vec());
-        for paper in [Paper::ring(&named, Time::from_secs(1.0)), Paper::timeline(&named)] {
+        for paper in [PrintedDrawing::ring(&named, Time::from_secs(1.0)), PrintedDrawing::timeline(&named)] {
             let texts = texts(&paper);
             for said in ["A slow third", "for a talk", "some CPU", "3", "10 %"] {
                 assert!(texts.iter().any(|text| text.contains(said)), "{said}: {texts:?}");
             }
         }
-        assert!(texts(&Paper::timeline(&log)).contains(&"sample"), "without a title it is the scene");
+        assert!(texts(&PrintedDrawing::timeline(&log)).contains(&"sample"), "without a title it is the scene");
     }
 
     #[test]
     fn the_ring_shows_its_moment() {
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
-        let at = |secs| texts(&Paper::ring(&log, Time::from_secs(secs))).join("\n");
+        let at = |secs| texts(&PrintedDrawing::ring(&log, Time::from_secs(secs))).join("\n");
         assert!(at(0.0).contains("0 %") && at(0.0).contains("At 0.0"), "{}", at(0.0));
         assert!(at(1e6).contains("efficiency") && !at(1.0).contains("start to finish"), "{}", at(1e6));
     }

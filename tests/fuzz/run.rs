@@ -8,14 +8,14 @@ use anel::balance::{NodeId, Strategy};
 use anel::driver::{Retrace, Update};
 use anel::gui::Settings;
 use anel::picture::{Colour, Frame};
-use anel::runlog::{Header, RunLog, Tally};
+use anel::runlog::{Header, Metrics, RunLog};
 use anel::sim::Sim;
 use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
-    Dossier, Known, LanePlan, Layer, Moment, Narrator, Outcome, Overlay, Past, RunState, Step, TimeWindow, atom_words,
-    axis, flight_words, landmarks, node_words, parent_words, parts_words, picture_pixels, record_words, result_words,
-    ring, rows, shares, small_print, step, time_words, timeline, timeline_at,
+    Details, Layer, Narrator, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary, TimeWindow,
+    TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words, picture_pixels,
+    record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline, timeline_at,
 };
 
 use super::assert_sentence;
@@ -43,18 +43,18 @@ pub fn show(file: &Path) -> bool {
 }
 
 /// The figures, if the run came to its end.
-fn tally(log: &RunLog) -> Option<Outcome> {
-    let tally = Tally::of(log);
+fn tally(log: &RunLog) -> Option<Summary> {
+    let tally = Metrics::of(log);
     assert!(tally.tail_idle().is_none_or(f64::is_finite));
     let traced: u64 = tally.atoms_by_node().into_iter().map(u64::from).sum();
     assert!(traced <= log.records().len() as u64);
     let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
     assert!(efficiency.is_finite() && efficiency >= 0.0);
-    Some(Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() })
+    Some(Summary { makespan, ideal, efficiency, spread: tally.finish_spread() })
 }
 
 /// All words and drawings, in the middle and at the end.
-fn view(log: &RunLog, outcome: Option<Outcome>) {
+fn view(log: &RunLog, outcome: Option<Summary>) {
     let (mut state, mut narrator) = (RunState::new(&log.header), Narrator::default());
     let middle = log.records().len() / 2;
     for (index, record) in log.records().iter().enumerate() {
@@ -76,14 +76,14 @@ fn view(log: &RunLog, outcome: Option<Outcome>) {
 
 /// Goes to and fro in its time, looks at its timeline from near and far, and asks for what there is to know.
 fn go_through(log: &RunLog) {
-    let known = Known::of(log);
-    let (mut past, mut moment) = (Past::default(), Moment::new(&log.header));
+    let known = RunView::of(log);
+    let (mut past, mut moment) = (SnapshotCache::default(), Snapshot::new(&log.header));
     let records = log.records().len();
     let mut said = String::new();
     for there in [records / 2, records, records / 3, 0] {
         past.go(log, there, &mut moment);
         assert_eq!(moment.records(), there);
-        for by in Step::ALL {
+        for by in StepUnit::ALL {
             for forward in [true, false] {
                 let to = step(log, there, by, forward);
                 assert!(to.is_none_or(|to| to <= records && (to > there) == forward));
@@ -94,12 +94,12 @@ fn go_through(log: &RunLog) {
         }
     }
     for mark in landmarks(log) {
-        let dossier = Dossier::of(mark.about, log, &known.lanes, &mut past);
+        let dossier = Details::of(mark.about, log, &known.lanes, &mut past);
         said += &format!("{:?}{:?}", dossier.words(&moment.state, mark.at, 0.1), dossier.lit(&moment.state));
     }
     let end = log.records().last().map_or(Time::ZERO, |last| last.at);
     said += &format!("{:?}", known.lanes.usage(end));
-    let plan = LanePlan::new(log.header.speeds.len(), 300.0, 200.0);
+    let plan = TimelineLayout::new(log.header.speeds.len(), 300.0, 200.0);
     let mut window = TimeWindow::default();
     window.fit(end);
     for _ in 0..3 {
@@ -116,8 +116,8 @@ fn go_through(log: &RunLog) {
     assert!(!said.contains("NaN") && !said.contains("inf"), "{said}");
 }
 
-fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Outcome>, now: Time) {
-    let marks = ring(state, &Overlay { outcome, selected: Some(0), ..Overlay::default() }, now, [400.0, 300.0]);
+fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Time) {
+    let marks = ring(state, &RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() }, now, [400.0, 300.0]);
     let mut said = format!("{marks:?}");
     for node in 0..state.nodes().len().min(40) as NodeId {
         said += &format!("{:?}", node_words(state, node, now));

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use anel::gui::{App, Launch, Opening, Session};
-use anel::record::What;
+use anel::record::RecordKind;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
@@ -55,12 +55,12 @@ pub fn done(window: &Window) -> u32 {
 }
 
 /// What the records say, as far as `of` cares.
-pub fn recorded<T>(window: &Window, of: impl Fn(&What) -> Option<T>) -> Vec<T> {
+pub fn recorded<T>(window: &Window, of: impl Fn(&RecordKind) -> Option<T>) -> Vec<T> {
     session(window).stage().log.records().iter().filter_map(|record| of(&record.what)).collect()
 }
 
 pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {
-    recorded(window, |what| if let What::SpeedSet { node, speed } = what { Some((*node, *speed)) } else { None })
+    recorded(window, |what| if let RecordKind::SpeedSet { node, speed } = what { Some((*node, *speed)) } else { None })
 }
 
 /// What the notice below the top bar says.

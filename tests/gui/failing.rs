@@ -1,7 +1,7 @@
 //! Machines that fail, and are well again: by the menu of a row, of the ring, and by keys; and spare ones that join.
 
 use anel::balance::{Condition, Remedy, Strategy};
-use anel::record::What;
+use anel::record::RecordKind;
 use anel::view::message_at;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
@@ -21,7 +21,7 @@ fn open_adaptive() -> Window {
 
 fn conditions(window: &Window) -> Vec<(u16, Condition)> {
     recorded(window, |what| match what {
-        What::Condition { node, condition } => Some((*node, *condition)),
+        RecordKind::Condition { node, condition } => Some((*node, *condition)),
         _ => None,
     })
 }
@@ -134,7 +134,7 @@ fn a_message_is_held_up_by_its_menu() {
     key(&mut window, Key::Space);
     let held = |window: &Window| {
         recorded(window, |what| match what {
-            What::Delayed { from, to, .. } => Some((*from, *to)),
+            RecordKind::Delayed { from, to, .. } => Some((*from, *to)),
             _ => None,
         })
     };

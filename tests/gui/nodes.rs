@@ -1,6 +1,6 @@
 //! One machine: its speed by slider, by value and by key, its pause, its selection, and undo.
 
-use anel::record::What;
+use anel::record::RecordKind;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -49,8 +49,8 @@ fn a_machine_stands_still_and_goes_on() {
     until(&mut window, "a traced atom", |window| done(window) > 5);
     let pauses = |window: &Window| {
         recorded(window, |what| match what {
-            What::Paused { node } => Some((*node, true)),
-            What::Resumed { node } => Some((*node, false)),
+            RecordKind::Paused { node } => Some((*node, true)),
+            RecordKind::Resumed { node } => Some((*node, false)),
             _ => None,
         })
     };

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use anel::balance::Strategy;
-use anel::gui::{Settings, Tempo};
-use anel::record::What;
+use anel::gui::{Pace, Settings};
+use anel::record::RecordKind;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -44,7 +44,7 @@ fn latency_acts_on_the_run_that_goes_on() {
     until(&mut window, "many atoms", |window| done(window) > 100);
     type_number(&mut window, "Latency in milliseconds", "250");
     let set = |window: &Window| {
-        recorded(window, |what| if let What::LatencySet { latency } = what { Some(*latency) } else { None })
+        recorded(window, |what| if let RecordKind::LatencySet { latency } = what { Some(*latency) } else { None })
     };
     until(&mut window, "a record", |window| set(window).last() == Some(&Duration::from_millis(250)));
     assert_eq!(session(&window).stage().state().latency(), Duration::from_millis(250));
@@ -110,7 +110,7 @@ fn the_pace_starts_the_run_anew() {
     let mut window = open_setup();
     let pace = session(&window).header().pace;
     type_number(&mut window, "Seconds of the run", "40");
-    assert_eq!(session(&window).settings().tempo, Tempo::Lasts(40));
+    assert_eq!(session(&window).settings().tempo, Pace::Lasts(40));
     assert!((session(&window).header().pace / pace - 0.5).abs() < 1e-6);
     press(&mut window, "Full speed");
     assert_eq!(session(&window).header().pace, 1.0);

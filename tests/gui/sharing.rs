@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anel::balance::{Message, Party, Strategy};
 use anel::gui::Phase;
-use anel::record::What;
+use anel::record::RecordKind;
 use anel::runlog::Driver;
 use egui::Key;
 use egui::accesskit::Role;
@@ -97,8 +97,8 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
         session(window).stage().state().waiting(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
-    let given = |what: &What| match what {
-        What::Sent { from: Party::Parent, message: Message::Part(part), .. } => Some(part.len()),
+    let given = |what: &RecordKind| match what {
+        RecordKind::Sent { from: Party::Parent, message: Message::Part(part), .. } => Some(part.len()),
         _ => None,
     };
     let parts = recorded(&window, given);

@@ -2,9 +2,9 @@
 
 use anel::balance::{Message, Party};
 use anel::gui::Phase;
-use anel::record::What;
+use anel::record::RecordKind;
 use anel::time::Time;
-use anel::view::{About, Moment};
+use anel::view::{Snapshot, Subject};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -97,7 +97,7 @@ fn going_to_a_time_and_playing_up_to_it_show_the_same() {
     key(&mut window, Key::Space);
     let (records, played) = (session(&window).stage().records_shown(), seen(&window));
     let log = &session(&window).stage().log;
-    let mut told = Moment::new(&log.header);
+    let mut told = Snapshot::new(&log.header);
     log.records()[..records].iter().for_each(|record| told.apply(record));
     let state = &told.state;
     let expected =
@@ -118,7 +118,7 @@ fn steps_go_from_event_to_event_and_back() {
     key(&mut window, Key::Home);
     let is_of_an_atom = |window: &Window| {
         let records = session(window).stage().records_shown();
-        matches!(session(window).stage().log.records()[records - 1].what, What::AtomDone { .. })
+        matches!(session(window).stage().log.records()[records - 1].what, RecordKind::AtomDone { .. })
     };
     shift(&mut window, Key::ArrowRight);
     shift(&mut window, Key::ArrowRight);
@@ -129,7 +129,7 @@ fn steps_go_from_event_to_event_and_back() {
     let records = session(&window).stage().records_shown();
     let offer = session(&window).stage().log.records()[records - 1].clone();
     assert!(
-        matches!(offer.what, What::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who),
+        matches!(offer.what, RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who),
         "{offer:?}"
     );
     window.get_by_label_contains("and offers help round the ring");
@@ -152,7 +152,7 @@ fn what_is_worth_it_is_found_and_stands_still_there() {
     window.step();
     window.drop_at(biggest);
     window.run_steps(4);
-    assert!(matches!(window.state().focus(), Some(About::Message(_))), "{:?}", window.state().focus());
+    assert!(matches!(window.state().focus(), Some(Subject::Message(_))), "{:?}", window.state().focus());
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.contains(" had traced ") && said.contains(" that waited with machine "), "{said}");
     let then = session(&window).now();
@@ -228,7 +228,7 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
     window.step();
     window.drop_at(at);
     window.run_steps(3);
-    assert_eq!(window.state().focus(), Some(About::Atom(longest.atom)));
+    assert_eq!(window.state().focus(), Some(Subject::Atom(longest.atom)));
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.starts_with(&format!("Atom {}", anel::view::count(longest.atom + 1))), "{said}");
     assert!(!session(&window).stage().is_live() && !session(&window).stage().goes_on());

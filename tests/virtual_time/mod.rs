@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use anel::balance::{Message, Party, Remedies, Strategy};
 use anel::picture::Atom;
-use anel::record::What;
+use anel::record::RecordKind;
 use anel::runlog::{Header, RunLog};
 use anel::scenario::Command;
 use anel::sim::Sim;
@@ -35,12 +35,12 @@ fn check_atoms(log: &RunLog) {
     let mut in_hand = BTreeSet::new();
     for record in log.records() {
         match &record.what {
-            What::AtomStarted { node, .. } => assert!(in_hand.insert(*node), "node {node} traces two atoms"),
-            What::AtomDone { node, atom, .. } => {
+            RecordKind::AtomStarted { node, .. } => assert!(in_hand.insert(*node), "node {node} traces two atoms"),
+            RecordKind::AtomDone { node, atom, .. } => {
                 assert!(in_hand.remove(node), "node {node} ends what it has not begun");
                 traced[*atom as usize] += 1;
             }
-            What::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
+            RecordKind::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
                 ranges.iter().cloned().flatten().for_each(|atom| placed[atom as usize] += 1);
             }
             _ => {}
@@ -64,11 +64,11 @@ fn check_offers(log: &RunLog) {
     let mut under_way = vec![false; log.header.speeds.len()];
     for record in log.records() {
         match &record.what {
-            What::Sent { from, message: Message::Offer { who, .. }, .. } if *from == Party::Node(*who) => {
+            RecordKind::Sent { from, message: Message::Offer { who, .. }, .. } if *from == Party::Node(*who) => {
                 let offers = std::mem::replace(&mut under_way[usize::from(*who)], true);
                 assert!(!offers, "node {who} has two offers under way");
             }
-            What::Sent { to: Party::Node(to), message: Message::Transfer(_), .. } => {
+            RecordKind::Sent { to: Party::Node(to), message: Message::Transfer(_), .. } => {
                 under_way[usize::from(*to)] = false;
             }
             _ => {}

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::node::{Node, Offer, send};
+use super::node::{AdaptiveNode, Offer, send};
 use super::share::share_by_speed;
 use super::sleepers::Helper;
 use crate::balance::message::{Action, Message, Party};
@@ -11,7 +11,7 @@ use crate::balance::ring::share;
 use crate::picture::Atom;
 use crate::time::Time;
 
-impl Node {
+impl AdaptiveNode {
     /// Takes another's offer if that is worth it, else passes it on; or keeps it, if its node sleeps.
     pub(super) fn weigh(&mut self, now: Time, offer: Offer, actions: &mut Vec<Action>) {
         let woken = self.sleepers.remove(offer.who);

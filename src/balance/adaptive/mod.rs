@@ -9,6 +9,6 @@ mod sleepers;
 mod speed_estimate;
 mod timers;
 
-pub use node::Node;
-pub use route::Ring;
+pub use node::AdaptiveNode;
+pub use route::RingMembers;
 pub use share::share_by_speed;

@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use super::route::Ring;
+use super::route::RingMembers;
 use super::sleepers::Sleepers;
-use super::speed_estimate::Gauge;
-use crate::balance::message::{Action, Event, Help, Message, NodeId, Party};
+use super::speed_estimate::SpeedEstimate;
+use crate::balance::message::{Action, Event, Helper, Message, NodeId, Party};
 use crate::balance::remedy::{Remedies, Remedy};
 use crate::balance::strategy::Rules;
 use crate::balance::work::Work;
@@ -16,14 +16,14 @@ use crate::time::Time;
 /// A node of the ring that adapts. Its files: this one says what it does about what happens, `offering` what it does without
 /// atoms, `helping` whom it gives some, and `duties` what it does when it is time.
 #[derive(Debug)]
-pub struct Node {
+pub struct AdaptiveNode {
     pub(super) id: NodeId,
     pub(super) part: u32,
     pub(super) remedies: Remedies,
     pub(super) beat: Duration,
-    pub(super) ring: Ring,
+    pub(super) ring: RingMembers,
     pub(super) work: Work,
-    pub(super) gauge: Gauge,
+    pub(super) gauge: SpeedEstimate,
     pub(super) sleepers: Sleepers,
     pub(super) state: State,
     /// How long a message travels, by the last offers.
@@ -55,7 +55,7 @@ const AT_LENGTH: u32 = 16;
 pub(super) struct Offer {
     pub who: NodeId,
     pub done: u32,
-    pub help: Help,
+    pub help: Helper,
 }
 
 /// Where a node stands; the README tells how one state follows another.
@@ -73,7 +73,7 @@ pub(super) enum State {
     Asleep { again: Time, pause: Duration },
 }
 
-impl Node {
+impl AdaptiveNode {
     /// Node `id` of `nodes`, which has no work yet.
     pub(in crate::balance) fn new(id: NodeId, nodes: NodeId, rules: &Rules) -> Self {
         assert!(id < nodes, "node {id} is not in a ring of {nodes}");
@@ -86,9 +86,9 @@ impl Node {
             part: rules.part.max(1),
             remedies: rules.remedies,
             beat: rules.beat,
-            ring: Ring::new(nodes, rules.remedies.has(Remedy::Shortcuts)),
+            ring: RingMembers::new(nodes, rules.remedies.has(Remedy::Shortcuts)),
             work,
-            gauge: Gauge::default(),
+            gauge: SpeedEstimate::default(),
             sleepers: Sleepers::default(),
             state: State::Waiting { early: Vec::new() },
             hop: Duration::ZERO,

@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use super::node::{Node, Offer, State, send};
-use crate::balance::message::{Action, Help, Message, NodeId, Party};
+use super::node::{AdaptiveNode, Offer, State, send};
+use crate::balance::message::{Action, Helper, Message, NodeId, Party};
 use crate::balance::remedy::Remedy;
 use crate::time::Time;
 
-impl Node {
+impl AdaptiveNode {
     /// Offers help: to whoever has woken this node, if somebody has, and then along the ring.
     pub(super) fn offer(&mut self, now: Time, waker: Option<NodeId>, actions: &mut Vec<Action>) {
         // No two of a node's offers bear the same time.
@@ -110,7 +110,7 @@ impl Node {
 
     fn own_offer(&self, now: Time, stop: u16, left: Option<u16>) -> Offer {
         let speed = self.gauge.known().map_or(0.0, |(speed, _)| speed);
-        let help = Help { speed: Help::millionths(speed), sent: now, stop, left };
+        let help = Helper { speed: Helper::millionths(speed), sent: now, stop, left };
         Offer { who: self.id, done: self.work.traced(), help }
     }
 }

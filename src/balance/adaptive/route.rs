@@ -6,13 +6,13 @@ use crate::balance::message::NodeId;
 
 /// The ring as a node knows it: all nodes but those that are gone.
 #[derive(Clone, Debug)]
-pub struct Ring {
+pub struct RingMembers {
     nodes: NodeId,
     gone: BTreeSet<NodeId>,
     shortcuts: bool,
 }
 
-impl Ring {
+impl RingMembers {
     /// A ring of so many nodes (at least one), from which none is gone. With `shortcuts` an offer stops at nodes whose
     /// distances grow like powers of two, else at each.
     pub fn new(nodes: NodeId, shortcuts: bool) -> Self {
@@ -66,7 +66,7 @@ mod tests {
     #[test]
     fn a_small_ring_has_every_node_as_a_stop() {
         for shortcuts in [false, true] {
-            let ring = Ring::new(5, shortcuts);
+            let ring = RingMembers::new(5, shortcuts);
             let stops: Vec<_> = (0..ring.stops()).map(|stop| ring.stop(2, stop)).collect();
             assert_eq!(stops, [1, 0, 4, 3]);
         }
@@ -74,9 +74,9 @@ mod tests {
 
     #[test]
     fn stops_grow_like_the_logarithm() {
-        let stops = [9, 16, 17, 64, 256, 1024].map(|nodes| Ring::new(nodes, true).stops());
+        let stops = [9, 16, 17, 64, 256, 1024].map(|nodes| RingMembers::new(nodes, true).stops());
         assert_eq!(stops, [8, 9, 10, 13, 17, 21]);
-        let ring = Ring::new(40, true);
+        let ring = RingMembers::new(40, true);
         let far: Vec<_> = (0..ring.stops()).map(|stop| ring.stop(39, stop)).collect();
         assert_eq!(far, [38, 37, 36, 35, 34, 33, 32, 31, 27, 23, 15, 7]);
     }
@@ -86,7 +86,7 @@ mod tests {
         fn no_offer_stops_where_nobody_is(
             nodes in 1u16..80, gone in prop::collection::btree_set(0u16..80, 0..80), shortcuts in any::<bool>(),
         ) {
-            let mut ring = Ring::new(nodes, shortcuts);
+            let mut ring = RingMembers::new(nodes, shortcuts);
             ring.set_gone(gone.iter().copied());
             for who in (0..nodes).filter(|who| !gone.contains(who)) {
                 for stop in 0..ring.stops() {

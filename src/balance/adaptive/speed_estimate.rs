@@ -10,7 +10,7 @@ const OF_COST: f64 = 1.0 / 16.0;
 
 /// A node's measure of its own worker.
 #[derive(Debug, Default)]
-pub(super) struct Gauge {
+pub(super) struct SpeedEstimate {
     /// As a fraction of the reference machine; `None` until an atom was traced.
     speed: Option<f64>,
     /// What an atom costs the reference machine, in seconds.
@@ -19,7 +19,7 @@ pub(super) struct Gauge {
     since: Time,
 }
 
-impl Gauge {
+impl SpeedEstimate {
     /// The worker, which had none, takes an atom in hand.
     pub fn begin(&mut self, now: Time) {
         self.since = now;
@@ -79,10 +79,10 @@ mod tests {
 
     #[test]
     fn speed_is_work_over_time_and_follows_a_change() {
-        let mut gauge = Gauge::default();
+        let mut gauge = SpeedEstimate::default();
         assert_eq!((gauge.speed(Time(5)), gauge.left(Time(5))), (None, Duration::from_nanos(5)));
         let mut now = Time::ZERO;
-        let mut trace = |gauge: &mut Gauge, atoms: u32, took: Duration| {
+        let mut trace = |gauge: &mut SpeedEstimate, atoms: u32, took: Duration| {
             for _ in 0..atoms {
                 now += took;
                 gauge.done(now, MS);
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn who_is_late_is_slow_and_will_take_long() {
-        let mut gauge = Gauge::default();
+        let mut gauge = SpeedEstimate::default();
         gauge.done(Time::ZERO + 2 * MS, MS);
         let at = |ms| Time::ZERO + ms * MS;
         let left = [3, 4, 6, 22].map(|ms| gauge.left(at(ms)));

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::node::{Node, State, send};
+use super::node::{AdaptiveNode, State, send};
 use crate::balance::message::{Action, Message, Party};
 use crate::balance::remedy::Remedy;
 use crate::balance::strategy::LEASE;
@@ -11,7 +11,7 @@ use crate::time::Time;
 /// How many leases an atom may take, or times four usual atoms, before its worker counts as stuck.
 const PATIENCE: u32 = 16;
 
-impl Node {
+impl AdaptiveNode {
     /// How long a node may be silent, and an offer under way, before it counts as lost.
     pub(super) fn lease(&self) -> Duration {
         self.beat * LEASE

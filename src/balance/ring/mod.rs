@@ -3,5 +3,5 @@
 mod node;
 mod share;
 
-pub use node::Node;
+pub use node::RingNode;
 pub use share::share;

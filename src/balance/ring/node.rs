@@ -8,7 +8,7 @@ use super::share;
 
 /// A node of the ring.
 #[derive(Debug)]
-pub struct Node {
+pub struct RingNode {
     id: NodeId,
     left: NodeId,
     part: u32,
@@ -36,7 +36,7 @@ enum State {
     Retired,
 }
 
-impl Node {
+impl RingNode {
     /// Node `id` of `nodes`, with its work, which is none yet. An offer is worth taking if it moves at least `part` atoms
     /// (0 counts as 1).
     pub(in crate::balance) fn new(id: NodeId, nodes: NodeId, part: u32, work: Work) -> Self {

@@ -3,18 +3,18 @@
 use egui::{Context, Theme, ViewportCommand};
 
 use super::App;
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::Look;
 use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::{About, Step, node_name};
+use crate::view::{StepUnit, Subject, node_name};
 
 impl App {
-    pub(super) fn obey(&mut self, command: Command, ctx: &Context) {
+    pub(super) fn obey(&mut self, command: UserCommand, ctx: &Context) {
         // A clicker knows forward and back.
-        if let (true, false, Command::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
-            let forward = if back { Command::Beginning } else { Command::Pause };
+        if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
+            let forward = if back { UserCommand::Beginning } else { UserCommand::Pause };
             return self.obey(forward, ctx);
         }
         if self.compare.is_open() && !self.gallery.is_open() && self.compare.obey(command) {
@@ -24,7 +24,7 @@ impl App {
         if !covers_lessons && self.learn.obey(command, &mut self.session) {
             return;
         }
-        if let (true, Command::Select(number)) = (self.time.is_finding(), command) {
+        if let (true, UserCommand::Select(number)) = (self.time.is_finding(), command) {
             if let Some(jump) = self.time.choose(number.into()) {
                 self.obey(jump, ctx);
             }
@@ -32,100 +32,104 @@ impl App {
         }
         let session = &mut self.session;
         match command {
-            Command::Pause => session.toggle_pause(),
-            Command::Restart => {
+            UserCommand::Pause => session.toggle_pause(),
+            UserCommand::Restart => {
                 session.restart();
                 session.end_notice();
             }
-            Command::Step(by, forward) => session.step(by, forward),
-            Command::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
-            Command::SetRate(index) => session.stage_mut().set_rate(index),
-            Command::Live => {
+            UserCommand::StepUnit(by, forward) => session.step(by, forward),
+            UserCommand::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
+            UserCommand::SetRate(index) => session.stage_mut().set_rate(index),
+            UserCommand::Live => {
                 session.stage_mut().follow();
                 // What was looked at is past, and what happens now is to be read.
-                self.focus.selected = self.focus.node().map(About::Node);
+                self.focus.selected = self.focus.node().map(Subject::Node);
             }
-            Command::Beginning => session.stage_mut().seek(Time::ZERO, true),
-            Command::Find => self.time.toggle_find(),
-            Command::Jump(records, about) => {
+            UserCommand::Beginning => session.stage_mut().seek(Time::ZERO, true),
+            UserCommand::Find => self.time.toggle_find(),
+            UserCommand::Jump(records, about) => {
                 session.stage_mut().show_after(records);
                 self.focus.selected = Some(about);
             }
-            Command::Timeline => self.shows_timeline = !self.shows_timeline,
-            Command::Zoom(nearer) => {
+            UserCommand::Timeline => self.shows_timeline = !self.shows_timeline,
+            UserCommand::Zoom(nearer) => {
                 self.shows_timeline = true;
                 self.timeline.zoom(if nearer { 0.5 } else { 2.0 }, self.session.stage().lasted());
             }
-            Command::Copy => {
+            UserCommand::Copy => {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
                 session.note(word!("The picture is in the clipboard", "A imagem está na área de transferência"));
             }
-            Command::Save => self.save_bar.toggle(session),
-            Command::SaveRun => self.save_bar.open_for_run(session),
-            Command::Scenes => {
+            UserCommand::Save => self.save_bar.toggle(session),
+            UserCommand::SaveRun => self.save_bar.open_for_run(session),
+            UserCommand::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
                 self.learn.close();
                 self.gallery.toggle(session);
             }
-            Command::Accuracy => {
+            UserCommand::Accuracy => {
                 self.gallery.close();
                 self.learn.close();
                 self.compare.close(session);
                 self.accuracy.toggle(session);
             }
-            Command::Learn => {
+            UserCommand::Learn => {
                 self.gallery.close();
                 self.accuracy.close(session);
                 self.compare.close(session);
                 self.learn.toggle();
             }
-            Command::Compare => {
+            UserCommand::Compare => {
                 self.learn.close();
                 self.gallery.close();
                 self.accuracy.close(session);
                 self.compare.toggle(session);
             }
-            Command::Reload => session.reload(),
-            Command::Setup => self.setup.open = !self.setup.open,
-            Command::Undo => session.undo(),
-            Command::Redo => session.redo(),
-            Command::Select(node) if usize::from(node) < session.header().speeds.len() => {
-                self.focus.toggle(About::Node(node));
+            UserCommand::Reload => session.reload(),
+            UserCommand::Setup => self.setup.open = !self.setup.open,
+            UserCommand::Undo => session.undo(),
+            UserCommand::Redo => session.redo(),
+            UserCommand::Select(node) if usize::from(node) < session.header().speeds.len() => {
+                self.focus.toggle(Subject::Node(node));
             }
-            Command::Select(node) => {
+            UserCommand::Select(node) => {
                 let name = node_name(node);
                 session.note(say!("There is no machine {name}", "Não há máquina {name}"));
             }
-            Command::Faster | Command::Slower | Command::PauseNode | Command::Put(_) => self.obey_for_node(command),
-            Command::Camera => self.picture.moves_camera = !self.picture.moves_camera,
-            Command::CameraHome => session.camera_home(),
-            Command::Dolly(nearer) => session.move_camera(|camera| camera.dolly(if nearer { 0.9 } else { 1.0 / 0.9 })),
-            Command::Arrow([right, down]) if self.picture.moves_camera => {
+            UserCommand::Faster | UserCommand::Slower | UserCommand::PauseNode | UserCommand::Put(_) => {
+                self.obey_for_node(command)
+            }
+            UserCommand::Camera => self.picture.moves_camera = !self.picture.moves_camera,
+            UserCommand::CameraHome => session.camera_home(),
+            UserCommand::Dolly(nearer) => {
+                session.move_camera(|camera| camera.dolly(if nearer { 0.9 } else { 1.0 / 0.9 }))
+            }
+            UserCommand::Arrow([right, down]) if self.picture.moves_camera => {
                 session.move_camera(|camera| camera.orbit(f64::from(5 * right), f64::from(-5 * down)));
             }
-            Command::Arrow(by) if session.inspected_place().is_some() => session.inspect_beside(by),
-            Command::Arrow([right, 0]) => session.step(Step::Event, right > 0),
-            Command::Arrow(_) => {}
-            Command::Layer => self.picture.next_layer(),
-            Command::Outlines => self.picture.outlines = !self.picture.outlines,
-            Command::Theme => {
+            UserCommand::Arrow(by) if session.inspected_place().is_some() => session.inspect_beside(by),
+            UserCommand::Arrow([right, 0]) => session.step(StepUnit::Event, right > 0),
+            UserCommand::Arrow(_) => {}
+            UserCommand::Layer => self.picture.next_layer(),
+            UserCommand::Outlines => self.picture.outlines = !self.picture.outlines,
+            UserCommand::Theme => {
                 ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
             }
-            Command::Language => {
+            UserCommand::Language => {
                 self.language = self.language.other();
                 self.language.speak();
                 // They are told anew.
                 (self.hovered, self.selected) = (None, None);
             }
-            Command::FullScreen => {
+            UserCommand::FullScreen => {
                 let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
-            Command::Projector => self.project(!self.projector, ctx),
-            Command::Help => self.help = !self.help,
-            Command::Back => self.back(ctx),
-            Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            UserCommand::Projector => self.project(!self.projector, ctx),
+            UserCommand::Help => self.help = !self.help,
+            UserCommand::Back => self.back(ctx),
+            UserCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
 
@@ -151,24 +155,24 @@ impl App {
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(projector));
     }
 
-    fn obey_for_node(&mut self, command: Command) {
+    fn obey_for_node(&mut self, command: UserCommand) {
         let Some(node) = self.focus.node() else {
             return self.session.note(word!(
                 "First select a machine: press its number, or click it",
                 "Selecionar antes uma máquina: pressionar seu número, ou clicar nela"
             ));
         };
-        if command == Command::PauseNode {
+        if command == UserCommand::PauseNode {
             return self.session.toggle_node_pause(node);
         }
-        if let Command::Put(condition) = command {
+        if let UserCommand::Put(condition) = command {
             return self.session.toggle_condition(node, condition);
         }
         let now = self.session.speed(node);
         // To the next tenth, or to one of the low speeds at which a machine is felt.
         let mut steps = [0.0, 0.01, 0.05].into_iter().chain((1..=10).map(|tenth| f64::from(tenth) / 10.0));
         let speed = match command {
-            Command::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
+            UserCommand::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
             _ => steps.take_while(|&step| step < now - 0.001).last().unwrap_or(0.0),
         };
         self.session.change(Gesture::Once, |settings| settings.set_speed(node, speed));

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Launch;
 use super::input::keys;
-use super::input::selection::Focus;
+use super::input::selection::Selection;
 use super::input::zoom;
 use super::pages::accuracy::Accuracy;
 use super::pages::compare::Compare;
@@ -22,19 +22,19 @@ use super::pages::gallery::Gallery;
 use super::pages::help;
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
-use super::panels::save_bar::{SaveBar, Subject};
+use super::panels::save_bar::{SaveBar, SaveSubject};
 use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
 use super::panels::{inspector, narration, nodes, notice, ring, top_bar};
-use super::session::{Done, Purpose, Session};
+use super::session::{JobResult, Purpose, Session};
 use super::settings::Settings;
 use super::widgets::test_positions;
 use super::widgets::theme::{self, GRID, Look};
 use crate::balance::NodeId;
 use crate::language::{Language, say};
 use crate::time::Time;
-use crate::view::{About, Dossier, Lit};
+use crate::view::{Details, Highlight, Subject};
 use main_area_layout::heroes;
 
 /// The window's content.
@@ -52,11 +52,11 @@ pub struct App {
     timeline: TimelinePanel,
     /// The timeline stands in the machines' place.
     shows_timeline: bool,
-    focus: Focus,
+    focus: Selection,
     /// Of what the pointer is on, and of what is selected.
-    hovered: Option<Dossier>,
-    selected: Option<Dossier>,
-    lit: Lit,
+    hovered: Option<Details>,
+    selected: Option<Details>,
+    lit: Highlight,
     /// Where words about the run stand, if they do in this frame.
     words: Option<Rect>,
     begun: usize,
@@ -115,10 +115,10 @@ impl App {
             help: false,
             timeline: TimelinePanel::default(),
             shows_timeline: remembered.timeline,
-            focus: Focus::default(),
+            focus: Selection::default(),
             hovered: None,
             selected: None,
-            lit: Lit::default(),
+            lit: Highlight::default(),
             words: None,
             begun: 0,
             language,
@@ -157,7 +157,7 @@ impl App {
     }
 
     /// What is selected, for tests.
-    pub fn focus(&self) -> Option<About> {
+    pub fn focus(&self) -> Option<Subject> {
         self.focus.selected
     }
 
@@ -245,8 +245,8 @@ impl App {
         }
         if self.save_bar.is_open() {
             let subject = match self.compare.is_open() {
-                true => Subject::Comparison(self.compare.comparison()),
-                false => Subject::Run(self.picture.shown()),
+                true => SaveSubject::Comparison(self.compare.comparison()),
+                false => SaveSubject::Run(self.picture.shown()),
             };
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, &subject);
             if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
@@ -282,14 +282,14 @@ impl App {
             self.timeline.begin();
             (self.hovered, self.selected) = (None, None);
             // A machine is the same one in the next run; atoms and messages are others.
-            self.focus.selected = self.focus.node().filter(|node| usize::from(*node) < nodes).map(About::Node);
+            self.focus.selected = self.focus.node().filter(|node| usize::from(*node) < nodes).map(Subject::Node);
         }
         self.focus.begin();
         let stage = self.session.stage_mut();
         let known = [(&mut self.hovered, self.focus.hovered()), (&mut self.selected, self.focus.selected)];
         for (dossier, about) in known {
             // What is not over yet is looked up again.
-            let is_known = |dossier: &Dossier| Some(dossier.about) == about && dossier.is_complete();
+            let is_known = |dossier: &Details| Some(dossier.about) == about && dossier.is_complete();
             if !dossier.as_ref().is_some_and(is_known) {
                 *dossier = about.map(|about| stage.dossier(about));
             }
@@ -320,14 +320,14 @@ impl eframe::App for App {
         self.take_dropped(ctx);
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
-                Done::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
-                Done::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
-                Done::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
-                Done::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
-                Done::ToTeach(lesson) => self.learn.open(lesson, &mut self.session),
-                Done::Lesson(job, taught) => self.learn.take(job, taught, &mut self.session),
-                Done::Compared(job, compared) => self.compare.take(job, compared),
-                Done::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
+                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
+                JobResult::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
+                JobResult::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
+                JobResult::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
+                JobResult::ToTeach(lesson) => self.learn.open(lesson, &mut self.session),
+                JobResult::Lesson(job, taught) => self.learn.take(job, taught, &mut self.session),
+                JobResult::CompareResult(job, compared) => self.compare.take(job, compared),
+                JobResult::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
         }

@@ -7,7 +7,7 @@ use crate::gui::session::Session;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{deeds, popup_frame};
 use crate::language::{say, word};
-use crate::view::{Row, activity_word, node_name};
+use crate::view::{NodeRow, activity_word, node_name};
 
 /// The menu of a machine, which opens where the right button is pressed on `response`.
 pub fn on(response: &Response, session: &mut Session, node: NodeId, look: Look) {
@@ -15,7 +15,7 @@ pub fn on(response: &Response, session: &mut Session, node: NodeId, look: Look) 
 }
 
 /// What a machine does now, in its row, opens its menu too.
-pub fn on_state(ui: &mut Ui, (left, row): (f32, Rect), session: &mut Session, shown: &Row, look: Look) {
+pub fn on_state(ui: &mut Ui, (left, row): (f32, Rect), session: &mut Session, shown: &NodeRow, look: Look) {
     let place = Rect::from_min_max(pos2(left - 0.5 * GRID, row.top()), row.right_bottom());
     let response = ui.interact(place, ui.scope_id().with(("menu", shown.node)), Sense::click());
     let name = node_name(shown.node);

@@ -16,24 +16,24 @@ const SECONDS: [u64; 3] = [1, 5, 20];
 
 /// The message that the menu is about, which may have arrived since it opened.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct MessageInMenu {
     words: String,
     way: (Party, Party),
 }
 
-impl From<&Flight> for Subject {
+impl From<&Flight> for MessageInMenu {
     fn from(flight: &Flight) -> Self {
         Self { words: flight_words(flight), way: (flight.from, flight.to) }
     }
 }
 
 /// The menu of a message, which opens where the right button is pressed on `response`.
-pub fn on(response: &Response, session: &mut Session, subject: &Subject, look: Look) {
+pub fn on(response: &Response, session: &mut Session, subject: &MessageInMenu, look: Look) {
     let popup = Popup::context_menu(response).frame(popup_frame(&response.ctx));
     popup.show(|ui| items(ui, session, subject, look));
 }
 
-fn items(ui: &mut Ui, session: &mut Session, Subject { words, way }: &Subject, look: Look) {
+fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { words, way }: &MessageInMenu, look: Look) {
     let hold = SECONDS.map(|seconds| (seconds, say!("Hold it up for {seconds} s", "Reter por {seconds} s")));
     let hint = word!(
         "What is on this way, and what is sent there meanwhile, arrives then, in its order",

@@ -2,19 +2,19 @@
 
 use egui::{Popup, PopupCloseBehavior, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::keys::Command;
+use super::keys::UserCommand;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, popup_frame};
+use crate::gui::widgets::{Emphasis, button, popup_frame};
 use crate::language::{say, word};
 use crate::view::{RATES, rate_of_time_words, short_rate_words};
 
 /// Shows it: slower, the rate with a list of all, faster. Returns what was pressed.
-pub fn show(ui: &mut Ui, rate: f64) -> Option<Command> {
+pub fn show(ui: &mut Ui, rate: f64) -> Option<UserCommand> {
     let (mut pressed, look) = (None, Look::of(ui.ctx()));
-    let slower = button(ui, Some(Icon::Slower), word!("Slower", "Mais devagar"), false, Weight::Quiet);
+    let slower = button(ui, Some(Icon::Slower), word!("Slower", "Mais devagar"), false, Emphasis::Quiet);
     if slower.on_hover_text(word!("Time goes slower (,)", "O tempo passa mais devagar (,)")).clicked() {
-        pressed = Some(Command::Rate(false));
+        pressed = Some(UserCommand::Rate(false));
     }
     let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, 4.0 * GRID), Sense::click());
     let how = rate_of_time_words(rate);
@@ -28,15 +28,15 @@ pub fn show(ui: &mut Ui, rate: f64) -> Option<Command> {
     ui.painter().galley(rect.center() - words.size() / 2.0, words, colour);
     pressed = pressed.or(rates(&response, rate, look));
     response.on_hover_text(say!("{goes}; press for others", "{goes}; pressionar para outros ritmos"));
-    let faster = button(ui, Some(Icon::Faster), word!("Faster", "Mais depressa"), false, Weight::Quiet);
+    let faster = button(ui, Some(Icon::Faster), word!("Faster", "Mais depressa"), false, Emphasis::Quiet);
     if faster.on_hover_text(word!("Time goes faster (.)", "O tempo passa mais depressa (.)")).clicked() {
-        pressed = Some(Command::Rate(true));
+        pressed = Some(UserCommand::Rate(true));
     }
     pressed
 }
 
 /// All rates, from the slowest to the fastest.
-fn rates(opener: &Response, now: f64, look: Look) -> Option<Command> {
+fn rates(opener: &Response, now: f64, look: Look) -> Option<UserCommand> {
     let popup = Popup::from_toggle_button_response(opener).frame(popup_frame(&opener.ctx));
     let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
         ui.set_width(20.0 * GRID);
@@ -51,7 +51,7 @@ fn rates(opener: &Response, now: f64, look: Look) -> Option<Command> {
             let words = ui.painter().layout_no_wrap(rate_of_time_words(rate), theme::regular(theme::SMALL), look.text);
             ui.painter().galley(pos2(rect.left() + GRID, rect.center().y - words.size().y / 2.0), words, look.text);
             if response.clicked() {
-                chosen = Some(Command::SetRate(index));
+                chosen = Some(UserCommand::SetRate(index));
             }
         }
         chosen

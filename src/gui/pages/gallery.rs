@@ -10,7 +10,7 @@ use crate::gui::session::Thumbnail;
 use crate::gui::session::{Purpose, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, path_field};
+use crate::gui::widgets::{Emphasis, button, path_field};
 use crate::language::{say, word};
 use crate::scene::BUILT_IN;
 
@@ -128,7 +128,7 @@ impl Gallery {
             if field.changed {
                 self.trouble = None;
             }
-            if button(ui, None, word!("Open", "Abrir"), true, Weight::Primary).clicked() || field.entered {
+            if button(ui, None, word!("Open", "Abrir"), true, Emphasis::Primary).clicked() || field.entered {
                 match resolve(&self.path, std::env::home_dir()) {
                     Ok(path) => {
                         self.open = false;
@@ -137,11 +137,11 @@ impl Gallery {
                     Err(why) => self.trouble = Some(why),
                 }
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
                 session.jobs().choose(Purpose::Open, directory.join("scene"));
             }
-            if button(ui, Some(Icon::Close), word!("Close scenes", "Fechar cenas"), false, Weight::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), word!("Close scenes", "Fechar cenas"), false, Emphasis::Quiet).clicked() {
                 self.open = false;
             }
         });
@@ -152,7 +152,7 @@ impl Gallery {
                 session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
             let name = word!("Open the run saved last", "Abrir a última execução salva");
             if let Some(last) = last
-                && button(ui, None, name, true, Weight::Quiet).on_hover_text(&last).clicked()
+                && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(&last).clicked()
             {
                 self.open = false;
                 session.open(&last);

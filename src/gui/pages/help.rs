@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Frame, Id, Modal, Pos2, Rect, RichText, Sense, Strok
 use crate::gui::input::keys::TABLE;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::word;
 
 /// Shows the page over everything else; returns whether it is to be closed.
@@ -20,7 +20,7 @@ pub fn show(ctx: &egui::Context) -> bool {
                 let title = word!("Keys", "Teclas");
                 ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    button(ui, Some(Icon::Close), word!("Close help", "Fechar ajuda"), false, Weight::Quiet).clicked()
+                    button(ui, Some(Icon::Close), word!("Close help", "Fechar ajuda"), false, Emphasis::Quiet).clicked()
                 })
                 .inner
             })

@@ -8,14 +8,14 @@ use crate::gui::session::Session;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{self, Weight, button};
+use crate::gui::widgets::{self, Emphasis, button};
 use crate::language::{say, word};
 use crate::picture::srgb8;
-use crate::view::{Chosen, Inspected, Mark, RaySpot};
+use crate::view::{ChosenRay, Inspected, Mark, RaySpot};
 
 /// What is asked for in the panel.
-enum Asked {
-    Choose(Chosen),
+enum InspectorAction {
+    Choose(ChosenRay),
     Copy,
     Close,
 }
@@ -41,18 +41,18 @@ pub fn show(ui: &mut Ui, place: [u32; 2], session: &mut Session) {
         None => quiet(ui, word!("Tracing it once more …", "Calculando-o mais uma vez …")),
     }
     match asked {
-        Some(Asked::Choose(chosen)) => session.choose_ray(chosen),
-        Some(Asked::Copy) => {
+        Some(InspectorAction::Choose(chosen)) => session.choose_ray(chosen),
+        Some(InspectorAction::Copy) => {
             let text = session.inspected().map(Inspected::text).unwrap_or_default();
             ui.ctx().copy_text(text);
             session.note(word!("Copied as text", "Copiado como texto"));
         }
-        Some(Asked::Close) => session.stop_inspecting(),
+        Some(InspectorAction::Close) => session.stop_inspecting(),
         None => {}
     }
 }
 
-fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Option<Asked> {
+fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Option<InspectorAction> {
     let look = Look::of(ui.ctx());
     let mut asked = None;
     ui.horizontal(|ui| {
@@ -64,18 +64,18 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
         let title = RichText::new(format!("Pixel {x}, {y}")).font(theme::strong(theme::LARGE)).color(look.text);
         ui.label(title);
         ui.with_layout(Layout::right_to_left(egui::Align::Center), |ui| {
-            if button(ui, Some(Icon::Close), word!("Close inspector", "Fechar inspetor"), false, Weight::Quiet)
+            if button(ui, Some(Icon::Close), word!("Close inspector", "Fechar inspetor"), false, Emphasis::Quiet)
                 .on_hover_text(word!("Close (Esc)", "Fechar (Esc)"))
                 .clicked()
             {
-                asked = Some(Asked::Close);
+                asked = Some(InspectorAction::Close);
             }
             ui.add_enabled_ui(inspected.is_some(), |ui| {
                 let name = word!("Copy as text", "Copiar como texto");
                 let has_room = ui.available_width() > 20.0 * GRID;
                 let icon = (!has_room).then_some(Icon::Copy);
-                if button(ui, icon, name, has_room, Weight::Quiet).on_hover_text(name).clicked() {
-                    asked = Some(Asked::Copy);
+                if button(ui, icon, name, has_room, Emphasis::Quiet).on_hover_text(name).clicked() {
+                    asked = Some(InspectorAction::Copy);
                 }
             });
         });
@@ -83,7 +83,7 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
     asked
 }
 
-fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
+fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<InspectorAction> {
     let look = inks.look;
     ui.spacing_mut().item_spacing.y = GRID / 2.0;
     let sentences = inspected.sentences();
@@ -110,7 +110,7 @@ fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
 }
 
 /// The tree of rays, of which one can be chosen.
-fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
+fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<InspectorAction> {
     let mut asked = None;
     let (chosen, samples) = (inspected.chosen, inspected.samples.len());
     ui.horizontal(|ui| {
@@ -133,7 +133,7 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
             ui.painter().circle_stroke(at, RaySpot::REACH + 2.0, Stroke::new(1.5, inks.look.accent));
         }
         if response.on_hover_text(&spot.name).clicked() {
-            asked = Some(Asked::Choose(Chosen { ray: spot.ray, ..chosen }));
+            asked = Some(InspectorAction::Choose(ChosenRay { ray: spot.ray, ..chosen }));
         }
     }
     if inspected.sample().rays.len() > 1 {
@@ -150,12 +150,12 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Asked> {
 }
 
 /// From one sample to the next.
-fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Option<Asked> {
+fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Option<InspectorAction> {
     let mut asked = None;
     let mut step = |ui: &mut Ui, name, words, to: Option<usize>| {
         ui.add_enabled_ui(to.is_some(), |ui| {
-            if widgets::named_button(ui, None, name, Some(words), Weight::Quiet).clicked() {
-                asked = to.map(|sample| Asked::Choose(Chosen { sample, ray: 0 }));
+            if widgets::named_button(ui, None, name, Some(words), Emphasis::Quiet).clicked() {
+                asked = to.map(|sample| InspectorAction::Choose(ChosenRay { sample, ray: 0 }));
             }
         });
     };

@@ -9,7 +9,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{decimal, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
-use crate::view::{Dossier, Share, figures, node_name, percent, record_words, shares, unfinished_words};
+use crate::view::{Details, NodeShare, figures, node_name, percent, record_words, shares, unfinished_words};
 
 const SENTENCE: f32 = 3.25 * GRID;
 const EVENT: f32 = 2.25 * GRID;
@@ -21,7 +21,7 @@ pub fn height(ui: &Ui) -> f32 {
 }
 
 /// Shows all three.
-pub fn show(ui: &mut Ui, session: &Session, about: Option<&Dossier>) {
+pub fn show(ui: &mut Ui, session: &Session, about: Option<&Details>) {
     let look = Look::of(ui.ctx());
     let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui)), Sense::hover());
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - BAR);
@@ -58,7 +58,7 @@ fn events_shown(ui: &Ui) -> usize {
 }
 
 /// What is selected, in the place of earlier events: whoever clicks wants to know.
-fn selected(ui: &mut Ui, session: &Session, about: &Dossier, look: Look) {
+fn selected(ui: &mut Ui, session: &Session, about: &Details, look: Look) {
     let stage = session.stage();
     let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
     let area = ui.available_rect_before_wrap();
@@ -171,7 +171,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let state = session.stage().state();
     let (shares, all) = (shares(state), state.atoms());
     widgets::describe(&response, word!("Who has traced how much", "Quem calculou quanto"), || {
-        let say = |share: &Share| format!("{} {}", node_name(share.node), percent(share.atoms, all));
+        let say = |share: &NodeShare| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
     });
     ui.painter().rect_filled(rect, 4.0, look.raised);

@@ -5,7 +5,7 @@ use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, Progre
 use crate::gui::session::{Notice, NoticeKind};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{say, word};
 use crate::view::fraction;
 
@@ -30,9 +30,9 @@ pub fn show(notice: &Notice, ctx: &Context, at: Pos2) -> Option<Click> {
             ui.add(Label::new(text).wrap());
         });
         let name = word!("Reload", "Recarregar");
-        let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Weight::Primary).clicked();
+        let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Emphasis::Primary).clicked();
         let close = word!("Close notice", "Fechar aviso");
-        let close = button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked();
+        let close = button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked();
         if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
     })
 }
@@ -59,7 +59,7 @@ pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64)) -> 
         let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
         ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
-        button(ui, None, word!("Cancel", "Cancelar"), true, Weight::Quiet).clicked()
+        button(ui, None, word!("Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
     })
 }
 

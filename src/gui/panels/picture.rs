@@ -8,8 +8,8 @@ use egui::{
     TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::gui::input::selection::Focus;
-use crate::gui::session::{Moved, Session};
+use crate::gui::input::selection::Selection;
+use crate::gui::session::{CameraPreview, Session};
 use crate::gui::widgets;
 use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::icons::{self, Icon};
@@ -17,7 +17,7 @@ use crate::gui::widgets::picture_view::PictureView;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{say, word};
 use crate::picture::Atom;
-use crate::view::{About, Layer, Lit, atom_words, outlines, percent};
+use crate::view::{Highlight, Layer, Subject, atom_words, outlines, percent};
 
 /// What the panel needs below the picture, in points.
 pub const BELOW: f32 = 5.0 * GRID;
@@ -35,7 +35,7 @@ pub struct PicturePanel {
     /// Whether a drag moves the camera.
     pub moves_camera: bool,
     /// What is about seen by a camera that moves.
-    moved: Option<(Arc<Moved>, TextureHandle)>,
+    moved: Option<(Arc<CameraPreview>, TextureHandle)>,
 }
 
 impl Default for PicturePanel {
@@ -59,7 +59,7 @@ const APART: f32 = 5.0;
 
 impl PicturePanel {
     /// Shows the picture as large as it gets, and the slider below it.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
         let look = Look::of(ui.ctx());
         let shown = self.shown();
         if self.moves_camera && session.is_recorded() {
@@ -107,7 +107,7 @@ impl PicturePanel {
             let at = response.interact_pointer_pos().unwrap_or(frame.center());
             let [x, y] = pixel_at(session, (at - place.min) / scale);
             session.inspect([x, y]);
-            focus.selected = Some(About::Atom(atom_at(session, [x, y])));
+            focus.selected = Some(Subject::Atom(atom_at(session, [x, y])));
             response.surrender_focus();
         }
         if self.outlines {
@@ -116,7 +116,7 @@ impl PicturePanel {
         outline(&painter, (place, scale), session, &lit.atoms, 1.25);
         if let Some([x, y]) = session.inspected_place() {
             // Who traced it, and when, goes along from pixel to pixel.
-            if let Some(About::Atom(atom)) = &mut focus.selected {
+            if let Some(Subject::Atom(atom)) = &mut focus.selected {
                 *atom = atom_at(session, [x, y]);
             }
             cross_hair(&painter, place.min + (vec2(x as f32, y as f32) + Vec2::splat(0.5)) * scale, scale);
@@ -124,7 +124,7 @@ impl PicturePanel {
         if let Some(at) = response.hover_pos() {
             let [x, y] = pixel_at(session, (at - place.min) / scale);
             let atom = atom_at(session, [x, y]);
-            focus.hover(About::Atom(atom));
+            focus.hover(Subject::Atom(atom));
             if !self.moves_camera && !response.dragged() {
                 let words = atom_words(session.stage().state(), atom, session.now());
                 response.on_hover_text_at_pointer(say!(
@@ -193,7 +193,7 @@ impl PicturePanel {
                         Some(Icon::Undo),
                         word!("Camera back", "Câmera de volta"),
                         frame.width() > 300.0,
-                        widgets::Weight::Quiet,
+                        widgets::Emphasis::Quiet,
                     )
                     .on_hover_text(word!("The scene's own camera (Shift C)", "A câmera da própria cena (Shift C)"))
                     .clicked()
@@ -321,7 +321,7 @@ impl PicturePanel {
 }
 
 /// What is about seen by a camera that moves, for the graphics card; nothing if that is too large for it.
-fn texture_of(ui: &Ui, moved: &Moved) -> Option<TextureHandle> {
+fn texture_of(ui: &Ui, moved: &CameraPreview) -> Option<TextureHandle> {
     let [width, height] = [moved.size.width(), moved.size.height()].map(|side| side as usize);
     let most = ui.input(|input| input.max_texture_side);
     let image = || ColorImage::new([width, height], moved.pixels.iter().map(|&pixel| theme::colour(pixel)).collect());

@@ -5,19 +5,19 @@ use egui::{Align2, Painter, Rect, Sense, Ui};
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
 use crate::gui::input::message_menu;
-use crate::gui::input::selection::Focus;
+use crate::gui::input::selection::Selection;
 use crate::gui::session::Session;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
-    About, Lit, Overlay, Point, Spot, activity_word, flight_words, message_at, node_name, node_words, parent_words,
-    ring, ring_at, small_print, time_words,
+    Highlight, Point, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name, node_words,
+    parent_words, ring, ring_at, small_print, time_words,
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
-pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
+pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
     let look = Look::of(ui.ctx());
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
-    let drawn = Overlay {
+    let drawn = RingOverlay {
         outcome: stage.result().map(|result| result.outcome),
         selected: focus.node(),
         lit: lit.nodes.clone(),
@@ -45,30 +45,30 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
     let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at));
     if response.clicked() {
         match (message, spot) {
-            (Some(message), _) => focus.toggle(About::Message(message.id)),
-            (None, Some(Spot::Node(node))) => focus.toggle(About::Node(node)),
+            (Some(message), _) => focus.toggle(Subject::Message(message.id)),
+            (None, Some(RingSpot::Node(node))) => focus.toggle(Subject::Node(node)),
             (None, _) => focus.selected = None,
         }
     }
     match (message, spot) {
-        (Some(message), _) => focus.hover(About::Message(message.id)),
-        (None, Some(Spot::Node(node))) => focus.hover(About::Node(node)),
+        (Some(message), _) => focus.hover(Subject::Message(message.id)),
+        (None, Some(RingSpot::Node(node))) => focus.hover(Subject::Node(node)),
         (None, _) => {}
     }
     // Messages fly over everything else.
     let more = match (message, spot) {
         (Some(message), _) => Some((flight_words(message), Vec::new())),
-        (None, Some(Spot::Node(node))) => {
+        (None, Some(RingSpot::Node(node))) => {
             let name = node_name(node);
             Some((say!("Machine {name}", "Máquina {name}"), node_words(state, node, now)))
         }
-        (None, Some(Spot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
+        (None, Some(RingSpot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
         (None, None) => None,
     };
     if response.secondary_clicked() {
         let subject = match (message, spot) {
-            (Some(message), _) => Some(Subject::Message(message.into())),
-            (None, Some(Spot::Node(node))) => Some(Subject::Node(node)),
+            (Some(message), _) => Some(RingMenu::Message(message.into())),
+            (None, Some(RingSpot::Node(node))) => Some(RingMenu::Node(node)),
             (None, _) => None,
         };
         ui.data_mut(|data| data.insert_temp(response.id, subject));
@@ -82,9 +82,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
-    match ui.data(|data| data.get_temp::<Option<Subject>>(response.id)).flatten() {
-        Some(Subject::Node(node)) => machine_menu::on(&response, session, node, look),
-        Some(Subject::Message(message)) => message_menu::on(&response, session, &message, look),
+    match ui.data(|data| data.get_temp::<Option<RingMenu>>(response.id)).flatten() {
+        Some(RingMenu::Node(node)) => machine_menu::on(&response, session, node, look),
+        Some(RingMenu::Message(message)) => message_menu::on(&response, session, &message, look),
         None => {}
     }
     if let Some((title, lines)) = more {
@@ -94,9 +94,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
 
 /// What the menu is about.
 #[derive(Clone)]
-enum Subject {
+enum RingMenu {
     Node(NodeId),
-    Message(message_menu::Subject),
+    Message(message_menu::MessageInMenu),
 }
 
 /// What there is to know of the drawing itself, in its lower right corner.

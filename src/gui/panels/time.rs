@@ -7,22 +7,22 @@ use egui::{
     Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::input::rate_menu;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, named_button, next_of, popup_frame};
+use crate::gui::widgets::{Emphasis, button, named_button, next_of, popup_frame};
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{Landmark, Sign, SignKind, Step, condition_strokes, landmarks, time_words};
+use crate::view::{Landmark, Marker, MarkerKind, StepUnit, condition_strokes, landmarks, time_words};
 
 /// How high the panel is.
 pub const HEIGHT: f32 = 4.0 * GRID;
 
 /// By what one steps, and what was found in the run.
 pub struct TimePanel {
-    step: Step,
+    step: StepUnit,
     /// What was found when the list was opened.
     found: Vec<Landmark>,
     /// The version of the run's lanes that it was found in, and the language.
@@ -35,7 +35,7 @@ pub struct TimePanel {
 impl Default for TimePanel {
     fn default() -> Self {
         let found_in = (0, Language::default());
-        Self { step: Step::Event, found: Vec::new(), found_in, toggles: false, is_finding: false }
+        Self { step: StepUnit::Event, found: Vec::new(), found_in, toggles: false, is_finding: false }
     }
 }
 
@@ -46,9 +46,9 @@ impl TimePanel {
     }
 
     /// Closes that list; returns what leads to what stands at this place of it.
-    pub fn choose(&mut self, place: usize) -> Option<Command> {
+    pub fn choose(&mut self, place: usize) -> Option<UserCommand> {
         self.toggle_find();
-        self.found.get(place).map(|mark| Command::Jump(mark.records, mark.about))
+        self.found.get(place).map(|mark| UserCommand::Jump(mark.records, mark.about))
     }
 
     /// Whether that list is open, or about to be.
@@ -57,7 +57,7 @@ impl TimePanel {
     }
 
     /// Shows the panel and returns what was pressed.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shows_timeline: bool) -> Option<Command> {
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shows_timeline: bool) -> Option<UserCommand> {
         let look = Look::of(ui.ctx());
         let mut pressed = None;
         ui.horizontal(|ui| {
@@ -72,7 +72,7 @@ impl TimePanel {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
-                let weight = if shows_timeline { Weight::On } else { Weight::Quiet };
+                let weight = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
                 let words = (ui.available_width() > 760.0).then_some(word!("Timeline", "Linha do tempo"));
                 let name = word!("Show the timeline", "Mostrar a linha do tempo");
                 let hint = word!(
@@ -81,7 +81,7 @@ impl TimePanel {
                 );
                 let timeline = named_button(ui, Some(Icon::Lanes), name, words, weight);
                 if timeline.on_hover_text(hint).clicked() {
-                    pressed = Some(Command::Timeline);
+                    pressed = Some(UserCommand::Timeline);
                 }
                 pressed = pressed.or(live(ui, session.stage(), look));
                 ui.add_space(GRID);
@@ -94,16 +94,16 @@ impl TimePanel {
     }
 
     /// Back, by what, and on.
-    fn steps(&mut self, ui: &mut Ui) -> Option<Command> {
+    fn steps(&mut self, ui: &mut Ui) -> Option<UserCommand> {
         let step = self.step;
         let mut pressed = None;
         let (name, [back_keys, on_keys]) = (step.name(), ['←', '→'].map(|arrow| keys(step, arrow)));
-        let back = button(ui, Some(Icon::StepBack), word!("Step back", "Passo atrás"), false, Weight::Quiet);
+        let back = button(ui, Some(Icon::StepBack), word!("Step back", "Passo atrás"), false, Emphasis::Quiet);
         let hint = say!("Back by one {name} ({back_keys})", "Voltar: {name} ({back_keys})");
         if back.on_hover_text(hint).clicked() {
-            pressed = Some(Command::Step(step, false));
+            pressed = Some(UserCommand::StepUnit(step, false));
         }
-        let by = named_button(ui, None, word!("What a step is", "O que é um passo"), Some(name), Weight::Quiet);
+        let by = named_button(ui, None, word!("What a step is", "O que é um passo"), Some(name), Emphasis::Quiet);
         let hint = word!(
             "Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to \
              change",
@@ -111,19 +111,19 @@ impl TimePanel {
              Pressionar para mudar"
         );
         if by.on_hover_text(hint).clicked() {
-            self.step = next_of(&Step::ALL, step);
+            self.step = next_of(&StepUnit::ALL, step);
         }
-        let on = button(ui, Some(Icon::StepOn), word!("Step on", "Passo adiante"), false, Weight::Quiet);
+        let on = button(ui, Some(Icon::StepOn), word!("Step on", "Passo adiante"), false, Emphasis::Quiet);
         let hint = say!("On by one {name} ({on_keys})", "Avançar: {name} ({on_keys})");
         if on.on_hover_text(hint).clicked() {
-            pressed = Some(Command::Step(step, true));
+            pressed = Some(UserCommand::StepUnit(step, true));
         }
         pressed
     }
 
     /// What is worth jumping to.
-    fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<Command> {
-        let weight = if self.is_finding { Weight::On } else { Weight::Quiet };
+    fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
+        let weight = if self.is_finding { Emphasis::On } else { Emphasis::Quiet };
         let hint =
             word!("The first offer, the biggest transfer … (F)", "A primeira oferta, a maior transferência … (F)");
         let find = button(ui, None, word!("Find", "Achar"), true, weight).on_hover_text(hint);
@@ -145,7 +145,7 @@ impl TimePanel {
             let mut chosen = None;
             for (place, mark) in self.found.iter().enumerate() {
                 if entry(ui, (place + 1, mark), session.stage().grain(), look).clicked() {
-                    chosen = Some(Command::Jump(mark.records, mark.about));
+                    chosen = Some(UserCommand::Jump(mark.records, mark.about));
                 }
             }
             if self.found.is_empty() {
@@ -160,11 +160,11 @@ impl TimePanel {
 }
 
 /// The key for a step.
-fn keys(step: Step, arrow: char) -> String {
+fn keys(step: StepUnit, arrow: char) -> String {
     match step {
-        Step::Event => arrow.to_string(),
-        Step::Atom => format!("Shift {arrow}"),
-        Step::Lap => format!("Ctrl {arrow}"),
+        StepUnit::Event => arrow.to_string(),
+        StepUnit::Atom => format!("Shift {arrow}"),
+        StepUnit::Lap => format!("Ctrl {arrow}"),
     }
 }
 
@@ -186,7 +186,7 @@ fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look)
 }
 
 /// Back to what happens now, or to the end.
-fn live(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
+fn live(ui: &mut Ui, stage: &Stage, look: Look) -> Option<UserCommand> {
     let runs = matches!(stage.phase, Phase::Running | Phase::Preparing);
     let (name, hint) = if runs {
         word!(("Live", "What happens now (L)"), ("Ao vivo", "O que acontece agora (L)"))
@@ -194,18 +194,18 @@ fn live(ui: &mut Ui, stage: &Stage, look: Look) -> Option<Command> {
         word!(("End", "The end of the run (L)"), ("Fim", "O fim da execução (L)"))
     };
     let is_there = if runs { stage.is_live() } else { stage.shows_end() };
-    let weight = if is_there { Weight::On } else { Weight::Quiet };
+    let weight = if is_there { Emphasis::On } else { Emphasis::Quiet };
     let icon = if runs { Icon::Live } else { Icon::End };
     let response = button(ui, Some(icon), name, true, weight).on_hover_text(hint);
     // A run that has left the shown time behind is not to be forgotten.
     if runs && !is_there {
         ui.painter().circle_filled(response.rect.right_top() + vec2(-4.0, 4.0), 3.0, look.accent);
     }
-    response.clicked().then_some(Command::Live)
+    response.clicked().then_some(UserCommand::Live)
 }
 
 /// Whoever has come to the line with the keyboard makes steps by its arrows.
-fn arrows(ui: &Ui, response: &Response, step: Step) -> Option<Command> {
+fn arrows(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserCommand> {
     if !response.has_focus() {
         return None;
     }
@@ -213,7 +213,7 @@ fn arrows(ui: &Ui, response: &Response, step: Step) -> Option<Command> {
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let pressed = |key| ui.input(|input| input.key_pressed(key));
     let forward = pressed(Key::ArrowRight);
-    (forward || pressed(Key::ArrowLeft)).then_some(Command::Step(step, forward))
+    (forward || pressed(Key::ArrowLeft)).then_some(UserCommand::StepUnit(step, forward))
 }
 
 /// The line along which one drags, with what stands out.
@@ -253,10 +253,10 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     painter.rect_filled(rail, 2.0, look.hairline);
     painter.rect_filled(rail.with_max_x(x(now)), 2.0, look.accent.gamma_multiply(0.8));
     let mut last_retired = f32::NEG_INFINITY;
-    let shown = |sign: &&Sign| !stage.hides_later || sign.at <= now;
+    let shown = |sign: &&Marker| !stage.hides_later || sign.at <= now;
     for sign in stage.signs().all().iter().filter(shown) {
         // Many retire at about one time.
-        if matches!(sign.kind, SignKind::Retired(_)) {
+        if matches!(sign.kind, MarkerKind::Retired(_)) {
             if x(sign.at) < last_retired + 7.0 {
                 continue;
             }
@@ -282,35 +282,35 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
 }
 
 /// A sign above or below the line: a wedge for a speed, bars for a pause, a ring for a machine that retired.
-fn draw_sign(painter: &Painter, at: Pos2, sign: &Sign, stage: &Stage, look: Look) {
+fn draw_sign(painter: &Painter, at: Pos2, sign: &Marker, stage: &Stage, look: Look) {
     let own = |node: u16| stage.colours.get(usize::from(node)).map_or(look.text, |&rgb| theme::colour(rgb));
     let above = at - vec2(0.0, 9.0);
     match sign.kind {
-        SignKind::Speed(node) => {
+        MarkerKind::Speed(node) => {
             let corners = vec![above + vec2(-4.0, -4.0), above + vec2(4.0, -4.0), above + vec2(0.0, 3.0)];
             painter.add(Shape::convex_polygon(corners, own(node), Stroke::NONE));
         }
-        SignKind::Pause(node) => {
+        MarkerKind::Pause(node) => {
             for side in [-2.5, 2.5] {
                 let bar = Rect::from_center_size(above + vec2(side, -0.5), vec2(2.5, 7.0));
                 painter.rect_filled(bar, 0.0, own(node));
             }
         }
-        SignKind::Condition(node, condition) => {
+        MarkerKind::Condition(node, condition) => {
             const REACH: f32 = 3.6;
             for stroke in condition_strokes(condition) {
                 let points = stroke.map(|point| above + REACH * egui::Vec2::from(point));
                 painter.line_segment(points, Stroke::new(1.75, own(node)));
             }
         }
-        SignKind::Latency => {
+        MarkerKind::Latency => {
             let bar = Rect::from_center_size(above, vec2(7.0, 2.5));
             painter.rect_filled(bar, 0.0, look.text);
         }
-        SignKind::Retired(node) => {
+        MarkerKind::Retired(node) => {
             painter.circle_stroke(at + vec2(0.0, 9.0), 3.0, Stroke::new(1.75, own(node)));
         }
-        SignKind::Complete => {
+        MarkerKind::Complete => {
             let line = [at - vec2(0.0, 10.0), at + vec2(0.0, 10.0)];
             painter.line_segment(line, Stroke::new(1.5, look.text));
         }

@@ -4,7 +4,7 @@ use egui::{Align2, Painter, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder,
 
 use super::nodes;
 use crate::balance::{NodeId, Party};
-use crate::gui::input::selection::Focus;
+use crate::gui::input::selection::Selection;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
@@ -13,8 +13,8 @@ use crate::language::{say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    About, Dossier, LanePlan, Lit, TimeWindow, Timeline, activity_word, axis, bytes_words, count, fraction, node_name,
-    time_words, timeline, timeline_at,
+    Details, Highlight, Subject, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words, count,
+    fraction, node_name, time_words, timeline, timeline_at,
 };
 
 /// What is left of the lanes: number, speed.
@@ -37,7 +37,7 @@ pub struct TimelinePanel {
 struct Key {
     version: u64,
     window: TimeWindow,
-    plan: LanePlan,
+    plan: TimelineLayout,
     head: Time,
 }
 
@@ -61,18 +61,18 @@ impl TimelinePanel {
         &mut self,
         ui: &mut Ui,
         session: &mut Session,
-        focus: &mut Focus,
-        lit: &Lit,
-        hovered: Option<&Dossier>,
+        focus: &mut Selection,
+        lit: &Highlight,
+        hovered: Option<&Details>,
     ) {
         let look = Look::of(ui.ctx());
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
         // Low lanes have no sliders, and need less room for what stands beside them.
-        let has_sliders = LanePlan::new(nodes, area.width(), area.height()).lane >= SLIDER + 2.0;
+        let has_sliders = TimelineLayout::new(nodes, area.width(), area.height()).lane >= SLIDER + 2.0;
         let left = if has_sliders { LEFT } else { 6.0 * GRID };
         let place = area.with_min_x(area.left() + left);
-        let plan = LanePlan::new(nodes, place.width(), place.height());
+        let plan = TimelineLayout::new(nodes, place.width(), place.height());
         let response = ui.allocate_rect(place, Sense::click_and_drag());
         self.window.fit(session.stage().told_length());
         self.follow(session.stage());
@@ -124,7 +124,7 @@ impl TimelinePanel {
     }
 
     /// Times below the lanes.
-    fn axis(&self, painter: &Painter, place: Rect, plan: &LanePlan, look: Look) {
+    fn axis(&self, painter: &Painter, place: Rect, plan: &TimelineLayout, look: Look) {
         if plan.foot == 0.0 {
             return;
         }
@@ -147,7 +147,14 @@ impl TimelinePanel {
     }
 
     /// What the pointer is on, and what a click does: it selects, and goes to that time.
-    fn point(&self, response: &Response, place: Rect, plan: &LanePlan, session: &mut Session, focus: &mut Focus) {
+    fn point(
+        &self,
+        response: &Response,
+        place: Rect,
+        plan: &TimelineLayout,
+        session: &mut Session,
+        focus: &mut Selection,
+    ) {
         let Some(at) = response.hover_pos().or_else(|| response.interact_pointer_pos()) else { return };
         let time = self.window.at(f64::from((at.x - place.left()) / place.width()));
         let is_hidden = session.stage().hides_later && time > session.stage().lasted();
@@ -167,7 +174,15 @@ impl TimelinePanel {
         }
     }
 
-    fn paint(&mut self, painter: &Painter, place: Rect, plan: &LanePlan, stage: &Stage, lit: &Lit, look: Look) {
+    fn paint(
+        &mut self,
+        painter: &Painter,
+        place: Rect,
+        plan: &TimelineLayout,
+        stage: &Stage,
+        lit: &Highlight,
+        look: Look,
+    ) {
         let inks = Inks { look, nodes: &stage.colours };
         let head = stage.told_length();
         let key = Key { version: stage.lanes().version(), window: self.window, plan: *plan, head };
@@ -222,7 +237,7 @@ impl TimelinePanel {
 }
 
 /// A lane's number and speed, at its left.
-fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus: &mut Focus, is_lit: bool) {
+fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus: &mut Selection, is_lit: bool) {
     let look = Look::of(ui.ctx());
     let response = ui.interact(row, ui.scope_id().with(("lane", node)), Sense::click());
     let stage = session.stage();
@@ -233,10 +248,10 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
         say!("{usage} atoms traced so far, {doing}", "{usage} átomos calculados até agora, {doing}")
     });
     if response.hovered() {
-        focus.hover(About::Node(node));
+        focus.hover(Subject::Node(node));
     }
     if response.clicked() {
-        focus.toggle(About::Node(node));
+        focus.toggle(Subject::Node(node));
     }
     let own = stage.colours[usize::from(node)];
     let side = row.height().min(3.0 * GRID);
@@ -267,7 +282,7 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
 }
 
 /// How the machines' time was used until the shown time, in as many words as fit, above the strip that shows it.
-fn usage(painter: &Painter, area: Rect, plan: &LanePlan, stage: &Stage, look: Look) {
+fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, look: Look) {
     if plan.head == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }

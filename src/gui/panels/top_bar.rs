@@ -2,11 +2,11 @@
 
 use egui::{Align, Color32, Label, Layout, RichText, TextStyle, Ui};
 
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{Phase, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, named_button};
+use crate::gui::widgets::{Emphasis, button, named_button};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::sentence::shown;
@@ -30,7 +30,7 @@ pub struct Open {
 }
 
 /// Shows the bar and returns what was pressed.
-pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
+pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<UserCommand> {
     let look = Look::of(ui.ctx());
     let width = ui.available_width();
     let worded = worded(ui, width);
@@ -45,11 +45,11 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<Command> {
         let shown: String = name.chars().take(if wide { 24 } else { 14 }).collect();
         let scenes = word!("Scenes", "Cenas");
         let shown = if shown.is_empty() { scenes } else { &shown };
-        let weight = if open.scenes { Weight::On } else { Weight::Quiet };
+        let weight = if open.scenes { Emphasis::On } else { Emphasis::Quiet };
         // Buttons and time come first.
         let shown = Some(shown).filter(|_| width > 860.0);
         if named_button(ui, Some(Icon::Scenes), scenes, shown, weight).on_hover_text(hint(session)).clicked() {
-            clicked = Some(Command::Scenes);
+            clicked = Some(UserCommand::Scenes);
         }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
@@ -104,7 +104,7 @@ fn worded(ui: &Ui, width: f32) -> usize {
 }
 
 /// From right to left; so many have words.
-fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<Command> {
+fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<UserCommand> {
     let mut clicked = None;
     let [learn, compare, set_up, save, accuracy] = names();
     let words = |name| names()[..worded].contains(&name);
@@ -113,13 +113,13 @@ fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<
             clicked = Some(command);
         }
     };
-    let shown = |open: bool| if open { Weight::On } else { Weight::Quiet };
+    let shown = |open: bool| if open { Emphasis::On } else { Emphasis::Quiet };
     let hint = word!("Which key does what (F1)", "Que tecla faz o quê (F1)");
-    press(Icon::Help, word!("Help", "Ajuda"), false, Weight::Quiet, Command::Help, hint);
+    press(Icon::Help, word!("Help", "Ajuda"), false, Emphasis::Quiet, UserCommand::Help, hint);
     let other = Language::spoken().other();
-    let language = named_button(ui, None, other.name(), Some(other.short_name()), Weight::Quiet);
+    let language = named_button(ui, None, other.name(), Some(other.short_name()), Emphasis::Quiet);
     if language.on_hover_text(word!("Em português (Shift L)", "In English (Shift L)")).clicked() {
-        clicked = Some(Command::Language);
+        clicked = Some(UserCommand::Language);
     }
     let mut press = |icon, name, words, weight, command, hint: &str| {
         if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
@@ -127,25 +127,25 @@ fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<
         }
     };
     let hint = word!("Dark or light (D)", "Escuro ou claro (D)");
-    press(Icon::Contrast, word!("Dark or light", "Escuro ou claro"), false, Weight::Quiet, Command::Theme, hint);
+    press(Icon::Contrast, word!("Dark or light", "Escuro ou claro"), false, Emphasis::Quiet, UserCommand::Theme, hint);
     let hint = word!("Save a picture, or the run (S)", "Salvar uma imagem, ou a execução (S)");
-    press(Icon::Save, save, words(save), shown(open.save), Command::Save, hint);
+    press(Icon::Save, save, words(save), shown(open.save), UserCommand::Save, hint);
     let hint = word!("What other qualities cost (A)", "O que custam outras qualidades (A)");
-    press(Icon::Chart, accuracy, words(accuracy), shown(open.accuracy), Command::Accuracy, hint);
+    press(Icon::Chart, accuracy, words(accuracy), shown(open.accuracy), UserCommand::Accuracy, hint);
     let hint = word!("Lessons with questions (N)", "Lições com perguntas (N)");
-    press(Icon::Learn, learn, words(learn), shown(open.learn), Command::Learn, hint);
+    press(Icon::Learn, learn, words(learn), shown(open.learn), UserCommand::Learn, hint);
     let hint = word!("The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
-    press(Icon::Compare, compare, words(compare), shown(open.compare), Command::Compare, hint);
+    press(Icon::Compare, compare, words(compare), shown(open.compare), UserCommand::Compare, hint);
     let hint = word!("Machines, picture, strategy (E)", "Máquinas, imagem, estratégia (E)");
-    press(Icon::Sliders, set_up, words(set_up), shown(open.setup), Command::Setup, hint);
+    press(Icon::Sliders, set_up, words(set_up), shown(open.setup), UserCommand::Setup, hint);
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
-        let button = button(ui, Some(Icon::Undo), word!("Undo", "Desfazer"), false, Weight::Quiet);
+        let button = button(ui, Some(Icon::Undo), word!("Undo", "Desfazer"), false, Emphasis::Quiet);
         let hint = word!(
             "Take back the last change of a speed or of what is set (Ctrl Z)",
             "Desfazer a última mudança de velocidade ou de ajuste (Ctrl Z)"
         );
         if button.on_hover_text(hint).clicked() {
-            clicked = Some(Command::Undo);
+            clicked = Some(UserCommand::Undo);
         }
     });
     let mut press = |icon, name, words, weight, command, hint: &str| {
@@ -155,14 +155,14 @@ fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<
     };
     // The two to press first keep their words.
     let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
-    let weight = |first: bool| if first { Weight::Primary } else { Weight::Quiet };
+    let weight = |first: bool| if first { Emphasis::Primary } else { Emphasis::Quiet };
     let hint = if session.is_recorded() {
         word!("From its beginning (R); Set up can make it live", "Do início (R); em Ajustar pode tornar-se ao vivo")
     } else {
         word!("A new run, with what is set (R)", "Uma nova execução, com o que está ajustado (R)")
     };
     let (name, weight_now) = (word!("Restart", "Reiniciar"), weight(over && session.stage().shows_end()));
-    press(Icon::Restart, name, true, weight_now, Command::Restart, hint);
+    press(Icon::Restart, name, true, weight_now, UserCommand::Restart, hint);
     let stage = session.stage();
     let (icon, name) = match stage.goes_on() {
         _ if stage.is_at_end() => (Icon::Play, word!("Play again", "Repetir")),
@@ -174,7 +174,7 @@ fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<
     ui.add_enabled_ui(can, |ui| {
         let button = button(ui, Some(icon), name, true, weight(!over || !stage.shows_end()));
         if button.on_hover_text(word!("Stand still or go on (space)", "Parar ou continuar (espaço)")).clicked() {
-            clicked = Some(Command::Pause);
+            clicked = Some(UserCommand::Pause);
         }
     });
     clicked

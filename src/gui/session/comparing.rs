@@ -5,19 +5,19 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
-use super::job_result::{Compared, Done, Grown, Growth, Pictured};
+use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnce};
 use super::jobs::Jobs;
 use crate::balance::Strategy;
-use crate::driver::Whole;
+use crate::driver::TracedPicture;
 use crate::palette::Rgb;
-use crate::runlog::{Driver, Tally};
+use crate::runlog::{Driver, Metrics};
 use crate::sim::{Change, PixelCosts, Trial};
 use crate::tracer::Tracer;
-use crate::view::Contender;
+use crate::view::ComparedRun;
 
 /// What a comparison is of.
 #[derive(Clone)]
-pub struct Subject {
+pub struct ComparisonSubject {
     tracer: Arc<Tracer>,
     /// The run on the stage, in virtual time.
     pub trial: Trial,
@@ -25,7 +25,7 @@ pub struct Subject {
     settings: Option<Settings>,
 }
 
-impl Subject {
+impl ComparisonSubject {
     /// Whether it is the same.
     pub fn is_like(&self, other: &Self) -> bool {
         self.has_picture_of(other) && self.trial == other.trial
@@ -47,12 +47,12 @@ impl Subject {
 
 /// How far the picture of a comparison is.
 #[derive(Default)]
-pub struct Tracing {
+pub struct TracingProgress {
     done: AtomicU32,
     is_given_up: AtomicBool,
 }
 
-impl Tracing {
+impl TracingProgress {
     /// How many pixels are traced.
     pub fn done(&self) -> u32 {
         self.done.load(Ordering::Relaxed)
@@ -65,20 +65,20 @@ impl Tracing {
 }
 
 /// What is known of the picture beforehand.
-pub enum Known {
+pub enum PictureSource {
     /// It is to be traced.
-    Nothing(Arc<Tracing>),
+    Nothing(Arc<TracingProgress>),
     /// All of it.
-    Picture(Arc<Pictured>),
+    Picture(Arc<TracedOnce>),
 }
 
 /// A trial that is to be run, its number and its name.
-pub type Entry = (u64, String, Trial);
+pub type NumberedTrial = (u64, String, Trial);
 
 impl Session {
     /// What can be compared now: the run on the stage, as it would be in virtual time, with all that was done to it so
     /// far. Nothing until the scene is compiled.
-    pub fn subject(&self) -> Option<Subject> {
+    pub fn subject(&self) -> Option<ComparisonSubject> {
         let recorded = self.recorded.as_ref().map(|recorded| Arc::clone(&recorded.tracer));
         let tracer = recorded.or_else(|| self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.tracer)))?;
         let mut trial = Trial::of(&self.stage.log);
@@ -88,60 +88,66 @@ impl Session {
         if self.header().driver == Driver::WorkStealing {
             trial = trial.with(Change::Strategy(Strategy::Ring));
         }
-        (tracer.size() == trial.header.size).then_some(Subject { tracer, trial, settings })
+        (tracer.size() == trial.header.size).then_some(ComparisonSubject { tracer, trial, settings })
     }
 
     /// Traces the picture, if it is not known, and runs trials of it; returns the job's number.
-    pub fn compare(&mut self, subject: &Subject, known: Known, entries: Vec<Entry>) -> u64 {
+    pub fn compare(&mut self, subject: &ComparisonSubject, known: PictureSource, entries: Vec<NumberedTrial>) -> u64 {
         self.jobs.compare(subject.clone(), known, entries, self.ground)
     }
 
     /// Runs the subject by each strategy with more and more machines; returns the job's number.
-    pub fn grow(&mut self, subject: &Subject, pictured: Arc<Pictured>) -> u64 {
+    pub fn grow(&mut self, subject: &ComparisonSubject, pictured: Arc<TracedOnce>) -> u64 {
         self.jobs.grow(subject.clone(), pictured)
     }
 }
 
 impl Jobs {
-    fn compare(&mut self, subject: Subject, known: Known, entries: Vec<Entry>, ground: Rgb) -> u64 {
+    fn compare(
+        &mut self,
+        subject: ComparisonSubject,
+        known: PictureSource,
+        entries: Vec<NumberedTrial>,
+        ground: Rgb,
+    ) -> u64 {
         let number = self.number();
-        let failed = move |why| Done::Compared(number, Compared::Failed(why));
+        let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
         self.start_many("compare", failed, move |tell| {
-            let tell = |compared| tell(Done::Compared(number, compared));
+            let tell = |compared| tell(JobResult::CompareResult(number, compared));
             let pictured = match known {
-                Known::Picture(pictured) => pictured,
-                Known::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
+                PictureSource::Picture(pictured) => pictured,
+                PictureSource::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
                     Ok(None) => return,
                     Ok(Some(pictured)) => pictured,
-                    Err(why) => return tell(Compared::Failed(why)),
+                    Err(why) => return tell(CompareResult::Failed(why)),
                 },
             };
-            tell(Compared::Picture(Arc::clone(&pictured)));
+            tell(CompareResult::Picture(Arc::clone(&pictured)));
             for (id, name, trial) in entries {
                 let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
-                tell(Compared::Run(id, Box::new(Contender::new(name, log, &pictured.pixels, ground))));
+                tell(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &pictured.pixels, ground))));
             }
         });
         number
     }
 
-    fn grow(&mut self, subject: Subject, pictured: Arc<Pictured>) -> u64 {
+    fn grow(&mut self, subject: ComparisonSubject, pictured: Arc<TracedOnce>) -> u64 {
         let number = self.number();
-        let failed = move |why| Done::Compared(number, Compared::Failed(why));
+        let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
         self.start_many("grow", failed, move |tell| {
             let trial = subject.paced(subject.trial.clone(), &pictured.costs);
-            tell(Done::Compared(number, Compared::Growth(grown(&trial, &pictured.costs))));
+            tell(JobResult::CompareResult(number, CompareResult::Growth(grown(&trial, &pictured.costs))));
         });
         number
     }
 }
 
 /// Traces the picture on all cores, unless it is given up.
-fn pictured(tracer: &Arc<Tracer>, tracing: &Tracing) -> Result<Option<Arc<Pictured>>, String> {
+fn pictured(tracer: &Arc<Tracer>, tracing: &TracingProgress) -> Result<Option<Arc<TracedOnce>>, String> {
     let done = |more| _ = tracing.done.fetch_add(more, Ordering::Relaxed);
     let is_over = || tracing.is_given_up.load(Ordering::Relaxed);
-    let traced = Whole::by_pixel(tracer, &done, &is_over)?;
-    Ok(traced.map(|(pixels, costs)| Arc::new(Pictured { pixels, costs })))
+    let traced = TracedPicture::by_pixel(tracer, &done, &is_over)?;
+    Ok(traced.map(|(pixels, costs)| Arc::new(TracedOnce { pixels, costs })))
 }
 
 /// With one machine to eight, the last of which is slow where a machine of the trial is.
@@ -153,7 +159,7 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
     let mut bare = Trial { script: Vec::new(), ..trial.clone() };
     bare.header.spares = 0;
     let one = bare.with(Change::Nodes(1)).with(Change::Equal).with(Change::Strategy(Strategy::Serial));
-    let alone = Tally::of(&one.run(costs)).makespan().unwrap_or_default();
+    let alone = Metrics::of(&one.run(costs)).makespan().unwrap_or_default();
     let of = |strategy| {
         let run = |machines: usize| {
             let equal = bare.with(Change::Nodes(machines)).with(Change::Equal).with(Change::Strategy(strategy));
@@ -161,9 +167,9 @@ fn grown(trial: &Trial, costs: &PixelCosts) -> Growth {
                 Some(speed) if machines > 1 => equal.with(Change::Speed(machines as u16 - 1, speed)),
                 _ => equal,
             };
-            let tally = Tally::of(&grown.run(costs));
+            let tally = Metrics::of(&grown.run(costs));
             let (makespan, efficiency) = (tally.makespan()?, tally.efficiency()?);
-            Some(Grown { machines, speedup: alone.div_duration_f64(makespan), efficiency })
+            Some(GrowthPoint { machines, speedup: alone.div_duration_f64(makespan), efficiency })
         };
         (strategy, (1..=MOST).filter_map(run).collect())
     };

@@ -9,9 +9,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use crossbeam_channel::{Sender, TryRecvError, bounded};
 
 use super::Session;
-use super::job_result::Done;
+use super::job_result::JobResult;
 use super::jobs::told;
-use crate::driver::{Whole, trace_strips};
+use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::{Language, say};
 use crate::output::{OutputError, write_whole};
@@ -40,7 +40,7 @@ pub enum Export {
 }
 
 /// What is being made.
-pub(super) struct Making {
+pub(super) struct ExportJob {
     job: u64,
     name: String,
     since: f64,
@@ -50,19 +50,19 @@ pub(super) struct Making {
 }
 
 /// What the job is made of.
-struct Source {
+struct ExportSource {
     log: RunLog,
     /// The picture, if all that is known of it is there.
     frame: Option<Frame>,
 }
 
 /// Tells what part is done, and says whether to go on.
-type Tell<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+type ProgressSink<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
 impl Session {
     /// Makes it in the background and writes it to `path`.
     pub fn export(&mut self, path: PathBuf, export: Export) {
-        if let Some(Making { name, .. }) = &self.making {
+        if let Some(ExportJob { name, .. }) = &self.making {
             return self.trouble(say!(
                 "{name} is still being made: cancel it first",
                 "{name} ainda está sendo feito: cancele antes"
@@ -71,24 +71,24 @@ impl Session {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         // The picture of a recorded run is traced again while it is shown.
         let is_known = !self.is_recorded() || self.stage.performer.has_ended();
-        let source = Source { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
+        let source = ExportSource { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
         let (job, (stop, stopped), language) = (self.jobs.number(), bounded::<()>(0), Language::spoken());
         // What was said of the file before would cover how far this one is.
         self.notice = None;
-        self.making = Some(Making { job, name, since: self.clock, part: 0.0, _stop: stop });
-        let failed = move |why| Done::Made(job, Err(why));
+        self.making = Some(ExportJob { job, name, since: self.clock, part: 0.0, _stop: stop });
+        let failed = move |why| JobResult::Made(job, Err(why));
         self.jobs.start_many("export", failed, move |tell| {
             let percent = AtomicU32::new(0);
             let goes_on = |part: f64| {
                 let now = (100.0 * part) as u32;
                 // The window need not hear more often.
                 if percent.fetch_max(now, Ordering::Relaxed) < now {
-                    tell(Done::Progress(job, part));
+                    tell(JobResult::Progress(job, part));
                 }
                 stopped.try_recv() != Err(TryRecvError::Disconnected)
             };
             let made = source.make(&path, export, &goes_on);
-            tell(Done::Made(job, made.and_then(|written| told(&path, written, language))));
+            tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
         });
     }
 
@@ -99,7 +99,7 @@ impl Session {
 
     /// Gives up what is being made; nothing of it is kept.
     pub fn stop_making(&mut self) {
-        if let Some(Making { name, .. }) = self.making.take() {
+        if let Some(ExportJob { name, .. }) = self.making.take() {
             self.note(say!("Cancelled: nothing of {name} was kept", "Cancelado: nada de {name} foi guardado"));
         }
     }
@@ -121,12 +121,12 @@ impl Session {
     }
 }
 
-impl Source {
+impl ExportSource {
     /// Makes it and writes it.
     ///
     /// # Errors
     /// A sentence, if it cannot be made; within it what writing came to.
-    fn make(&self, path: &Path, export: Export, tell: Tell<'_>) -> Result<Result<(), OutputError>, String> {
+    fn make(&self, path: &Path, export: Export, tell: ProgressSink<'_>) -> Result<Result<(), OutputError>, String> {
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
@@ -157,10 +157,11 @@ impl Source {
         Ok(Arc::new(Tracer::new(&scene, size, quality)))
     }
 
-    fn traced(&self, tell: Tell<'_>) -> Result<Frame, String> {
+    fn traced(&self, tell: ProgressSink<'_>) -> Result<Frame, String> {
         let header = &self.log.header;
         let tracer = self.tracer(header.size, header.quality)?;
-        let whole = Whole::unless(&tracer, header.division, &|_| {}, &|| !tell(0.0))?.ok_or("it was stopped")?;
+        let whole =
+            TracedPicture::unless(&tracer, header.division, &|_| {}, &|| !tell(0.0))?.ok_or("it was stopped")?;
         Ok(Frame::of(header.size, &whole.pixels))
     }
 }

@@ -7,7 +7,7 @@ use super::super::settings::Settings;
 use super::Notice;
 use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::Opening;
-use super::performer::Performer;
+use super::performer::RunSource;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
 use crate::driver::Retrace;
@@ -16,7 +16,7 @@ use crate::output::is_same_file;
 use crate::runlog::RunLog;
 use crate::scene::Opened;
 use crate::sentence::shown;
-use crate::view::{Known, Layer, picture_pixels};
+use crate::view::{Layer, RunView, picture_pixels};
 
 impl Session {
     /// Shows what has been read already.
@@ -113,7 +113,7 @@ impl Session {
     /// Writes the run's records to where the user asked for them, if so, before the window closes. A failure is told on
     /// standard error, since there is no other place for it any more.
     pub fn keep_log(&self) {
-        if let (Some(path), Performer::Live(_)) = (&self.log_path, &self.stage.performer)
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer)
             && let Err(error) = self.stage.log.save(path)
         {
             eprintln!("anel: {error}");
@@ -129,15 +129,15 @@ impl Session {
         }
         self.jobs.watch(None);
         let retrace = Retrace::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
-        let (log, known) = (RunLog::clone(&recorded.log), Known::clone(&recorded.known));
-        let stage = Stage::recorded(Performer::Recorded(retrace), log, known, self.ground);
+        let (log, known) = (RunLog::clone(&recorded.log), RunView::clone(&recorded.known));
+        let stage = Stage::recorded(RunSource::Recorded(retrace), log, known, self.ground);
         self.set_stage(stage, recorded.preview.clone());
         self.recorded = Some(recorded);
     }
 
     /// Writes the records in the background to where the user asked for them, if so.
     pub(super) fn write_log(&self) {
-        if let (Some(path), Performer::Live(_)) = (&self.log_path, &self.stage.performer) {
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer) {
             self.jobs.save_run(path.clone(), self.stage.log.clone());
         }
     }

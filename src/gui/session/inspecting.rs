@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use super::Session;
-use crate::view::{Chosen, Inspected};
+use crate::view::{ChosenRay, Inspected};
 
 /// The pixel that is inspected, if there is one.
 #[derive(Default)]
 pub(super) struct Inspecting {
     /// What was asked for last.
-    asked: Option<Asked>,
+    asked: Option<InspectedRay>,
     /// What is known, which may be of what was asked for before.
     known: Option<Box<Inspected>>,
     is_busy: bool,
@@ -20,15 +20,15 @@ pub(super) struct Inspecting {
 
 /// A pixel, and which of its rays; its first unless that is said.
 #[derive(Clone, Copy)]
-struct Asked {
+struct InspectedRay {
     place: [u32; 2],
-    chosen: Option<Chosen>,
+    chosen: Option<ChosenRay>,
 }
 
 impl Session {
     /// Inspects a pixel of the picture, by its column and row.
     pub fn inspect(&mut self, place: [u32; 2]) {
-        self.inspecting.asked = Some(Asked { place, chosen: None });
+        self.inspecting.asked = Some(InspectedRay { place, chosen: None });
         self.look_again();
     }
 
@@ -42,7 +42,7 @@ impl Session {
     }
 
     /// Looks along another ray of the pixel.
-    pub fn choose_ray(&mut self, chosen: Chosen) {
+    pub fn choose_ray(&mut self, chosen: ChosenRay) {
         if let Some(asked) = &mut self.inspecting.asked {
             asked.chosen = Some(chosen);
             self.look_again();
@@ -71,7 +71,7 @@ impl Session {
 
     /// Traces the pixel once more: another was asked for, or the picture is another.
     pub(super) fn look_again(&mut self) {
-        let Some(Asked { place, chosen }) = self.inspecting.asked else { return };
+        let Some(InspectedRay { place, chosen }) = self.inspecting.asked else { return };
         if self.inspecting.is_busy {
             self.inspecting.again = true;
             return;

@@ -13,11 +13,11 @@ use crate::runlog::{Driver, RunLog};
 use crate::scene::Opened;
 use crate::sim::PixelCosts;
 use crate::study::accuracy::{Point, Reference};
-use crate::tracer::{Compiled, Tracer};
-use crate::view::{Contender, Inspected, Known};
+use crate::tracer::{SceneStats, Tracer};
+use crate::view::{ComparedRun, Inspected, RunView};
 
 /// What a job has come to.
-pub enum Done {
+pub enum JobResult {
     /// The job of this number has read and compiled what was asked for, or says why not.
     Ready(u64, Result<Ready, String>),
     /// A file is written: a sentence says where, or why not.
@@ -33,15 +33,15 @@ pub enum Done {
     /// The job of this number has found out something about speed and accuracy.
     Found(u64, Finding),
     /// What has come of a comparison, and the number of its job.
-    Compared(u64, Compared),
+    CompareResult(u64, CompareResult),
     /// A lesson that was opened, to be prepared.
     ToTeach(Arc<Lesson>),
     /// A lesson, or a sentence that says why it cannot be shown, and the number of its job.
-    Lesson(u64, Result<Taught, String>),
+    Lesson(u64, Result<PreparedLesson, String>),
     /// A pixel, with all that is known of it; nothing if there is no such pixel.
     Inspected(Option<Box<Inspected>>),
     /// What is about seen by a camera that was moved.
-    Moved(Moved),
+    CameraPreview(CameraPreview),
     /// The file that is open has changed, or is gone.
     FileChanged(PathBuf, FileChange),
 }
@@ -107,7 +107,7 @@ pub struct Recorded {
     /// What its picture will about look like.
     pub preview: Arc<[Rgb]>,
     /// What is known of all of it.
-    pub known: Arc<Known>,
+    pub known: Arc<RunView>,
 }
 
 impl Prepared {
@@ -131,7 +131,7 @@ pub struct Thumbnail {
 }
 
 /// A picture that is traced once for all trials of it.
-pub struct Pictured {
+pub struct TracedOnce {
     /// All pixels in scan order.
     pub pixels: Vec<Colour>,
     /// What each costs the reference machine, by its rays.
@@ -141,7 +141,7 @@ pub struct Pictured {
 /// How well strategies do with more and more machines.
 pub struct Growth {
     /// By strategy: what comes of more and more machines.
-    pub of: Vec<(Strategy, Vec<Grown>)>,
+    pub of: Vec<(Strategy, Vec<GrowthPoint>)>,
     /// How long one machine at full speed takes.
     pub alone: Duration,
     /// The last machine is a slow one.
@@ -150,7 +150,7 @@ pub struct Growth {
 
 /// A run of so many machines.
 #[derive(Clone, Copy, Debug)]
-pub struct Grown {
+pub struct GrowthPoint {
     /// How many.
     pub machines: usize,
     /// How many times as long one machine at full speed would take.
@@ -160,11 +160,11 @@ pub struct Grown {
 }
 
 /// What has come of a comparison.
-pub enum Compared {
+pub enum CompareResult {
     /// The traced picture.
-    Picture(Arc<Pictured>),
+    Picture(Arc<TracedOnce>),
     /// A trial, by its number.
-    Run(u64, Box<Contender>),
+    Run(u64, Box<ComparedRun>),
     /// How strategies do with more machines.
     Growth(Growth),
     /// Nothing comes, for this reason.
@@ -174,7 +174,7 @@ pub enum Compared {
 /// What has been found out about speed and accuracy.
 pub enum Finding {
     /// What the scene needs, and how many rays there are on each level of its trees of rays.
-    Needs(Compiled, Vec<u64>),
+    Needs(SceneStats, Vec<u64>),
     /// So many of the [`Reference::STEPS`] pictures of the reference have been begun.
     Begun(usize),
     /// What pictures are compared with.
@@ -186,7 +186,7 @@ pub enum Finding {
 }
 
 /// A lesson whose runs have been run.
-pub struct Taught {
+pub struct PreparedLesson {
     /// What it says.
     pub lesson: Arc<Lesson>,
     /// Its runs, by name.
@@ -196,7 +196,7 @@ pub struct Taught {
 }
 
 /// What is about seen by a camera that moves.
-pub struct Moved {
+pub struct CameraPreview {
     /// Width and height.
     pub size: Size,
     /// All pixels in scan order.

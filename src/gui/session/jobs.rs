@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
-use super::job_result::{Done, FileChange, Purpose};
+use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
 use crate::language::{Language, say, word};
 use crate::output::OutputError;
@@ -20,8 +20,8 @@ use crate::view::Inspected;
 /// Starts jobs and gets what they come to.
 pub struct Jobs {
     ctx: egui::Context,
-    sender: Sender<Done>,
-    receiver: Receiver<Done>,
+    sender: Sender<JobResult>,
+    receiver: Receiver<JobResult>,
     next: u64,
     /// Dropping it ends the watch.
     watch: Option<Sender<()>>,
@@ -37,20 +37,20 @@ impl Jobs {
     }
 
     /// What jobs have come to since.
-    pub fn done(&self) -> Vec<Done> {
+    pub fn done(&self) -> Vec<JobResult> {
         self.receiver.try_iter().collect()
     }
 
     /// Writes a picture of these pixels.
     pub fn save_picture(&self, path: PathBuf, size: Size, pixels: impl FnOnce() -> Vec<u8> + Send + 'static) {
         let language = Language::spoken();
-        self.start("save", move || Done::Saved(told(&path, write_png(&path, size, &pixels()), language)));
+        self.start("save", move || JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language)));
     }
 
     /// Writes a run file.
     pub fn save_run(&self, path: PathBuf, log: RunLog) {
         let language = Language::spoken();
-        self.start("save", move || Done::Saved(told(&path, log.save(&path), language)));
+        self.start("save", move || JobResult::Saved(told(&path, log.save(&path), language)));
     }
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
@@ -68,7 +68,7 @@ impl Jobs {
                 Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
                 Purpose::Save => dialog.set_file_name(name).save_file(),
             };
-            Done::Chosen(purpose, chosen)
+            JobResult::Chosen(purpose, chosen)
         });
     }
 
@@ -76,12 +76,12 @@ impl Jobs {
     pub fn thumbnails(&self, scenes: Vec<String>) {
         self.start_many(
             "thumbnails",
-            |why| Done::Saved(Err(why)),
+            |why| JobResult::Saved(Err(why)),
             move |tell| {
                 for scene in scenes {
                     let made =
                         Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
-                    tell(Done::Thumbnail(scene, made));
+                    tell(JobResult::Thumbnail(scene, made));
                 }
             },
         );
@@ -89,7 +89,7 @@ impl Jobs {
 
     /// Traces a pixel once more, to be looked at.
     pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static) {
-        self.start("inspect", move || Done::Inspected(look().map(Box::new)));
+        self.start("inspect", move || JobResult::Inspected(look().map(Box::new)));
     }
 
     /// Watches this file instead of the one before.
@@ -100,7 +100,7 @@ impl Jobs {
         self.watch = Some(stop);
         self.start_many(
             "watch",
-            |why| Done::Saved(Err(why)),
+            |why| JobResult::Saved(Err(why)),
             move |tell| {
                 let mut known = stamp(&path);
                 while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
@@ -108,7 +108,7 @@ impl Jobs {
                     if now != known {
                         known = now;
                         let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
-                        tell(Done::FileChanged(path.clone(), change));
+                        tell(JobResult::FileChanged(path.clone(), change));
                     }
                 }
             },
@@ -121,16 +121,16 @@ impl Jobs {
         self.next
     }
 
-    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> Done + Send + 'static) {
-        self.start_many(name, |why| Done::Saved(Err(why)), move |tell| tell(job()));
+    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
+        self.start_many(name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()));
     }
 
     /// Starts a thread for a job that tells several things, or tells what it `failed` with.
     pub(super) fn start_many(
         &self,
         name: &str,
-        failed: impl FnOnce(String) -> Done,
-        job: impl FnOnce(&(dyn Fn(Done) + Sync)) + Send + 'static,
+        failed: impl FnOnce(String) -> JobResult,
+        job: impl FnOnce(&(dyn Fn(JobResult) + Sync)) + Send + 'static,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crossbeam_channel::{TryRecvError, bounded};
 
 use super::Session;
-use super::job_result::{Done, Finding, Prepared};
+use super::job_result::{Finding, JobResult, Prepared};
 use super::jobs::Jobs;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
@@ -31,10 +31,10 @@ impl Jobs {
         let (stop, stopped) = bounded::<()>(0);
         self.measuring = Some(stop);
         let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
-        let failed = move |why| Done::Found(number, Finding::Over(Err(why)));
+        let failed = move |why| JobResult::Found(number, Finding::Over(Err(why)));
         self.start_many("measure", failed, move |tell| {
             let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
-            let tell = |finding| tell(Done::Found(number, finding));
+            let tell = |finding| tell(JobResult::Found(number, finding));
             tell(Finding::Needs(tracer.compiled(), tracer.levels()));
             tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
         });

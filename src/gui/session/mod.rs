@@ -1,5 +1,5 @@
 //! One run after the other, as the window sees them. Here, and nowhere else in `gui`, are threads, channels and clocks:
-//! those of runs behind [`Performer`], those of everything else in [`jobs`].
+//! those of runs behind [`RunSource`], those of everything else in [`jobs`].
 
 mod comparing;
 mod exporting;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::settings::Settings;
-use super::settings::undo::{Gesture, History};
+use super::settings::undo::{Gesture, UndoHistory};
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::language::say;
@@ -34,26 +34,27 @@ use crate::scene::{Camera, Opened};
 use crate::time::Time;
 use opening::Opening;
 
-pub use comparing::{Known, Subject, Tracing};
+pub use comparing::{ComparisonSubject, PictureSource, TracingProgress};
 pub use exporting::Export;
-use exporting::Making;
+use exporting::ExportJob;
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
-    Compared, Done, Finding, Grown, Growth, Moved, Pictured, Prepared, Purpose, Recorded, Taught, Thumbnail,
+    CameraPreview, CompareResult, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson, Purpose, Recorded,
+    Thumbnail, TracedOnce,
 };
 use jobs::Jobs;
-use moving::Moving;
+use moving::CameraMove;
 pub use notice::{Notice, NoticeKind};
-use performer::Performer;
+use performer::RunSource;
 pub use stage::{Phase, Stage};
-pub use teaching::Preparing;
+pub use teaching::PreparingLesson;
 
 /// What the window shows, what is set, and what goes on in the background.
 pub struct Session {
     stage: Stage,
     settings: Settings,
-    history: History,
+    history: UndoHistory,
     /// The scene that live runs trace, once there is one.
     prepared: Option<Prepared>,
     /// The run that is played again, if that is what is shown.
@@ -62,17 +63,17 @@ pub struct Session {
     inspecting: Inspecting,
     /// The scene's own camera.
     home: Option<Camera>,
-    moving: Option<Moving>,
+    moving: Option<CameraMove>,
     /// Looks from a moved camera that have not come back.
     camera_jobs: usize,
     jobs: Jobs,
     /// Runs that were asked to end and have threads that have not.
-    ending: Vec<Performer>,
+    ending: Vec<RunSource>,
     begun: usize,
     /// Measurements that have not ended, although they may have been asked to.
     measurements: usize,
     notice: Option<Notice>,
-    making: Option<Making>,
+    making: Option<ExportJob>,
     /// Where each run's records are written when it ends.
     log_path: Option<PathBuf>,
     /// The files that were opened last, the latest first.
@@ -96,9 +97,9 @@ impl Session {
     pub fn new(settings: Settings, log_path: Option<PathBuf>, ctx: &egui::Context, ground: Rgb) -> Self {
         let header = settings.header("", "", Duration::ZERO, cores());
         Self {
-            stage: Stage::new(Performer::Nobody, header, ground),
+            stage: Stage::new(RunSource::Nobody, header, ground),
             settings,
-            history: History::default(),
+            history: UndoHistory::default(),
             prepared: None,
             recorded: None,
             loading: None,
@@ -135,7 +136,7 @@ impl Session {
 
     /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
     /// the system's dialogs, small pictures, and what was measured.
-    pub fn tick(&mut self, clock: f64) -> Vec<Done> {
+    pub fn tick(&mut self, clock: f64) -> Vec<JobResult> {
         self.clock = clock;
         if self.stage.tick(clock) {
             self.write_log();
@@ -147,33 +148,33 @@ impl Session {
         let mut others = Vec::new();
         for done in self.jobs.done() {
             match done {
-                Done::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
+                JobResult::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
                     self.loading = None;
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
                         Ok(Ready::Run(recorded)) => self.play(recorded),
-                        Ok(Ready::Lesson(lesson)) => others.push(Done::ToTeach(lesson)),
+                        Ok(Ready::Lesson(lesson)) => others.push(JobResult::ToTeach(lesson)),
                         Err(why) => self.could_not_open(why),
                     }
                 }
                 // Something else was asked for meanwhile.
-                Done::Ready(..) => {}
-                Done::Saved(Ok(said)) => self.note(said),
-                Done::Saved(Err(why)) => self.trouble(why),
-                Done::Progress(job, part) => self.progress(job, part),
-                Done::Made(job, made) => self.made(job, made),
-                Done::FileChanged(path, change) => self.file_changed(&path, change),
-                Done::Found(job, finding) => {
+                JobResult::Ready(..) => {}
+                JobResult::Saved(Ok(said)) => self.note(said),
+                JobResult::Saved(Err(why)) => self.trouble(why),
+                JobResult::Progress(job, part) => self.progress(job, part),
+                JobResult::Made(job, made) => self.made(job, made),
+                JobResult::FileChanged(path, change) => self.file_changed(&path, change),
+                JobResult::Found(job, finding) => {
                     self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
-                    others.push(Done::Found(job, finding));
+                    others.push(JobResult::Found(job, finding));
                 }
-                Done::Inspected(inspected) => self.take_inspected(inspected),
-                Done::Moved(moved) => self.take_moved(moved),
-                done @ (Done::Chosen(..)
-                | Done::Thumbnail(..)
-                | Done::Compared(..)
-                | Done::ToTeach(..)
-                | Done::Lesson(..)) => others.push(done),
+                JobResult::Inspected(inspected) => self.take_inspected(inspected),
+                JobResult::CameraPreview(moved) => self.take_moved(moved),
+                done @ (JobResult::Chosen(..)
+                | JobResult::Thumbnail(..)
+                | JobResult::CompareResult(..)
+                | JobResult::ToTeach(..)
+                | JobResult::Lesson(..)) => others.push(done),
             }
         }
         others
@@ -293,7 +294,7 @@ impl Session {
     }
 
     /// What was set before, and after.
-    pub fn history(&self) -> &History {
+    pub fn history(&self) -> &UndoHistory {
         &self.history
     }
 
@@ -373,7 +374,7 @@ impl Session {
         let work = prepared.work(self.settings.driver);
         let header = self.settings.header(&opened.name, &opened.text, work, cores());
         let run = Run::start(Arc::clone(&prepared.tracer), &header);
-        self.set_stage(Stage::new(Performer::Live(run), header, self.ground), prepared.preview.clone());
+        self.set_stage(Stage::new(RunSource::Live(run), header, self.ground), prepared.preview.clone());
     }
 
     fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
@@ -387,7 +388,7 @@ impl Session {
 
     /// Lets whoever performs end in their own time.
     fn retire(&mut self) {
-        let last = std::mem::replace(&mut self.stage.performer, Performer::Nobody);
+        let last = std::mem::replace(&mut self.stage.performer, RunSource::Nobody);
         last.stop();
         if !last.has_ended() {
             self.ending.push(last);

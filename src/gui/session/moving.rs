@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::Session;
-use super::job_result::{Done, Moved};
+use super::job_result::{CameraPreview, JobResult};
 use super::jobs::Jobs;
 use super::opening::Opening;
 use super::preview::{guess, with_preview};
@@ -14,7 +14,7 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Tracer;
 
 /// A camera that was moved, and what is seen by it.
-pub(super) struct Moving {
+pub(super) struct CameraMove {
     camera: Camera,
     /// egui's clock when it moved last, in seconds.
     since: f64,
@@ -23,7 +23,7 @@ pub(super) struct Moving {
     again: bool,
     /// The run that starts anew from there is being prepared.
     is_settled: bool,
-    shown: Option<Arc<Moved>>,
+    shown: Option<Arc<CameraPreview>>,
 }
 
 /// A camera that rests for so long, in seconds, is where it is meant to be.
@@ -43,7 +43,7 @@ impl Session {
         let camera = change(&before);
         let shown = self.moving.take().and_then(|moving| moving.shown);
         let (is_busy, again) = (self.camera_jobs > 0, self.camera_jobs > 0);
-        self.moving = Some(Moving { camera, since: self.clock, is_busy, again, is_settled: false, shown });
+        self.moving = Some(CameraMove { camera, since: self.clock, is_busy, again, is_settled: false, shown });
         self.look_from_there();
     }
 
@@ -73,7 +73,7 @@ impl Session {
     }
 
     /// What is about seen by a camera that moves.
-    pub fn moved(&self) -> Option<&Arc<Moved>> {
+    pub fn moved(&self) -> Option<&Arc<CameraPreview>> {
         self.moving.as_ref().and_then(|moving| moving.shown.as_ref())
     }
 
@@ -113,7 +113,7 @@ impl Session {
         }
     }
 
-    pub(super) fn take_moved(&mut self, moved: Moved) {
+    pub(super) fn take_moved(&mut self, moved: CameraPreview) {
         self.camera_jobs -= 1;
         if let Some(moving) = &mut self.moving {
             moving.is_busy = false;
@@ -140,11 +140,11 @@ impl Session {
 impl Jobs {
     /// Looks at the scene, coarsely and then as finely as there is time.
     fn look(&mut self, scene: Scene, size: Size, quality: Quality) {
-        self.start("camera", move || Done::Moved(look(&scene, size, quality)));
+        self.start("camera", move || JobResult::CameraPreview(look(&scene, size, quality)));
     }
 }
 
-fn look(scene: &Scene, size: Size, quality: Quality) -> Moved {
+fn look(scene: &Scene, size: Size, quality: Quality) -> CameraPreview {
     let tracer = Tracer::new(scene, size, Quality { samples: 1, ..quality });
-    Moved { size, pixels: guess(&with_preview(tracer, 1, LOOK)) }
+    CameraPreview { size, pixels: guess(&with_preview(tracer, 1, LOOK)) }
 }

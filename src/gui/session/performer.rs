@@ -9,7 +9,7 @@ use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
 /// Whoever performs a run.
-pub enum Performer {
+pub enum RunSource {
     /// Nobody yet: the first scene is still being prepared.
     Nobody,
     /// Nodes as threads.
@@ -18,7 +18,7 @@ pub enum Performer {
     Recorded(Retrace),
 }
 
-impl Performer {
+impl RunSource {
     /// What has happened since, oldest first.
     pub fn updates(&self) -> Option<&Receiver<Update>> {
         match self {

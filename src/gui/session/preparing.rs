@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::super::settings::Settings;
-use super::job_result::{Done, Prepared, Ready, Recorded};
+use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
 use super::opening::Opening;
 use super::preview::{FINEST, PREVIEW, guess, with_preview};
@@ -13,7 +13,7 @@ use crate::language::{Language, say};
 use crate::picture::Size;
 use crate::scene::Opened;
 use crate::tracer::Tracer;
-use crate::view::Known;
+use crate::view::RunView;
 
 impl Jobs {
     /// Reads and compiles what `read` gives; returns the job's number.
@@ -48,13 +48,13 @@ impl Jobs {
                     let opened = opened.map_err(unread)?;
                     let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
                     let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
-                    let known = Arc::new(Known::of(&log));
+                    let known = Arc::new(RunView::of(&log));
                     let preview = guess(&tracer);
                     Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
                 }
                 Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
             });
-            Done::Ready(number, ready)
+            JobResult::Ready(number, ready)
         });
         number
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::performer::Performer;
+use super::performer::RunSource;
 use crate::driver::Update;
 use crate::language::Language;
 use crate::palette::{Rgb, node_colours};
@@ -12,14 +12,14 @@ use crate::record::Record;
 use crate::runlog::{Driver, Header, RunLog};
 use crate::time::Time;
 use crate::view::{
-    About, Canvas, Dossier, Known, Lanes, Layer, Moment, Narrator, Outcome, Past, Playback, RATES, RunState, Signs,
-    Step, parts_words, result_words, step,
+    Canvas, Details, Lanes, Layer, Markers, Narrator, Playback, RATES, RunState, RunView, Snapshot, SnapshotCache,
+    StepUnit, Subject, Summary, parts_words, result_words, step,
 };
 
 /// A run, and everything that is known of it.
 pub struct Stage {
     /// Whoever performs it.
-    pub performer: Performer,
+    pub performer: RunSource,
     /// How far it is.
     pub phase: Phase,
     /// Whether its clock stands still because it was asked to.
@@ -36,12 +36,12 @@ pub struct Stage {
     pub frame: Frame,
     /// The nodes' colours.
     pub colours: Vec<Rgb>,
-    known: Known,
+    known: RunView,
     /// An earlier moment, if that is shown.
-    earlier: Option<Moment>,
+    earlier: Option<Snapshot>,
     /// What is shown is known to be that after so many records, although others have the same time.
     stepped_to: Option<usize>,
-    past: Past,
+    past: SnapshotCache,
     canvas: Canvas,
     result: Option<RunResult>,
     /// egui's clock at the last tick, in seconds.
@@ -51,7 +51,7 @@ pub struct Stage {
 /// What a run amounts to.
 pub struct RunResult {
     /// In figures.
-    pub outcome: Outcome,
+    pub outcome: Summary,
     /// The same in words.
     pub words: String,
     /// Who did most and least of it.
@@ -79,19 +79,19 @@ const LONGEST_FRAME: Duration = Duration::from_millis(100);
 
 impl Stage {
     /// The beginning of a run that goes on.
-    pub fn new(performer: Performer, header: Header, ground: Rgb) -> Self {
+    pub fn new(performer: RunSource, header: Header, ground: Rgb) -> Self {
         let colours = node_colours(header.speeds.len());
         Self {
-            phase: if matches!(performer, Performer::Nobody) { Phase::Preparing } else { Phase::Running },
+            phase: if matches!(performer, RunSource::Nobody) { Phase::Preparing } else { Phase::Running },
             performer,
             paused: false,
             paused_nodes: vec![false; colours.len()],
             time: Playback::live(),
             hides_later: false,
-            known: Known::new(&header),
+            known: RunView::new(&header),
             earlier: None,
             stepped_to: None,
-            past: Past::default(),
+            past: SnapshotCache::default(),
             frame: Frame::new(header.size),
             canvas: Canvas::new(header.size, header.division, colours.clone(), ground),
             result: None,
@@ -102,7 +102,7 @@ impl Stage {
     }
 
     /// A run that was recorded, from its beginning; `known` is what is known of all of it.
-    pub fn recorded(performer: Performer, log: RunLog, known: Known, ground: Rgb) -> Self {
+    pub fn recorded(performer: RunSource, log: RunLog, known: RunView, ground: Rgb) -> Self {
         let result = RunResult::of(&log, &known.latest.state);
         let mut time = Playback::from_the_beginning();
         // A run of no time would be over before anybody looked.
@@ -177,7 +177,7 @@ impl Stage {
     }
 
     /// What stands out in its time.
-    pub fn signs(&self) -> &Signs {
+    pub fn signs(&self) -> &Markers {
         &self.known.signs
     }
 
@@ -187,8 +187,8 @@ impl Stage {
     }
 
     /// What is known of something, whatever moment is shown.
-    pub fn dossier(&mut self, about: About) -> Dossier {
-        Dossier::of(about, &self.log, &self.known.lanes, &mut self.past)
+    pub fn dossier(&mut self, about: Subject) -> Details {
+        Details::of(about, &self.log, &self.known.lanes, &mut self.past)
     }
 
     /// How many records lie before what is shown.
@@ -273,7 +273,7 @@ impl Stage {
     }
 
     /// Shows what happened next or before, and stands still there. Returns whether there is such a thing.
-    pub fn step(&mut self, by: Step, forward: bool) -> bool {
+    pub fn step(&mut self, by: StepUnit, forward: bool) -> bool {
         let Some(records) = step(&self.log, self.records_shown(), by, forward) else { return false };
         self.show_after(records);
         true
@@ -313,14 +313,14 @@ impl Stage {
 
     /// All that has happened, in the language that is spoken now.
     fn tell_anew(&mut self) {
-        (self.known, self.past) = (Known::of(&self.log), Past::default());
+        (self.known, self.past) = (RunView::of(&self.log), SnapshotCache::default());
         if let Some(earlier) = &mut self.earlier {
-            *earlier = Moment::new(&self.log.header);
+            *earlier = Snapshot::new(&self.log.header);
         }
         self.result = self.result.take().and_then(|_| RunResult::of(&self.log, &self.known.latest.state));
     }
 
-    fn shown(&self) -> &Moment {
+    fn shown(&self) -> &Snapshot {
         shown(&self.earlier, &self.known)
     }
 
@@ -328,16 +328,16 @@ impl Stage {
     fn clock(&self) -> Time {
         let end = self.known.latest.state.head() + LINGER.mul_f64(self.time.rate().min(1.0));
         match (&self.performer, &self.phase) {
-            (Performer::Live(run), Phase::Finished | Phase::Failed(_)) => run.now().min(end),
-            (Performer::Live(run), _) => run.now(),
-            (Performer::Recorded(_), _) => end,
-            (Performer::Nobody, _) => Time::ZERO,
+            (RunSource::Live(run), Phase::Finished | Phase::Failed(_)) => run.now().min(end),
+            (RunSource::Live(run), _) => run.now(),
+            (RunSource::Recorded(_), _) => end,
+            (RunSource::Nobody, _) => Time::ZERO,
         }
     }
 
     /// In virtual time the run itself goes as fast as is asked.
     fn keeps_pace(&self) -> bool {
-        matches!(self.performer, Performer::Live(_)) && self.log.header.driver == Driver::Sim
+        matches!(self.performer, RunSource::Live(_)) && self.log.header.driver == Driver::Sim
     }
 
     fn sort_in(&mut self, told: Vec<Record>) {
@@ -348,7 +348,7 @@ impl Stage {
         self.past.forget_after(same);
         if self.earlier.as_ref().is_some_and(|moment| moment.records() > same) {
             // Told anew by the next look at it.
-            (self.earlier, self.stepped_to) = (Some(Moment::new(&self.log.header)), None);
+            (self.earlier, self.stepped_to) = (Some(Snapshot::new(&self.log.header)), None);
         }
     }
 
@@ -369,7 +369,7 @@ impl Stage {
             }
         } else if self.earlier.as_ref().is_none_or(|earlier| earlier.records() != records) {
             let is_first = self.earlier.is_none();
-            let moment = self.earlier.get_or_insert_with(|| Moment::new(&self.log.header));
+            let moment = self.earlier.get_or_insert_with(|| Snapshot::new(&self.log.header));
             let went_on = self.past.go(&self.log, records, moment);
             if is_first || !went_on {
                 moment.state.take_touched();
@@ -385,14 +385,14 @@ impl Stage {
 }
 
 /// The moment that is shown: of its own, so that what is drawn of it can be changed meanwhile.
-fn shown<'a>(earlier: &'a Option<Moment>, known: &'a Known) -> &'a Moment {
+fn shown<'a>(earlier: &'a Option<Snapshot>, known: &'a RunView) -> &'a Snapshot {
     earlier.as_ref().unwrap_or(&known.latest)
 }
 
 impl RunResult {
     /// What the run amounts to, if it came to its end. Sums over all atoms, so not for every frame.
     fn of(log: &RunLog, state: &RunState) -> Option<Self> {
-        let outcome = Outcome::of(log)?;
+        let outcome = Summary::of(log)?;
         let parts = parts_words(state).unwrap_or_default();
         Some(Self { outcome, words: result_words(state, &outcome), parts })
     }

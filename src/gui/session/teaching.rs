@@ -4,15 +4,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::Session;
-use super::job_result::{Done, Recorded, Taught};
+use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::guess;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
-use crate::view::Known;
+use crate::view::RunView;
 
 /// A lesson that is being prepared.
-pub struct Preparing {
+pub struct PreparingLesson {
     /// The job's number.
     pub job: u64,
     /// How many pixels are traced.
@@ -20,7 +20,7 @@ pub struct Preparing {
     pixels: u32,
 }
 
-impl Preparing {
+impl PreparingLesson {
     /// How far it is, 0 to 1.
     pub fn share(&self) -> f32 {
         self.traced.load(Ordering::Relaxed) as f32 / self.pixels.max(1) as f32
@@ -29,14 +29,14 @@ impl Preparing {
 
 impl Session {
     /// Runs a lesson's runs in the background.
-    pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> Preparing {
+    pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> PreparingLesson {
         let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
         let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced));
-        Preparing { job, traced, pixels }
+        PreparingLesson { job, traced, pixels }
     }
 
     /// Shows a run of a lesson from its beginning.
-    pub fn show_run_of(&mut self, taught: &Taught, name: &str) {
+    pub fn show_run_of(&mut self, taught: &PreparedLesson, name: &str) {
         if let Some((_, recorded)) = taught.runs.iter().find(|(other, _)| other == name) {
             // Whatever else was on its way to the stage comes too late.
             (self.loading, self.moving) = (None, None);
@@ -50,7 +50,7 @@ impl Session {
     }
 
     /// After a lesson: this recorded run, or what is set, from the beginning. What was opened meanwhile stays.
-    pub fn end_lesson(&mut self, taught: &Taught, before: Option<Recorded>) {
+    pub fn end_lesson(&mut self, taught: &PreparedLesson, before: Option<Recorded>) {
         let is_taught = |shown: &Recorded| taught.runs.iter().any(|(_, run)| Arc::ptr_eq(&run.tracer, &shown.tracer));
         if !self.recorded.as_ref().is_some_and(is_taught) {
             return;
@@ -79,14 +79,14 @@ impl Jobs {
                 lesson.has_moments(&performed)?;
                 let values = lesson.values(&performed);
                 let recorded = performed.into_iter().map(|(name, run)| {
-                    let known = Arc::new(Known::of(&run.log));
+                    let known = Arc::new(RunView::of(&run.log));
                     let preview = guess(&run.tracer);
                     (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
                 });
-                Ok(Taught { runs: recorded.collect(), lesson, values })
+                Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
             });
             let unshown = |why| say!("The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
-            Done::Lesson(number, taught.map_err(unshown))
+            JobResult::Lesson(number, taught.map_err(unshown))
         });
         number
     }

@@ -3,7 +3,7 @@
 use super::{Phase, Session, Stage};
 use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::Step;
+use crate::view::StepUnit;
 
 impl Stage {
     /// How long a run is told to be: so far, or while what comes later is hidden, as far as it was shown, but not so short
@@ -55,7 +55,7 @@ impl Session {
     }
 
     /// Shows what happened next or before, and stands still there.
-    pub fn step(&mut self, by: Step, forward: bool) {
+    pub fn step(&mut self, by: StepUnit, forward: bool) {
         // Whoever makes steps wants to see them all.
         if self.stage.is_live() {
             self.set_run_paused(true);

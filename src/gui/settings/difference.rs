@@ -1,7 +1,7 @@
 //! What was changed, in words.
 
 use super::Settings;
-use super::pace::Tempo;
+use super::pace::Pace;
 use crate::language::{comma, decimal, say, word};
 use crate::picture::Quality;
 use crate::runlog::Driver;
@@ -31,7 +31,7 @@ impl Settings {
         };
         tell(sharing == before_it && part != before.part, parts);
         tell(sharing == before_it && self.remedies != before.remedies, remedies_words(self.remedies));
-        tell(self.tempo != before.tempo, Tempo::words(self.tempo));
+        tell(self.tempo != before.tempo, Pace::words(self.tempo));
         let (latency, handling) = (self.latency, self.handling);
         tell(latency != before.latency, say!("{latency} ms a hop", "{latency} ms por salto"));
         tell(

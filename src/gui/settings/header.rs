@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use super::Settings;
-use super::pace::Tempo;
+use super::pace::Pace;
 use crate::balance::{NodeId, Rules, Strategy};
 use crate::driver::auto_pace;
-use crate::runlog::{Caption, Driver, Header, Link};
+use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::view::Sharing;
 
 impl Settings {
@@ -31,7 +31,7 @@ impl Settings {
             },
             spares: self.spares.len() as NodeId,
             pace: self.pace(work, cores),
-            link: Link {
+            link: LinkSettings {
                 latency: self.latency_time(),
                 bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
                 shared: self.shared_wire,
@@ -40,12 +40,12 @@ impl Settings {
             cores: if self.driver == Driver::Sim { speeds.len() } else { cores },
             speeds,
             // A run in virtual time is the same on every computer.
-            caption: if self.driver == Driver::Sim { Caption::default() } else { Caption::here(cores) },
+            caption: if self.driver == Driver::Sim { Metadata::default() } else { Metadata::here(cores) },
         }
     }
 
     /// The settings that a run with this header may have had. Two threads a node are not offered here: one does the same.
-    pub fn of(header: &Header, tempo: Tempo) -> Self {
+    pub fn of(header: &Header, tempo: Pace) -> Self {
         let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
         let own = header.speeds.len().saturating_sub(header.spares.into());
         let (speeds, spares) = header.speeds.split_at(own);
@@ -56,7 +56,7 @@ impl Settings {
             driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
             strategy: header.rules.strategy,
             part: header.rules.part,
-            tempo: if header.pace < 1.0 { tempo } else { Tempo::Full },
+            tempo: if header.pace < 1.0 { tempo } else { Pace::Full },
             speeds: speeds.to_vec(),
             spares: spares.to_vec(),
             remedies: header.rules.remedies,

@@ -16,8 +16,8 @@ use crate::language::{say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::Driver;
 use crate::view::Sharing;
-use pace::Tempo;
-use speed_preset::Preset;
+use pace::Pace;
+use speed_preset::SpeedPreset;
 
 /// What the user has set. Speeds and latency act at once, everything else when a run starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Settings {
     /// In a ring, an offer is worth taking if it moves at least this many atoms. In a farm, the atoms of a part.
     pub part: u32,
     /// How fast the reference machine is emulated.
-    pub tempo: Tempo,
+    pub tempo: Pace,
     /// A machine a speed, as fractions of the reference machine.
     pub speeds: Vec<f64>,
     /// Machines that are off at first and may join, in a ring that adapts: a speed each, at most [`Settings::MOST_SPARES`].
@@ -114,7 +114,7 @@ impl Settings {
         within(handling, self.handling, 0, Self::MOST_HANDLING)?;
         let bandwidth = word!("A link's kB a second", "kB por segundo de um enlace");
         within(bandwidth, self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
-        if let Tempo::Lasts(seconds) = self.tempo {
+        if let Pace::Lasts(seconds) = self.tempo {
             within(word!("A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
         }
         if !self.all_speeds().all(|speed| (0.0..=1.0).contains(&speed)) {
@@ -168,12 +168,12 @@ impl Settings {
     }
 
     /// Gives every machine a speed.
-    pub fn set_preset(&mut self, preset: Preset) {
+    pub fn set_preset(&mut self, preset: SpeedPreset) {
         self.speeds = preset.speeds(self.speeds.len(), self.seed.into());
     }
 
     /// Whether the machines have these speeds.
-    pub fn has_preset(&self, preset: Preset) -> bool {
+    pub fn has_preset(&self, preset: SpeedPreset) -> bool {
         self.speeds == preset.speeds(self.speeds.len(), self.seed.into())
     }
 
@@ -218,7 +218,7 @@ impl Default for Settings {
             driver: Driver::Threads,
             strategy: Strategy::Ring,
             part: 1,
-            tempo: Tempo::Lasts(20),
+            tempo: Pace::Lasts(20),
             speeds: vec![1.0; 8],
             spares: Vec::new(),
             remedies: Remedies::ALL,
@@ -228,7 +228,7 @@ impl Default for Settings {
             bandwidth: 0,
             shared_wire: false,
         };
-        settings.set_preset(Preset::OneSlow);
+        settings.set_preset(SpeedPreset::OneSlow);
         settings
     }
 }
@@ -254,7 +254,7 @@ mod tests {
         let anew: [fn(&mut Settings); 8] = [
             |s| s.set_nodes(3),
             |s| s.atom = 7,
-            |s| s.tempo = Tempo::Full,
+            |s| s.tempo = Pace::Full,
             |s| s.part = 9,
             |s| s.driver = Driver::Sim,
             |s| s.handling = 20,
@@ -273,7 +273,7 @@ mod tests {
         assert_eq!(complaint(|s| s.speeds.clear()), "The number of machines can be 1 to 32, not 0");
         assert_eq!(complaint(|s| s.speeds = vec![f64::NAN]), "A speed can be 0 to 100 %");
         assert!(complaint(|s| s.atom = 1).contains("307200 atoms; the window shows up to 262144"));
-        assert!(complaint(|s| s.tempo = Tempo::Lasts(0)).starts_with("A run's seconds"));
+        assert!(complaint(|s| s.tempo = Pace::Lasts(0)).starts_with("A run's seconds"));
     }
 
     #[test]
@@ -281,7 +281,7 @@ mod tests {
         let told = |change: fn(&mut Settings)| with(change).difference(&Settings::default());
         assert_eq!(told(|_| {}), "");
         assert_eq!(told(|s| s.speeds[2] = 0.3), "machine 3 at 30 %");
-        assert_eq!(told(|s| s.set_preset(Preset::Random)), "other speeds for 8 machines");
+        assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "other speeds for 8 machines");
         assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
         let farm = Sharing::By(Strategy::Farm);
@@ -336,7 +336,7 @@ mod tests {
         assert_eq!(header.rules.batch, Some(Duration::from_millis(320)));
         assert_eq!(Settings::of(&header, settings.tempo), settings);
         assert_eq!(
-            with(|s| s.tempo = Tempo::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch,
+            with(|s| s.tempo = Pace::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch,
             Some(Rules::BATCH)
         );
     }
@@ -345,11 +345,11 @@ mod tests {
     fn a_run_lasts_as_long_as_it_is_asked_to() {
         let work = Duration::from_millis(300);
         for seconds in [10, 20, 60] {
-            let pace = with(|s| s.tempo = Tempo::Lasts(seconds)).pace(work, 2);
+            let pace = with(|s| s.tempo = Pace::Lasts(seconds)).pace(work, 2);
             let lasts = work.as_secs_f64() / (pace * 7.1);
             assert!((lasts / f64::from(seconds) - 0.85).abs() < 0.01, "{lasts}");
         }
-        assert_eq!(with(|s| s.tempo = Tempo::Full).pace(work, 2), 1.0);
+        assert_eq!(with(|s| s.tempo = Pace::Full).pace(work, 2), 1.0);
         let slow = with(|s| s.speeds = vec![0.0; 2]).pace(work, 2);
         assert!(slow > 0.0 && slow < 1.0);
     }

@@ -8,14 +8,14 @@ use crate::language::{say, word};
 
 /// How fast the reference machine is emulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Tempo {
+pub enum Pace {
     /// So that the run takes about this many seconds.
     Lasts(u32),
     /// As fast as this computer can: a machine at full speed never waits.
     Full,
 }
 
-impl Tempo {
+impl Pace {
     /// How fast that is, in a few words.
     pub fn words(self) -> String {
         match self {

@@ -4,7 +4,7 @@ use crate::language::word;
 
 /// Speeds for all machines at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Preset {
+pub enum SpeedPreset {
     /// All as fast as the reference machine.
     Equal,
     /// The last one at a tenth.
@@ -28,7 +28,7 @@ const LABORATORY: [(&str, f64); 8] = [
     ("Pentium 75", 1.0),
 ];
 
-impl Preset {
+impl SpeedPreset {
     /// All of them, in the order in which they are offered.
     pub const ALL: [Self; 4] = [Self::Equal, Self::OneSlow, Self::Random, Self::Laboratory];
 
@@ -82,12 +82,12 @@ mod tests {
 
     #[test]
     fn presets_are_possible_and_repeatable() {
-        for preset in Preset::ALL {
+        for preset in SpeedPreset::ALL {
             for nodes in 1..=32 {
                 let speeds = preset.speeds(nodes, 1);
                 assert!(speeds.len() == nodes && speeds.iter().all(|speed| (0.0..=1.0).contains(speed)));
                 assert_eq!(speeds, preset.speeds(nodes, 1));
-                assert!(nodes < 3 || preset != Preset::Random || speeds != preset.speeds(nodes, 2));
+                assert!(nodes < 3 || preset != SpeedPreset::Random || speeds != preset.speeds(nodes, 2));
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::balance::NodeId;
 
 /// The settings before each change, and those after the changes that were undone.
 #[derive(Debug, Default)]
-pub struct History {
+pub struct UndoHistory {
     past: Vec<Settings>,
     future: Vec<Settings>,
     gesture: Option<Gesture>,
@@ -22,7 +22,7 @@ pub enum Gesture {
     Once,
 }
 
-impl History {
+impl UndoHistory {
     /// More steps back than anybody takes.
     const MOST: usize = 200;
 
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn a_gesture_is_undone_as_a_whole() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         for latency in 0..5 {
             history.keep(with_latency(latency), Gesture::Latency);
         }
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn redo_leads_back_until_something_else_is_changed() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.keep(with_latency(1), Gesture::Once);
         let undone = history.undo(&with_latency(2)).unwrap();
         assert_eq!(history.redo(&undone), Some(with_latency(2)));
@@ -107,9 +107,9 @@ mod tests {
 
     #[test]
     fn it_does_not_grow_without_end() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         (0..1000).for_each(|latency| history.keep(with_latency(latency), Gesture::Once));
-        assert_eq!(history.past.len(), History::MOST);
+        assert_eq!(history.past.len(), UndoHistory::MOST);
         assert_eq!(history.undo(&with_latency(1000)), Some(with_latency(999)));
     }
 }

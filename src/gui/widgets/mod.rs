@@ -31,7 +31,7 @@ pub fn describe(response: &Response, name: &str, seen: impl Fn() -> String) {
 
 /// How a button stands out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Weight {
+pub enum Emphasis {
     /// One of many.
     Quiet,
     /// What it stands for is the case, or open.
@@ -41,12 +41,12 @@ pub enum Weight {
 }
 
 /// A button. `name` is its accessible name, and its words if `words`.
-pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: bool, weight: Weight) -> Response {
+pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: bool, weight: Emphasis) -> Response {
     named_button(ui, icon, name, words.then_some(name), weight)
 }
 
 /// A button whose words are not its accessible name.
-pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&str>, weight: Weight) -> Response {
+pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&str>, weight: Emphasis) -> Response {
     let look = Look::of(ui.ctx());
     let text_font = TextStyle::Button.resolve(ui.style());
     let galley = words.map(|words| ui.painter().layout_no_wrap(words.to_owned(), text_font, Color32::PLACEHOLDER));
@@ -56,17 +56,17 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, words: Option<&
     let gap = if galley.is_some() && icon.is_some() { GRID } else { 0.0 };
     let size = vec2(icon_width + gap + text_width + if galley.is_some() { 3.0 } else { 2.0 } * GRID, 4.0 * GRID);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), weight == Weight::On, name));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), weight == Emphasis::On, name));
     if ui.is_rect_visible(rect) {
         let hovered = response.hovered() || response.is_pointer_button_down_on();
         let (fill, text) = match (weight, hovered) {
-            (Weight::Primary, false) => (look.accent, look.on_accent),
-            (Weight::Primary, true) => (look.accent.gamma_multiply(0.85), look.on_accent),
-            (Weight::Quiet, false) => (look.raised, look.text),
-            (Weight::On, _) | (Weight::Quiet, true) => (look.hairline, look.text),
+            (Emphasis::Primary, false) => (look.accent, look.on_accent),
+            (Emphasis::Primary, true) => (look.accent.gamma_multiply(0.85), look.on_accent),
+            (Emphasis::Quiet, false) => (look.raised, look.text),
+            (Emphasis::On, _) | (Emphasis::Quiet, true) => (look.hairline, look.text),
         };
         ui.painter().rect_filled(rect, 6.0, fill);
-        if weight == Weight::On {
+        if weight == Emphasis::On {
             let line = Stroke::new(1.5, look.accent);
             ui.painter().rect_stroke(rect, 6.0, line, StrokeKind::Inside);
         }
@@ -97,7 +97,7 @@ pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, on: T, all: &[(T, &str, &str)]) 
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         for &(value, name, hint) in all {
-            let weight = if value == on { Weight::On } else { Weight::Quiet };
+            let weight = if value == on { Emphasis::On } else { Emphasis::Quiet };
             if button(ui, None, name, true, weight).on_hover_text(hint).clicked() {
                 pressed = Some(value);
             }
@@ -107,7 +107,7 @@ pub fn choice<T: Copy + PartialEq>(ui: &mut Ui, on: T, all: &[(T, &str, &str)]) 
 }
 
 /// What was done with a field of text.
-pub struct Typed {
+pub struct TextFieldResponse {
     /// Something was typed.
     pub changed: bool,
     /// Enter was pressed.
@@ -124,7 +124,7 @@ pub fn path_field(
     width: f32,
     name: &str,
     wants_focus: &mut bool,
-) -> Typed {
+) -> TextFieldResponse {
     let hint = RichText::new(hint).color(Look::of(ui.ctx()).quiet);
     let field = TextEdit::singleline(path).desired_width(width).hint_text(hint).margin(vec2(GRID, 0.75 * GRID));
     let field = ui.add(field);
@@ -141,7 +141,7 @@ pub fn path_field(
         state.cursor.set_char_range(Some(CCursorRange::two(from, to)));
         state.store(ui.ctx(), field.id);
     }
-    Typed { changed: field.changed(), entered, focused: field.has_focus() }
+    TextFieldResponse { changed: field.changed(), entered, focused: field.has_focus() }
 }
 
 /// Where in a path the file's name without its ending begins and ends, in characters.
@@ -241,7 +241,7 @@ pub fn deeds<T>(
     let mut chosen = None;
     for (deed, words) in deeds {
         ui.add_enabled_ui(is_possible, |ui| {
-            if button(ui, None, &words, true, Weight::Quiet).clicked() {
+            if button(ui, None, &words, true, Emphasis::Quiet).clicked() {
                 chosen = Some(deed);
                 ui.close();
             }

@@ -11,16 +11,16 @@ use egui::{Context, FullOutput, Plugin};
 pub fn install(ctx: &Context) {
     if std::env::var_os("ANEL_PLACES").is_some() {
         ctx.enable_accesskit();
-        ctx.add_plugin(Places::default());
+        ctx.add_plugin(TestPositions::default());
     }
 }
 
 #[derive(Default)]
-struct Places {
+struct TestPositions {
     told: BTreeMap<String, [i64; 4]>,
 }
 
-impl Plugin for Places {
+impl Plugin for TestPositions {
     fn debug_name(&self) -> &'static str {
         "places"
     }

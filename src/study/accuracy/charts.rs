@@ -3,14 +3,14 @@
 use super::choice::front as front_of;
 use super::fit::log_correlation;
 use super::knobs::Knob;
-use super::ring::{LATENCIES, Ring};
-use super::scene::{Entry, Found};
-use super::sharing::Shared;
-use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+use super::ring::{LATENCIES, RingAccuracy};
+use super::scene::{Found, MeasuredPoint};
+use super::sharing::SharedRun;
+use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// Seconds against the error, with the front and the floor.
-pub(super) fn front(found: &Found) -> Chart {
-    let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
+pub(super) fn front(found: &Found) -> LineChart {
+    let point = |entry: &MeasuredPoint| (entry.point.cpu_s, entry.point.rmse());
     let line = |(i, knob): (usize, Knob)| Series {
         name: knob.name().into(),
         hue: series_hue(i),
@@ -32,7 +32,7 @@ pub(super) fn front(found: &Found) -> Chart {
     let mut series = vec![dots];
     series.extend(Knob::ALL.into_iter().enumerate().map(line));
     series.extend([dashed("front", 5, best), dashed("floor", 6, vec![(least, found.floor), (most, found.floor)])]);
-    Chart {
+    LineChart {
         title: format!("Speed against accuracy: {}", found.scene),
         note: format!("{} pixels; each knob alone, and all together; floor: the reference's own error", found.size),
         x: seconds(),
@@ -42,14 +42,14 @@ pub(super) fn front(found: &Found) -> Chart {
 }
 
 /// Seconds against what each knob alone does.
-pub(super) fn alone(found: &Found) -> Chart {
+pub(super) fn alone(found: &Found) -> LineChart {
     let line = |(i, knob): (usize, Knob)| Series {
         name: knob.name().into(),
         hue: series_hue(i),
         points: found.of_knob(Some(knob)).filter_map(|entry| Some((entry.point.cpu_s, entry.alone?))).collect(),
         style: Style::Line,
     };
-    Chart {
+    LineChart {
         title: format!("What each knob alone leaves out: {}", found.scene),
         note: "Samples, threshold: against very many samples; depth, cutoff: against no limit".into(),
         x: seconds(),
@@ -73,14 +73,14 @@ pub(super) const MANY: u32 = 20;
 const DRAWN: usize = 6;
 
 /// The estimated share of each transfer against the true one.
-pub(super) fn estimate(ring: &Ring) -> Chart {
+pub(super) fn estimate(ring: &RingAccuracy) -> LineChart {
     let transfers = ring.shared.iter().flat_map(|runs| runs.iter().take(DRAWN)).flat_map(|shared| &shared.transfers);
     let large = transfers.filter(|transfer| transfer.waiting >= MANY);
     let points: Vec<(f64, f64)> = large.map(|transfer| (transfer.truth, transfer.estimate)).collect();
     let note = format!("{} transfers where at least {MANY} atoms wait", points.len());
     let right = vec![(0.0, 0.0), (1.0, 1.0)];
     let side = |label: &str| Axis { label: label.into(), scale: Scale::Linear, range: Some((0.0, 1.0)) };
-    Chart {
+    LineChart {
         title: "What an offer says of speeds, and what is true".into(),
         note,
         x: side("share with which both would end together"),
@@ -99,15 +99,15 @@ fn rightwards(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 }
 
 /// How late runs end, against how wrong their estimates are.
-pub(super) fn lateness(ring: &Ring) -> Chart {
-    let series = |(i, runs): (usize, &Vec<Shared>)| Series {
+pub(super) fn lateness(ring: &RingAccuracy) -> LineChart {
+    let series = |(i, runs): (usize, &Vec<SharedRun>)| Series {
         name: runs.first().map_or_else(String::new, |shared| shared.run.scene.clone()),
         hue: series_hue(i),
-        points: rightwards(Ring::points(runs)),
+        points: rightwards(RingAccuracy::points(runs)),
         style: Style::Dots,
     };
     let related = log_correlation(&ring.all_points()).map_or(String::new(), |r| format!("; correlation {r:.2}"));
-    Chart {
+    LineChart {
         title: "Wrong estimates and late ends".into(),
         note: format!("A dot is a run of the ring on eight machines of random speeds{related}"),
         x: logarithmic("mean error of the estimated share, by the work that waits"),
@@ -117,7 +117,7 @@ pub(super) fn lateness(ring: &Ring) -> Chart {
 }
 
 /// How late runs end, against what they say, as atoms are coarser or finer.
-pub(super) fn atoms(ring: &Ring) -> Chart {
+pub(super) fn atoms(ring: &RingAccuracy) -> LineChart {
     let line = |(i, latency): (usize, f64)| Series {
         name: format!("{latency} ms a message"),
         hue: series_hue(i),
@@ -129,7 +129,7 @@ pub(super) fn atoms(ring: &Ring) -> Chart {
             .collect(),
         style: Style::Line,
     };
-    Chart {
+    LineChart {
         title: "What finer atoms cost and save".into(),
         note: "From atoms of 5,000 pixels (left) to 5; means over rings of random speeds".into(),
         x: logarithmic("messages a run"),

@@ -1,7 +1,7 @@
 //! What pictures of several qualities cost, and how far they are from the reference.
 
 use super::Reference;
-use crate::driver::Measured;
+use crate::driver::TimedPicture;
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Scene;
 use crate::study::median;
@@ -51,7 +51,7 @@ pub fn measure(
             if times[place].iter().any(|&time| time > LONG) {
                 continue;
             }
-            let found = Measured::of(&Tracer::new(scene, size, quality), is_over)?;
+            let found = TimedPicture::of(&Tracer::new(scene, size, quality), is_over)?;
             times[place].push(found.cpu.as_secs_f64());
             if turn == 0 {
                 let difference = Difference::of(&found.frame, &reference.picture);

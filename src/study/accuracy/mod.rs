@@ -25,17 +25,17 @@ pub use reference::Reference;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{Study, Tell};
+use super::{ProgressSink, Study};
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::scene::Opened;
 use crate::view::CHART_SIZE;
-use ring::Ring;
-use scene::{Entry, Found};
+use ring::RingAccuracy;
+use scene::{Found, MeasuredPoint};
 
 /// One quality of one scene.
 #[derive(Clone, Debug, Serialize)]
-struct Row {
+struct AccuracyRow {
     scene: String,
     width: u32,
     height: u32,
@@ -59,9 +59,9 @@ struct Row {
 /// What is measured where all knobs are turned.
 const TOGETHER: &str = "together";
 
-impl Row {
-    fn new(found: &Found, entry: &Entry) -> Self {
-        let Entry { knob, value, point, alone } = *entry;
+impl AccuracyRow {
+    fn new(found: &Found, entry: &MeasuredPoint) -> Self {
+        let MeasuredPoint { knob, value, point, alone } = *entry;
         Self {
             scene: found.scene.clone(),
             width: found.size.width(),
@@ -87,14 +87,14 @@ impl Row {
 ///
 /// # Errors
 /// A sentence, if a thread could not be started, or failed.
-pub fn accuracy(scenes: &[Opened], most: Size, tell: Tell<'_>) -> Result<Study, String> {
+pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
     let mut progress = Progress::new(scenes.len() * (scene::steps() + 1) + ring::STEPS, tell);
     let mut study = Study::new("accuracy");
     let found: Vec<Found> =
         scenes.iter().map(|opened| Found::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
-    let ring = Ring::of(scenes, most, &mut progress)?;
-    let rows: Vec<Row> =
-        found.iter().flat_map(|found| found.entries.iter().map(|entry| Row::new(found, entry))).collect();
+    let ring = RingAccuracy::of(scenes, most, &mut progress)?;
+    let rows: Vec<AccuracyRow> =
+        found.iter().flat_map(|found| found.entries.iter().map(|entry| AccuracyRow::new(found, entry))).collect();
     study.add_rows(&rows)?;
     study.add_table("ring", &ring.rows())?;
     for found in &found {

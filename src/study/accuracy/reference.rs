@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::driver::Whole;
+use crate::driver::TracedPicture;
 use crate::picture::{Colour, Difference, Division, Frame, Quality, Size};
 use crate::scene::Scene;
 use crate::tracer::Tracer;
@@ -57,7 +57,7 @@ impl Reference {
                 begin();
                 let quality = Quality { samples, max_depth, cutoff, pattern, ..usual };
                 let tracer = Arc::new(Tracer::new(scene, size, quality));
-                let whole = Whole::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)?;
+                let whole = TracedPicture::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)?;
                 Ok::<_, String>(whole.map(|whole| whole.pixels))
             };
             let Some(main) = trace(many, usual.max_depth, usual.cutoff)? else { return Ok(None) };
@@ -88,14 +88,14 @@ fn combined(size: Size, parts: &[(f64, &[Colour])]) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::driver::Measured;
+    use crate::driver::TimedPicture;
     use crate::scene::Opened;
 
     #[test]
     fn a_reference_is_nearer_to_the_truth_than_what_is_compared_with_it() {
         let (scene, size) = (Opened::new("glass").unwrap().scene, Size::new(16, 12).unwrap());
         let reference = Reference::trace(&scene, size, 2, &mut || {}, &|| false).unwrap().unwrap();
-        let with = |quality| Measured::of(&Tracer::new(&scene, size, quality), &|| false).unwrap().frame;
+        let with = |quality| TimedPicture::of(&Tracer::new(&scene, size, quality), &|| false).unwrap().frame;
         let best = Quality { samples: 12, max_depth: Reference::DEPTH, cutoff: 1e-4, pattern: 9, ..Quality::default() };
         let truth = with(best);
         let error = Difference::of(&reference.picture, &truth).rmse;

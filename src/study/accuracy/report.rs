@@ -6,16 +6,16 @@ use super::check::Landing;
 use super::choice::front;
 use super::fit::{log_crossing, log_slope};
 use super::knobs::{Knob, MOST};
-use super::ring::Ring;
+use super::ring::RingAccuracy;
 use super::ring_report;
-use super::scene::{Entry, Found};
+use super::scene::{Found, MeasuredPoint};
 use super::{Point, Reference};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality};
 use crate::study::{median, optional, say};
 
 /// The report, in Markdown.
-pub(super) fn report(found: &[Found], ring: &Ring) -> String {
+pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> String {
     let mut text = String::from("# Speed against accuracy\n\n");
     head(&mut text, found);
     slopes(&mut text, found);
@@ -81,7 +81,7 @@ const SIMILAR: f64 = 0.996;
 /// pattern.
 fn slope(found: &Found) -> Option<f64> {
     let points = found.of_knob(Some(Knob::Samples)).filter(|entry| entry.point.quality.samples > 1);
-    let point = |entry: &Entry| Some((f64::from(entry.point.quality.samples).powi(2), entry.alone?));
+    let point = |entry: &MeasuredPoint| Some((f64::from(entry.point.quality.samples).powi(2), entry.alone?));
     log_slope(&points.filter_map(point).collect::<Vec<_>>())
 }
 
@@ -103,17 +103,17 @@ fn slopes(text: &mut String, found: &[Found]) {
 const NEARLY: f64 = 1.1;
 
 /// The coarsest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
-fn coarsest(found: &Found, knob: Knob) -> Option<(&Entry, f64)> {
+fn coarsest(found: &Found, knob: Knob) -> Option<(&MeasuredPoint, f64)> {
     let best = found.of_knob(Some(knob)).last()?;
     let coarsest = found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= NEARLY * best.point.rmse())?;
     Some((coarsest, coarsest.point.cpu_s / best.point.cpu_s))
 }
 
 /// The threshold that saves most, and what part it takes of the time that samples alone need for its error.
-fn saving(found: &Found) -> Option<(&Entry, f64)> {
-    let point = |entry: &Entry| (entry.point.cpu_s, entry.point.rmse());
+fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
+    let point = |entry: &MeasuredPoint| (entry.point.cpu_s, entry.point.rmse());
     let samples: Vec<(f64, f64)> = found.of_knob(Some(Knob::Samples)).map(point).collect();
-    let part = |entry: &Entry| Some(entry.point.cpu_s / log_crossing(&samples, entry.point.rmse())?);
+    let part = |entry: &MeasuredPoint| Some(entry.point.cpu_s / log_crossing(&samples, entry.point.rmse())?);
     let savings = found.of_knob(Some(Knob::Threshold)).filter_map(|entry| Some((entry, part(entry)?)));
     savings.min_by(|(_, this), (_, other)| this.total_cmp(other))
 }
@@ -132,8 +132,9 @@ fn which_pays(text: &mut String, found: &[Found]) {
     for found in found {
         let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
         let cells = knobs.map(|found| {
-            let value =
-                |(entry, part): (&Entry, f64)| format!("{} | {part:.2}", entry.value.map_or(String::new(), short));
+            let value = |(entry, part): (&MeasuredPoint, f64)| {
+                format!("{} | {part:.2}", entry.value.map_or(String::new(), short))
+            };
             found.map_or("– | –".into(), value)
         });
         say!(text, "| {} | {} |", found.scene, cells.join(" | "));

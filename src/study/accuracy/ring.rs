@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use super::sharing::{NODES, Run, Shared, Transfer, run, usual};
+use super::sharing::{NODES, SharedRun, Transfer, WatchedRun, run, usual};
 use crate::picture::Size;
 use crate::scene::Opened;
-use crate::study::fixture::Workbench;
+use crate::study::fixture::Fixture;
 use crate::study::progress::Progress;
 
 /// Runs a scene.
@@ -24,10 +24,10 @@ pub(super) const LATENCIES: [f64; 3] = [0.1, 1.0, 10.0];
 const ATOMS: [u32; 10] = [5000, 2000, 1000, 500, 200, 100, 50, 20, 10, 5];
 
 /// What is found of the ring.
-pub(super) struct Ring {
+pub(super) struct RingAccuracy {
     pub size: Size,
     /// Runs of the scenes with atoms of 50 pixels, by scene, and their transfers.
-    pub shared: Vec<Vec<Shared>>,
+    pub shared: Vec<Vec<SharedRun>>,
     /// Runs of the first scene, by latency, then by the size of atoms, the coarsest first, then by speeds.
     pub grained: Vec<Grain>,
 }
@@ -36,17 +36,17 @@ pub(super) struct Ring {
 pub(super) struct Grain {
     pub latency_ms: f64,
     pub atom_pixels: u32,
-    pub runs: Vec<Run>,
+    pub runs: Vec<WatchedRun>,
 }
 
 impl Grain {
     /// The mean of something over the runs.
-    pub fn mean(&self, of: impl Fn(&Run) -> f64) -> f64 {
+    pub fn mean(&self, of: impl Fn(&WatchedRun) -> f64) -> f64 {
         self.runs.iter().map(of).sum::<f64>() / self.runs.len() as f64
     }
 }
 
-impl Ring {
+impl RingAccuracy {
     /// Lets rings of eight machines share the scenes' pictures.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl Ring {
         let mut first = None;
         for opened in scenes {
             progress.next(&format!("{}: rings of {NODES} machines", opened.name));
-            let bench = Workbench::new(opened, size, 1)?;
+            let bench = Fixture::new(opened, size, 1)?;
             shared.push((0..SEEDS).map(|seed| usual(&bench, seed)).collect());
             first.get_or_insert(bench);
         }
@@ -75,7 +75,7 @@ impl Ring {
     }
 
     /// All runs.
-    pub fn rows(&self) -> Vec<Run> {
+    pub fn rows(&self) -> Vec<WatchedRun> {
         let usual = self.shared.iter().flatten().map(|shared| shared.run.clone());
         usual.chain(self.grained.iter().flat_map(|grain| grain.runs.iter().cloned())).collect()
     }
@@ -91,7 +91,7 @@ impl Ring {
     }
 
     /// Runs with usual atoms as points: the error of the estimates, and the lateness.
-    pub fn points(runs: &[Shared]) -> Vec<(f64, f64)> {
+    pub fn points(runs: &[SharedRun]) -> Vec<(f64, f64)> {
         runs.iter().filter_map(|shared| Some((shared.run.estimate_error?, shared.run.lateness))).collect()
     }
 }

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use super::charts::MANY;
 use super::fit::log_correlation;
-use super::ring::{LATENCIES, Ring};
+use super::ring::{LATENCIES, RingAccuracy};
 use super::sharing::{NODES, WHOLE};
 use crate::study::{median, optional, say};
 
 /// The chapter on the ring.
-pub(super) fn ring(text: &mut String, ring: &Ring) {
+pub(super) fn ring(text: &mut String, ring: &RingAccuracy) {
     say!(
         text,
         "\n## The same question of the ring\n\nHow good is what the ring knows, and what does it gain by knowing better? Runs in virtual time: \
@@ -22,7 +22,7 @@ pub(super) fn ring(text: &mut String, ring: &Ring) {
     atoms(text, ring);
 }
 
-fn estimates(text: &mut String, ring: &Ring) {
+fn estimates(text: &mut String, ring: &RingAccuracy) {
     say!(
         text,
         "### Its estimate of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by counts: offerer / (offerer + \
@@ -49,7 +49,7 @@ fn estimates(text: &mut String, ring: &Ring) {
             transfers as f64 / runs.len() as f64,
             median(&mut errors),
             median(&mut late),
-            optional(log_correlation(&Ring::points(runs)), 2)
+            optional(log_correlation(&RingAccuracy::points(runs)), 2)
         );
     }
     let large: Vec<f64> = ring
@@ -66,7 +66,7 @@ fn estimates(text: &mut String, ring: &Ring) {
     );
 }
 
-fn atoms(text: &mut String, ring: &Ring) {
+fn atoms(text: &mut String, ring: &RingAccuracy) {
     say!(
         text,
         "\n### Finer atoms\n\nThe last atom that is traced can be neither shared nor taken back, so that coarse atoms keep all waiting for it; \

@@ -15,12 +15,12 @@ pub(super) struct Found {
     pub floor: f64,
     /// How far the reference is from a picture of as many samples at the default depth and cutoff.
     pub beyond_limits: f64,
-    pub entries: Vec<Entry>,
+    pub entries: Vec<MeasuredPoint>,
     pub landings: Vec<Landing>,
 }
 
 /// A point, and why it was measured.
-pub(super) struct Entry {
+pub(super) struct MeasuredPoint {
     /// The knob that is turned alone; `None` where all are.
     pub knob: Option<Knob>,
     /// What that is set to.
@@ -55,11 +55,11 @@ impl Found {
             for ((&value, point), frame) in knob.values().iter().zip(points).zip(&frames) {
                 let alone = Difference::of(frame, without).rmse;
                 let alone = (!std::ptr::eq(frame, without)).then_some(alone);
-                entries.push(Entry { knob: Some(knob), value: Some(value), point, alone });
+                entries.push(MeasuredPoint { knob: Some(knob), value: Some(value), point, alone });
             }
         }
         let (points, _) = at(opened, &reference, &combinations(), "all together", progress)?;
-        entries.extend(points.into_iter().map(|point| Entry { knob: None, value: None, point, alone: None }));
+        entries.extend(points.into_iter().map(|point| MeasuredPoint { knob: None, value: None, point, alone: None }));
         progress.next(&format!("{name}: the choice"));
         let points: Vec<Point> = entries.iter().map(|entry| entry.point).collect();
         let landings = check(scene, &reference, &points);
@@ -73,7 +73,7 @@ impl Found {
     }
 
     /// What was measured of one knob alone, the best last; of all together, if none.
-    pub fn of_knob(&self, knob: Option<Knob>) -> impl Iterator<Item = &Entry> {
+    pub fn of_knob(&self, knob: Option<Knob>) -> impl Iterator<Item = &MeasuredPoint> {
         self.entries.iter().filter(move |entry| entry.knob == knob)
     }
 }

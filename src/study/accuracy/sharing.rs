@@ -8,10 +8,10 @@ use serde::Serialize;
 
 use crate::balance::{Message, NodeId, Party, Strategy};
 use crate::picture::Atom;
-use crate::record::{Record, What};
-use crate::runlog::{Driver, Header, Link, Tally};
+use crate::record::{Record, RecordKind};
+use crate::runlog::{Driver, Header, LinkSettings, Metrics};
 use crate::sim::Sim;
-use crate::study::fixture::{Costs, Workbench};
+use crate::study::fixture::{AtomCosts, Fixture};
 use crate::time::Time;
 
 /// Machines of a ring.
@@ -24,14 +24,14 @@ pub(super) const WHOLE: Duration = Duration::from_secs(3);
 const LATENCY: Duration = Duration::from_millis(1);
 
 /// One run, and its transfers.
-pub(super) struct Shared {
-    pub run: Run,
+pub(super) struct SharedRun {
+    pub run: WatchedRun,
     pub transfers: Vec<Transfer>,
 }
 
 /// What came of one run.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Run {
+pub(super) struct WatchedRun {
     pub scene: String,
     /// Of its random speeds.
     pub seed: u64,
@@ -65,22 +65,22 @@ pub(super) fn random_speeds(seed: u64) -> Vec<f64> {
 }
 
 /// A run of the ring with the usual atoms.
-pub(super) fn usual(bench: &Workbench, seed: u64) -> Shared {
+pub(super) fn usual(bench: &Fixture, seed: u64) -> SharedRun {
     run(bench, 50, LATENCY, seed)
 }
 
 /// A run of the ring in virtual time, on machines of random speeds.
-pub(super) fn run(bench: &Workbench, atom_pixels: u32, latency: Duration, seed: u64) -> Shared {
+pub(super) fn run(bench: &Fixture, atom_pixels: u32, latency: Duration, seed: u64) -> SharedRun {
     let plain = bench.header(atom_pixels, Strategy::Ring, random_speeds(seed));
-    let header = Header { driver: Driver::Sim, link: Link { latency, ..plain.link }, ..plain };
+    let header = Header { driver: Driver::Sim, link: LinkSettings { latency, ..plain.link }, ..plain };
     let costs = bench.costs(atom_pixels, WHOLE);
-    let (mut tally, mut watcher) = (Tally::new(&header), Watcher::new(&header, costs.clone()));
+    let (mut tally, mut watcher) = (Metrics::new(&header), Watcher::new(&header, costs.clone()));
     Sim::new(&header, &[], move |atom| costs[atom as usize]).run(&mut |record| {
         tally.add(&record);
         watcher.see(&record);
     });
     let messages = tally.messages();
-    let run = Run {
+    let run = WatchedRun {
         scene: header.scene.clone(),
         seed,
         atom_pixels,
@@ -90,7 +90,7 @@ pub(super) fn run(bench: &Workbench, atom_pixels: u32, latency: Duration, seed: 
         estimate_error: mean_error(&watcher.transfers),
         lateness: tally.efficiency().map_or(f64::INFINITY, |efficiency| 1.0 / efficiency - 1.0),
     };
-    Shared { run, transfers: watcher.transfers }
+    SharedRun { run, transfers: watcher.transfers }
 }
 
 /// The mean distance of estimate and truth, by the work that waits; `None` of no transfers.
@@ -104,8 +104,8 @@ fn mean_error(transfers: &[Transfer]) -> Option<f64> {
 
 /// Follows who has which atoms.
 struct Watcher {
-    nodes: Vec<Node>,
-    costs: Costs,
+    nodes: Vec<NodeAtoms>,
+    costs: AtomCosts,
     latency: Duration,
     /// Bands and transfers under way, by the number of their message.
     under_way: BTreeMap<u64, Vec<Atom>>,
@@ -113,7 +113,7 @@ struct Watcher {
 }
 
 /// What one node has.
-struct Node {
+struct NodeAtoms {
     speed: f64,
     /// Atoms that it has still to trace, in its order.
     atoms: VecDeque<Atom>,
@@ -128,23 +128,27 @@ struct Node {
 const PIPE: usize = 2;
 
 impl Watcher {
-    fn new(header: &Header, costs: Costs) -> Self {
-        let node = |&speed: &f64| Node { speed, atoms: VecDeque::new(), begun: None, traced: 0, offered: 0 };
+    fn new(header: &Header, costs: AtomCosts) -> Self {
+        let node = |&speed: &f64| NodeAtoms { speed, atoms: VecDeque::new(), begun: None, traced: 0, offered: 0 };
         let nodes = header.speeds.iter().map(node).collect();
         Self { nodes, costs, latency: header.link.latency, under_way: BTreeMap::new(), transfers: Vec::new() }
     }
 
-    fn node(&mut self, id: NodeId) -> &mut Node {
+    fn node(&mut self, id: NodeId) -> &mut NodeAtoms {
         &mut self.nodes[usize::from(id)]
     }
 
     fn see(&mut self, record: &Record) {
         match &record.what {
-            What::Sent { id, message: Message::Band(atoms), .. } => {
+            RecordKind::Sent { id, message: Message::Band(atoms), .. } => {
                 self.under_way.insert(*id, atoms.clone().collect());
             }
-            What::Sent {
-                id, from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            RecordKind::Sent {
+                id,
+                from: Party::Node(from),
+                to: Party::Node(to),
+                message: Message::Transfer(ranges),
+                ..
             } => {
                 let given: Vec<Atom> = ranges.iter().cloned().flatten().collect();
                 self.transfers.extend(self.transfer(*from, *to, record.at));
@@ -152,15 +156,17 @@ impl Watcher {
                 atoms.truncate(atoms.len().saturating_sub(given.len()));
                 self.under_way.insert(*id, given);
             }
-            What::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. } if who == from => {
+            RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, done, .. }, .. }
+                if who == from =>
+            {
                 self.node(*who).offered = *done;
             }
-            What::Received { id, by: Party::Node(by) } => {
+            RecordKind::Received { id, by: Party::Node(by) } => {
                 let atoms = self.under_way.remove(id).unwrap_or_default();
                 self.node(*by).atoms.extend(atoms);
             }
-            What::AtomStarted { node, .. } => self.node(*node).begun = Some(record.at),
-            What::AtomDone { node, .. } => {
+            RecordKind::AtomStarted { node, .. } => self.node(*node).begun = Some(record.at),
+            RecordKind::AtomDone { node, .. } => {
                 let node = self.node(*node);
                 node.atoms.pop_front();
                 (node.begun, node.traced) = (None, node.traced + 1);
@@ -249,9 +255,9 @@ mod tests {
     #[test]
     fn every_transfer_is_seen_with_what_its_owner_had() {
         let scene = Opened::new("ten-objects").unwrap();
-        let bench = Workbench::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
+        let bench = Fixture::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
         for seed in 0..5 {
-            let Shared { run, transfers } = usual(&bench, seed);
+            let SharedRun { run, transfers } = usual(&bench, seed);
             // Without counts there is no estimate, which happens only at the beginning.
             assert!(transfers.len() as u64 <= run.transfers && transfers.len() as u64 + 3 > run.transfers);
             assert!(run.lateness > 0.0 && run.lateness < 1.0 && !transfers.is_empty());

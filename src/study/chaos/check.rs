@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::plan::Plan;
-use crate::balance::adaptive::Ring;
-use crate::balance::{Action, Condition, Help, Message, NodeId, Party, Remedy};
+use super::plan::ChaosPlan;
+use crate::balance::adaptive::RingMembers;
+use crate::balance::{Action, Condition, Helper, Message, NodeId, Party, Remedy};
 use crate::picture::{Atom, atoms_in};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::sim::Sim;
 use crate::time::Time;
 
@@ -21,7 +21,7 @@ pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 
 /// What a run amounted to.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Outcome {
+pub(super) struct RunTotals {
     pub records: u64,
     /// Atoms that the parent gave out again.
     pub again: u64,
@@ -33,7 +33,7 @@ pub(super) struct Outcome {
 ///
 /// # Errors
 /// A sentence that says what is wrong with it.
-pub(super) fn run(plan: &Plan, tamper: Option<Tamper>) -> Result<Outcome, String> {
+pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, String> {
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
     if let Some(tamper) = tamper {
@@ -54,8 +54,8 @@ pub(super) fn run(plan: &Plan, tamper: Option<Tamper>) -> Result<Outcome, String
 
 /// What has been seen of a run.
 struct Check<'a> {
-    plan: &'a Plan,
-    outcome: Outcome,
+    plan: &'a ChaosPlan,
+    outcome: RunTotals,
     wrong: Option<String>,
     /// By node: the atoms that it has traced and not sent.
     traced: Vec<BTreeSet<Atom>>,
@@ -73,11 +73,11 @@ struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    fn new(plan: &'a Plan) -> Self {
+    fn new(plan: &'a ChaosPlan) -> Self {
         let nodes = plan.header.speeds.len();
         Self {
             plan,
-            outcome: Outcome::default(),
+            outcome: RunTotals::default(),
             wrong: None,
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
@@ -95,21 +95,21 @@ impl<'a> Check<'a> {
         self.outcome.records += 1;
         self.last = record.at;
         match &record.what {
-            What::Sent { id, from, message, .. } => self.sent(*id, *from, message),
-            What::Received { id, by: Party::Parent } => {
+            RecordKind::Sent { id, from, message, .. } => self.sent(*id, *from, message),
+            RecordKind::Received { id, by: Party::Parent } => {
                 for atom in self.results.remove(id).into_iter().flatten().flatten() {
                     self.placed[atom as usize] += 1;
                 }
             }
-            What::Received { .. } | What::Lost { .. } => {}
-            What::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
+            RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
+            RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
                 self.fail(format!("node {node} begins atom {atom} after its shutdown"));
             }
-            What::AtomDone { node, atom, .. } => {
+            RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
                 self.traced[usize::from(*node)].insert(*atom);
             }
-            What::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
+            RecordKind::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
             _ => {}
         }
     }
@@ -125,7 +125,7 @@ impl<'a> Check<'a> {
                 }
                 self.results.insert(id, ranges.clone());
             }
-            (_, Message::Offer { who, help: Some(Help { sent, left: Some(left), .. }), .. }) => {
+            (_, Message::Offer { who, help: Some(Helper { sent, left: Some(left), .. }), .. }) => {
                 let before = self.offers.insert((*who, *sent), *left);
                 if before.is_some_and(|before| before <= *left && before > 0) {
                     self.fail(format!("the offer of node {who} made at {} s is in two places", sent.secs()));
@@ -142,7 +142,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    fn end(mut self, finished: bool) -> Result<Outcome, String> {
+    fn end(mut self, finished: bool) -> Result<RunTotals, String> {
         if !finished {
             let missing = self.placed.iter().filter(|&&times| times == 0).count();
             return Err(format!("it has come to a standstill, and {missing} atoms are missing"));
@@ -161,7 +161,7 @@ impl<'a> Check<'a> {
     fn bound(&self) -> f64 {
         let nodes = self.plan.header.speeds.len();
         let rules = self.plan.header.rules;
-        let stops = Ring::new(nodes as NodeId, rules.remedies.has(Remedy::Shortcuts)).stops();
+        let stops = RingMembers::new(nodes as NodeId, rules.remedies.has(Remedy::Shortcuts)).stops();
         let beats = self.last.secs() / rules.beat.as_secs_f64();
         let moments = self.atoms_done as f64 + nodes as f64 * (beats + 2.0) + self.gone as f64;
         3.0 * f64::from(stops + 2) * moments

@@ -11,15 +11,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use serde_json::json;
 
-use super::{Study, Tell, say};
+use super::{ProgressSink, Study, say};
 use crate::balance::Condition;
 use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
 use crate::scene::Opened;
 use crate::sim::Sim;
 use bugs::Bug;
-use check::Outcome;
-use plan::Plan;
+use check::RunTotals;
+use plan::ChaosPlan;
 
 /// Of so many failing seeds the runs are kept.
 const KEPT: usize = 5;
@@ -33,7 +33,7 @@ const STEP: u64 = 250;
 ///
 /// # Errors
 /// A sentence, if a file could not be made.
-pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
     let mut seen = Seen::default();
     let mut failures: Vec<(u64, String)> = Vec::new();
     let count = seeds.end.saturating_sub(seeds.start);
@@ -42,7 +42,7 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: Tell<'_>) -> Result<Study,
             let found = if failures.is_empty() { String::new() } else { format!(", {} have failed", failures.len()) };
             tell((seed - seeds.start) as usize, count as usize, &format!("seed {seed}{found}"));
         }
-        let plan = Plan::new(seed);
+        let plan = ChaosPlan::new(seed);
         match try_run(&plan, None) {
             Ok(outcome) => seen.add(&plan, outcome),
             Err(why) => failures.push((seed, why)),
@@ -54,7 +54,7 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: Tell<'_>) -> Result<Study,
         if count == 1 { seeds.clone().collect() } else { failures.iter().map(|(seed, _)| *seed).take(KEPT).collect() };
     for seed in kept {
         let mut bytes = Vec::new();
-        record(&Plan::new(seed), scene).write(&mut bytes).map_err(|error| error.to_string())?;
+        record(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| error.to_string())?;
         study.files.push((format!("chaos-{seed}.anel"), bytes));
     }
     let failing: Vec<u64> = failures.iter().map(|(seed, _)| *seed).collect();
@@ -67,7 +67,7 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: Tell<'_>) -> Result<Study,
 }
 
 /// One run of a seed, with a bug if there is to be one. A party that finds the impossible panics; that is a failure too.
-fn try_run(plan: &Plan, bug: Option<Bug>) -> Result<Outcome, String> {
+fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, String> {
     let run = || check::run(plan, bug.map(Bug::tamper));
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -77,11 +77,11 @@ fn try_run(plan: &Plan, bug: Option<Bug>) -> Result<Outcome, String> {
 
 /// The first seed from `first` on with which a bug is found, and what is said of it.
 fn find(bug: Bug, first: u64) -> Option<(u64, String)> {
-    (first..first + TRIED).find_map(|seed| try_run(&Plan::new(seed), Some(bug)).err().map(|why| (seed, why)))
+    (first..first + TRIED).find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
 }
 
 /// All records of a plan's run, as far as a run that does not end has any that are of use.
-fn record(plan: &Plan, scene: &Opened) -> RunLog {
+fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
     const MOST: usize = 1_000_000;
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
@@ -108,7 +108,7 @@ struct Seen {
 }
 
 impl Seen {
-    fn add(&mut self, plan: &Plan, outcome: Outcome) {
+    fn add(&mut self, plan: &ChaosPlan, outcome: RunTotals) {
         self.runs += 1;
         self.calm += u64::from(plan.calm);
         self.records += outcome.records;
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn the_ring_survives_whatever_befalls_it() {
         for seed in 0..3_000 {
-            if let Err(why) = try_run(&Plan::new(seed), None) {
+            if let Err(why) = try_run(&ChaosPlan::new(seed), None) {
                 panic!("seed {seed}: {why}");
             }
         }
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn a_seed_is_the_same_run_whenever_it_is_tried() {
         let scene = Opened::new("csg-primer").expect("a scene that is built in");
-        assert_eq!(record(&Plan::new(77), &scene), record(&Plan::new(77), &scene));
+        assert_eq!(record(&ChaosPlan::new(77), &scene), record(&ChaosPlan::new(77), &scene));
         let study = chaos(77..78, &scene, &mut |_, _, _| {}).expect("a study");
         assert!(study.files.iter().any(|(name, _)| name == "chaos-77.anel"));
         assert_eq!(study.summary["failures"], 0);

@@ -7,7 +7,7 @@ use fastrand::Rng;
 use super::super::random::between;
 use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, Link};
+use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
@@ -19,7 +19,7 @@ const SLOWEST: f64 = 1e-3;
 
 /// A run that is to be tried.
 #[derive(Clone, Debug)]
-pub(super) struct Plan {
+pub(super) struct ChaosPlan {
     pub header: Header,
     pub script: Script,
     /// By atom.
@@ -28,7 +28,7 @@ pub(super) struct Plan {
     pub calm: bool,
 }
 
-impl Plan {
+impl ChaosPlan {
     /// The run of a seed: the same on every computer.
     pub fn new(seed: u64) -> Self {
         let mut rng = Rng::with_seed(seed);
@@ -48,7 +48,7 @@ impl Plan {
             // Nor may what waits behind a whole picture's results.
             let slowest = if calm { 6.5 } else { 5.0 };
             let bandwidth = Some(10f64.powf(between(&mut rng, slowest, 8.0)));
-            header.link = Link { bandwidth, shared: rng.bool(), ..header.link };
+            header.link = LinkSettings { bandwidth, shared: rng.bool(), ..header.link };
             let longest = if calm { 100 } else { 500 };
             header.handling = Duration::from_micros(rng.u64(0..longest));
         }

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::balance::{Rules, Strategy};
-use crate::runlog::{Header, Link, Tally};
+use crate::runlog::{Header, LinkSettings, Metrics};
 
 /// What one machine needs for the picture (Figure 6).
 pub(super) const SERIAL: Duration = Duration::from_secs(580);
@@ -60,7 +60,7 @@ impl Network {
     /// The run on this network, with all times `scale` times as long.
     pub fn with(self, header: Header, scale: f64) -> Header {
         Header {
-            link: Link {
+            link: LinkSettings {
                 latency: Duration::from_secs_f64(self.latency * scale),
                 bandwidth: Some(self.bandwidth / scale),
                 shared: true,
@@ -80,7 +80,7 @@ impl Network {
 }
 
 /// How many times as long as ideal a run took; NaN for one that did not end.
-pub(super) fn times_ideal(tally: &Tally) -> f64 {
+pub(super) fn times_ideal(tally: &Metrics) -> f64 {
     tally.efficiency().map_or(f64::NAN, |efficiency| 1.0 / efficiency)
 }
 

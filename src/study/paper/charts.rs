@@ -1,23 +1,23 @@
 //! The article's charts anew, and others.
 
 use super::article::{self, PACKETS, SERIAL};
-use super::rows::Row;
+use super::rows::PaperRow;
 use crate::balance::Strategy;
 use crate::study::fixture::STRATEGIES;
-use crate::view::{Axis, Bar, Bars, CHART_SIZE, Chart, Mark, Scale, Series, Style, series_hue};
+use crate::view::{Axis, Bar, BarChart, CHART_SIZE, LineChart, Mark, Scale, Series, Style, series_hue};
 
 /// What a figure's chart is of: one kind of rows.
 pub(super) fn select<'a>(
-    rows: &'a [Row],
+    rows: &'a [PaperRow],
     figure: &'a str,
     network: &'a str,
     driver: &'a str,
-) -> impl Iterator<Item = &'a Row> + Clone {
+) -> impl Iterator<Item = &'a PaperRow> + Clone {
     rows.iter().filter(move |row| row.figure == figure && row.network == network && row.driver == driver)
 }
 
 /// All charts, by their names.
-pub(super) fn all(rows: &[Row], handling: &[(f64, [f64; 4])]) -> Vec<(&'static str, Vec<Mark>)> {
+pub(super) fn all(rows: &[PaperRow], handling: &[(f64, [f64; 4])]) -> Vec<(&'static str, Vec<Mark>)> {
     let mut charts = Vec::new();
     let figures = [
         ("figure5-threads", "threads", "none", "On threads, without a network"),
@@ -36,7 +36,7 @@ pub(super) fn all(rows: &[Row], handling: &[(f64, [f64; 4])]) -> Vec<(&'static s
 }
 
 /// Figures 5 to 7: times over the ideal, and the article's beside them.
-fn times(rows: &[Row], driver: &str, network: &str, title: &str) -> Bars {
+fn times(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChart {
     let group = |nodes: usize, slow: bool| {
         let figure = if slow { "7" } else { "6" };
         let ours = select(rows, figure, network, driver).filter(move |row| row.nodes == nodes);
@@ -48,7 +48,7 @@ fn times(rows: &[Row], driver: &str, network: &str, title: &str) -> Bars {
         }
         (if slow { "4 and a slow one".into() } else { format!("{nodes} machines") }, bars)
     };
-    Bars {
+    BarChart {
         title: title.into(),
         note: "Times over the ideal: 1 is perfect. Dark marks: what the article measured".into(),
         y: Axis { label: "time / ideal time".into(), scale: Scale::Log2, range: Some((1.0, 10.0)) },
@@ -58,14 +58,14 @@ fn times(rows: &[Row], driver: &str, network: &str, title: &str) -> Bars {
 }
 
 /// Times over sizes of atoms or of parts, in pixels.
-fn sizes(rows: &[Row], figure: &str) -> Chart {
+fn sizes(rows: &[PaperRow], figure: &str) -> LineChart {
     let mut series = Vec::new();
     for strategy in [Strategy::Ring, Strategy::Farm] {
         for slow in [false, true] {
             for network in ["none", "modelled"] {
                 let of = select(rows, figure, network, "sim")
                     .filter(|row| row.slow == slow && row.strategy == strategy.name());
-                let size = |row: &Row| if figure == "atom" { row.atom } else { row.atom * row.part };
+                let size = |row: &PaperRow| if figure == "atom" { row.atom } else { row.atom * row.part };
                 let points: Vec<_> = of.map(|row| (f64::from(size(row)), row.over_ideal)).collect();
                 if points.is_empty() {
                     continue;
@@ -84,7 +84,7 @@ fn sizes(rows: &[Row], figure: &str) -> Chart {
         "atom" => ("How large is an atom to be?", "pixels in an atom"),
         _ => ("How large is a part, or a ring's smallest transfer, to be?", "pixels in a part or a smallest transfer"),
     };
-    Chart {
+    LineChart {
         title: title.into(),
         note: "Dashed: on the modelled network".into(),
         x: Axis { label: label.into(), scale: Scale::Log10, range: None },
@@ -94,16 +94,16 @@ fn sizes(rows: &[Row], figure: &str) -> Chart {
 }
 
 /// Figure 9: time over the mean size of a packet.
-fn packets(rows: &[Row]) -> Chart {
+fn packets(rows: &[PaperRow]) -> LineChart {
     let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
     let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
     let ours = |strategy: Strategy, network| {
-        let is_one = move |row: &&Row| row.strategy == strategy.name() && !row.slow && row.transfers > 0;
+        let is_one = move |row: &&PaperRow| row.strategy == strategy.name() && !row.slow && row.transfers > 0;
         let of = select(rows, "part", network, "sim").filter(is_one);
         of.map(|row| (row.atoms_moved as f64 / row.transfers as f64, row.over_ideal)).collect()
     };
     let line = |i, name: &str, points, style| Series { name: name.into(), hue: series_hue(i), points, style };
-    Chart {
+    LineChart {
         title: "Figure 9: does time rise as packets shrink?".into(),
         note: "A ring of four; ours by the smallest transfer that is worth while".into(),
         x: Axis { label: "mean atoms in a packet".into(), scale: Scale::Log10, range: None },
@@ -119,7 +119,7 @@ fn packets(rows: &[Row]) -> Chart {
 }
 
 /// How a farm's parent is choked by what it has to handle.
-fn choked(handling: &[(f64, [f64; 4])]) -> Chart {
+fn choked(handling: &[(f64, [f64; 4])]) -> LineChart {
     let names = ["farm, parts of 1 atom", "farm, 16 parts a machine", "ring", "static"];
     let line = |(i, name): (usize, &str)| Series {
         name: name.into(),
@@ -127,7 +127,7 @@ fn choked(handling: &[(f64, [f64; 4])]) -> Chart {
         points: handling.iter().map(|(ms, times)| (*ms, times[i])).collect(),
         style: Style::Line,
     };
-    Chart {
+    LineChart {
         title: "When is a farm worse than static bands?".into(),
         note: "Four equal machines on one wire, by how long the parent is busy with a message".into(),
         x: Axis { label: "milliseconds a message".into(), scale: Scale::Log10, range: None },

@@ -3,11 +3,11 @@
 use super::super::rivals::Needs;
 use super::article::{PACKETS, slow_speed};
 use super::charts::select;
-use super::rows::Row;
+use super::rows::PaperRow;
 use crate::balance::Strategy;
 
 /// A claim and the verdict on it.
-pub(super) struct Claim {
+pub(super) struct ClaimVerdict {
     /// Where the article says it.
     pub place: &'static str,
     /// What it says.
@@ -23,7 +23,7 @@ const NO: &str = "not borne out";
 const DEPENDS: &str = "it depends";
 
 /// All claims of §7, §10 and §11 that can be put to a test; `competing` are the ring with one thread a node, with two, and rayon.
-pub(super) fn all(rows: &[Row], competing: &[Needs; 3]) -> Vec<Claim> {
+pub(super) fn all(rows: &[PaperRow], competing: &[Needs; 3]) -> Vec<ClaimVerdict> {
     let rows = Rows(rows);
     vec![
         near_ideal(&rows),
@@ -36,10 +36,10 @@ pub(super) fn all(rows: &[Row], competing: &[Needs; 3]) -> Vec<Claim> {
     ]
 }
 
-struct Rows<'a>(&'a [Row]);
+struct Rows<'a>(&'a [PaperRow]);
 
 impl<'a> Rows<'a> {
-    fn get(&self, driver: &str, network: &str, strategy: Strategy, nodes: usize) -> Option<&'a Row> {
+    fn get(&self, driver: &str, network: &str, strategy: Strategy, nodes: usize) -> Option<&'a PaperRow> {
         let figure = if nodes == 5 { "7" } else { "6" };
         self.0.iter().find(|row| {
             (row.figure, row.driver, row.network, row.strategy, row.nodes)
@@ -47,18 +47,18 @@ impl<'a> Rows<'a> {
         })
     }
 
-    fn number(&self, key: (&str, &str, Strategy, usize), value: impl Fn(&Row) -> f64) -> f64 {
+    fn number(&self, key: (&str, &str, Strategy, usize), value: impl Fn(&PaperRow) -> f64) -> f64 {
         self.get(key.0, key.1, key.2, key.3).map_or(f64::NAN, value)
     }
 }
 
-fn near_ideal(rows: &Rows<'_>) -> Claim {
+fn near_ideal(rows: &Rows<'_>) -> ClaimVerdict {
     let over = |driver, network| {
         [2, 3, 4, 5].map(|nodes| rows.number((driver, network, Strategy::Ring, nodes), |row| row.over_ideal))
     };
     let words = |times: [f64; 4]| times.map(|time| format!("{time:.3}")).join(", ");
     let all = [over("threads", "none"), over("sim", "none"), over("sim", "modelled")];
-    Claim {
+    ClaimVerdict {
         place: "§11",
         says: "The ring comes close to the ideal.",
         verdict: if all.iter().flatten().all(|&over| over < 1.1) { YES } else { DEPENDS },
@@ -72,15 +72,15 @@ fn near_ideal(rows: &Rows<'_>) -> Claim {
     }
 }
 
-fn network_use(rows: &Rows<'_>) -> Claim {
-    let used = |value: fn(&Row) -> u64| {
+fn network_use(rows: &Rows<'_>) -> ClaimVerdict {
+    let used = |value: fn(&PaperRow) -> u64| {
         [Strategy::Static, Strategy::Ring, Strategy::Farm]
             .map(|strategy| rows.number(("sim", "modelled", strategy, 4), |row| value(row) as f64))
     };
     let (messages, bytes) = (used(|row| row.messages), used(|row| row.bytes));
     let usual = rows.number(("sim", "none", Strategy::Farm, 4), |row| row.messages as f64);
     let holds = messages.is_sorted() && bytes.is_sorted();
-    Claim {
+    ClaimVerdict {
         place: "§7",
         says: "The ring uses the network more than static bands, and less than the farm.",
         verdict: if holds && usual > messages[1] { YES } else { DEPENDS },
@@ -98,14 +98,14 @@ fn network_use(rows: &Rows<'_>) -> Claim {
     }
 }
 
-fn finish_together(rows: &Rows<'_>) -> Claim {
+fn finish_together(rows: &Rows<'_>) -> ClaimVerdict {
     let spread = |driver, strategy, nodes| {
         rows.number((driver, "none", strategy, nodes), |row| 100.0 * row.finish_spread_s / row.makespan_s)
     };
     let ring =
         [spread("threads", Strategy::Ring, 4), spread("sim", Strategy::Ring, 4), spread("threads", Strategy::Ring, 5)];
     let others = [Strategy::Static, Strategy::Farm].map(|strategy| spread("threads", strategy, 4));
-    Claim {
+    ClaimVerdict {
         place: "§7, §11",
         says: "All computers finish practically together.",
         verdict: if ring.iter().all(|&spread| spread < 5.0) { YES } else { DEPENDS },
@@ -120,12 +120,12 @@ fn finish_together(rows: &Rows<'_>) -> Claim {
 /// Sizes are as good as the best if their time is within this factor of it.
 const GOOD: f64 = 1.05;
 
-fn easier_to_size(rows: &Rows<'_>) -> Claim {
+fn easier_to_size(rows: &Rows<'_>) -> ClaimVerdict {
     let range = |figure, strategy: Strategy, network, slow| {
         let of =
             || select(rows.0, figure, network, "sim").filter(|row| row.slow == slow && row.strategy == strategy.name());
         let best = of().map(|row| row.over_ideal).fold(f64::INFINITY, f64::min);
-        let size = |row: &Row| f64::from(if figure == "atom" { row.atom } else { row.atom * row.part });
+        let size = |row: &PaperRow| f64::from(if figure == "atom" { row.atom } else { row.atom * row.part });
         let good = || of().filter(move |row| row.over_ideal <= GOOD * best).map(size);
         (good().fold(f64::INFINITY, f64::min), good().fold(0.0, f64::max))
     };
@@ -135,7 +135,7 @@ fn easier_to_size(rows: &Rows<'_>) -> Claim {
         .map(|(network, slow)| range("part", Strategy::Farm, network, slow));
     let wider = atoms.iter().zip(&parts).filter(|(atom, part)| atom.1 / atom.0 > part.1 / part.0).count();
     let words = |ranges: [(f64, f64); 4]| ranges.map(|(from, to)| format!("{from:.0} to {to:.0}")).join(", ");
-    Claim {
+    ClaimVerdict {
         place: "§7",
         says: "It is easier to find a good size for atoms than for a farm's parts.",
         verdict: match wider {
@@ -153,7 +153,7 @@ fn easier_to_size(rows: &Rows<'_>) -> Claim {
     }
 }
 
-fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
+fn slow_machine_helps(rows: &Rows<'_>) -> ClaimVerdict {
     let gain = |driver, network, strategy| {
         let time = |nodes| rows.number((driver, network, strategy, nodes), |row| row.makespan_s);
         100.0 * (1.0 - time(5) / time(4))
@@ -165,7 +165,7 @@ fn slow_machine_helps(rows: &Rows<'_>) -> Claim {
         gain("sim", "modelled", Strategy::Ring),
     ];
     let others = [Strategy::Farm, Strategy::Static].map(|strategy| gain("sim", "none", strategy));
-    Claim {
+    ClaimVerdict {
         place: "§7, §9",
         says: "Even the slowest machine still helps.",
         verdict: if ring.iter().all(|&gain| gain > 0.0) { YES } else { DEPENDS },
@@ -188,7 +188,7 @@ fn speedup(gain: f64) -> String {
     format!("{:.1} % {}", gain.abs(), if gain < 0.0 { "slower" } else { "faster" })
 }
 
-fn small_packets(rows: &Rows<'_>) -> Claim {
+fn small_packets(rows: &Rows<'_>) -> ClaimVerdict {
     let points = |network| {
         let of = select(rows.0, "part", network, "sim")
             .filter(|row| row.strategy == "ring" && !row.slow && row.transfers > 0);
@@ -203,7 +203,7 @@ fn small_packets(rows: &Rows<'_>) -> Claim {
     let ((small, time_small), (large, time_large)) = ends(&modelled);
     let ((_, free_small), (_, free_large)) = ends(&none);
     let moved = PACKETS.map(|(_, packets, atoms)| format!("{:.0}", packets * atoms)).join(", ");
-    Claim {
+    ClaimVerdict {
         place: "§10, Figures 8 and 9",
         says: "The smaller the packets, the longer it takes.",
         verdict: match (time_small > time_large, free_small > free_large) {
@@ -221,9 +221,9 @@ fn small_packets(rows: &Rows<'_>) -> Claim {
     }
 }
 
-fn compete([one, two, _]: &[Needs; 3]) -> Claim {
+fn compete([one, two, _]: &[Needs; 3]) -> ClaimVerdict {
     let switches = |needs: &Needs| needs.context_switches.map_or("uncounted".into(), |count| count.to_string());
-    Claim {
+    ClaimVerdict {
         place: "§10",
         says: "Child and grandchild compete for the processor.",
         verdict: if two.wall_over_ring > 1.02 { YES } else { NO },

@@ -11,19 +11,19 @@ const OWNERS: [u32; 3] = [2, 4, 16];
 const EVERY: u32 = 7;
 
 /// What dividing the space means, and among whom.
-pub(super) struct Division {
+pub(super) struct SpaceDivision {
     pub traffic: Traffic,
     /// Whether neighbouring cells mostly have one owner.
     pub runs: bool,
 }
 
 /// The counts, by how many owners there are and how the cells are dealt.
-pub(super) fn count(tracer: &Tracer) -> Vec<Division> {
-    let of = |owners, how| Division { traffic: traffic(tracer, owners, how, EVERY), runs: how == Deal::Runs };
+pub(super) fn count(tracer: &Tracer) -> Vec<SpaceDivision> {
+    let of = |owners, how| SpaceDivision { traffic: traffic(tracer, owners, how, EVERY), runs: how == Deal::Runs };
     OWNERS.into_iter().flat_map(|owners| [of(owners, Deal::Runs), of(owners, Deal::RoundRobin)]).collect()
 }
 
-impl Division {
+impl SpaceDivision {
     /// Seconds for which the modelled network's wire is busy with the rays and their results.
     pub fn wire_s(&self) -> f64 {
         (self.traffic.ray_bytes() + self.traffic.answer_bytes()) as f64 / NETWORK.bandwidth

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use super::super::progress::Progress;
 use super::article::{ATOM, NETWORK, Network, SERIAL, slow_speed, times_ideal};
-use super::rows::{About, Row, middle};
+use super::rows::{PaperRow, RowSubject, middle};
 use crate::balance::Strategy;
 use crate::driver::{cores, run_to_end};
-use crate::runlog::{Driver, Header, Tally};
+use crate::runlog::{Driver, Header, Metrics};
 use crate::scenario::{Command, Script, square_wave};
-use crate::study::fixture::{Costs, STRATEGIES, Workbench, simulate, twin};
+use crate::study::fixture::{AtomCosts, Fixture, STRATEGIES, simulate, twin};
 use crate::time::Time;
 
 /// Runs of the same kind on threads, of which the middle one counts.
@@ -41,20 +41,20 @@ pub(super) fn machines() -> [Vec<f64>; 4] {
 
 /// Everything that runs.
 pub(super) struct Measuring<'a> {
-    bench: &'a Workbench,
+    bench: &'a Fixture,
     /// Of the article's machines, at the article's times.
-    costs: Costs,
+    costs: AtomCosts,
     /// Of a machine of the article's speed on this computer.
     pace: f64,
     /// How much shorter runs on threads are than the article's.
     scale: f64,
-    pub rows: Vec<Row>,
+    pub rows: Vec<PaperRow>,
 }
 
 impl<'a> Measuring<'a> {
     /// Nothing has run yet; `work` is the CPU time of the whole picture, and a machine of the article's speed gets the part
     /// `pace` of a core.
-    pub fn new(bench: &'a Workbench, work: Duration, pace: f64) -> Self {
+    pub fn new(bench: &'a Fixture, work: Duration, pace: f64) -> Self {
         let scale = work.div_f64(pace).div_duration_f64(SERIAL);
         Self { bench, costs: bench.costs(ATOM, SERIAL), pace, scale, rows: Vec::new() }
     }
@@ -69,7 +69,7 @@ impl<'a> Measuring<'a> {
     /// A sentence, if a run failed.
     pub fn threads(&mut self, progress: &mut Progress<'_>) -> Result<(), String> {
         let kinds = self.kinds();
-        let mut rows: Vec<Vec<Row>> = kinds.iter().map(|_| Vec::new()).collect();
+        let mut rows: Vec<Vec<PaperRow>> = kinds.iter().map(|_| Vec::new()).collect();
         for _ in 0..RUNS {
             for ((about, header, script), rows) in kinds.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
@@ -78,7 +78,7 @@ impl<'a> Measuring<'a> {
                 // Rayon's rules are not ours to simulate; and when threads obey a script is not quite when it says.
                 let has_twin = header.driver == Driver::Threads && script.is_empty();
                 let twin = if has_twin { Some(twin(&log)?) } else { None };
-                rows.push(Row::new(*about, &header, &Tally::of(&log), twin.as_ref()));
+                rows.push(PaperRow::new(*about, &header, &Metrics::of(&log), twin.as_ref()));
             }
         }
         self.rows.extend(rows.into_iter().filter_map(middle));
@@ -86,15 +86,15 @@ impl<'a> Measuring<'a> {
     }
 
     /// What runs on threads.
-    fn kinds(&self) -> Vec<(About, Header, Script)> {
-        let plain = |figure, header| (About::new(figure, false), header, Script::new());
+    fn kinds(&self) -> Vec<(RowSubject, Header, Script)> {
+        let plain = |figure, header| (RowSubject::new(figure, false), header, Script::new());
         let mut kinds = vec![plain("6", self.bench.header(ATOM, Strategy::Serial, vec![1.0]))];
         for speeds in machines() {
             let figure = if speeds.len() == 5 { "7" } else { "6" };
             for strategy in STRATEGIES {
                 let header = self.bench.header(ATOM, strategy, speeds.clone());
                 kinds.push(plain(figure, header.clone()));
-                kinds.push((About::new(figure, true), self.modelled(header, self.scale), Script::new()));
+                kinds.push((RowSubject::new(figure, true), self.modelled(header, self.scale), Script::new()));
             }
             let rayon = self.bench.header(ATOM, Strategy::Ring, speeds);
             kinds.push(plain(figure, Header { driver: Driver::WorkStealing, ..rayon }));
@@ -112,15 +112,15 @@ impl<'a> Measuring<'a> {
             for speeds in machines() {
                 let figure = if speeds.len() == 5 { "7" } else { "6" };
                 for strategy in STRATEGIES {
-                    self.simulate(About::new(figure, modelled), self.bench.header(ATOM, strategy, speeds.clone()));
+                    self.simulate(RowSubject::new(figure, modelled), self.bench.header(ATOM, strategy, speeds.clone()));
                 }
             }
             let alone = |speed| self.bench.header(ATOM, Strategy::Serial, vec![speed]);
-            self.simulate(About::new("6", modelled), alone(1.0));
-            self.simulate(About::new("7", modelled), alone(slow_speed()));
+            self.simulate(RowSubject::new("6", modelled), alone(1.0));
+            self.simulate(RowSubject::new("7", modelled), alone(slow_speed()));
             for place in 0..5 {
                 let header = self.bench.header(ATOM, Strategy::Ring, slow_at(place));
-                self.simulate(About::new("place", modelled), header);
+                self.simulate(RowSubject::new("place", modelled), header);
             }
         }
     }
@@ -134,13 +134,13 @@ impl<'a> Measuring<'a> {
                 for atom in ATOMS {
                     let costs = self.bench.costs(atom, SERIAL);
                     let header = self.bench.header(atom, Strategy::Ring, speeds.clone());
-                    self.add(About::new("atom", modelled), &on_network(header), &[], &costs);
+                    self.add(RowSubject::new("atom", modelled), &on_network(header), &[], &costs);
                 }
                 let strategies = [Strategy::Ring, Strategy::Adaptive, Strategy::Farm];
                 for (part, strategy) in PARTS.into_iter().flat_map(|part| strategies.map(|strategy| (part, strategy))) {
                     let mut header = self.bench.header(ATOM, strategy, speeds.clone());
                     header.rules.part = part;
-                    self.add(About::new("part", modelled), &on_network(header), &[], &self.costs.clone());
+                    self.add(RowSubject::new("part", modelled), &on_network(header), &[], &self.costs.clone());
                 }
             }
         }
@@ -156,14 +156,14 @@ impl<'a> Measuring<'a> {
 
     /// A ring of four on the modelled network, of which one machine has its mean speed throughout, or swings between full and
     /// a tenth of its speed with one of these periods.
-    fn swinging(&self, scale: f64, periods: &[Duration]) -> Vec<(About, Header, Script)> {
+    fn swinging(&self, scale: f64, periods: &[Duration]) -> Vec<(RowSubject, Header, Script)> {
         let run = |period: Option<Duration>| {
             let last = if period.is_some() { 1.0 } else { 0.55 };
             let header = self.modelled(self.bench.header(ATOM, Strategy::Ring, vec![1.0, 1.0, 1.0, last]), scale);
             // Whatever it takes, it ends before.
             let end = Time::ZERO + SERIAL.mul_f64(scale);
             let script = period.map_or_else(Script::new, |period| square_wave(3, 1.0, 0.1, period, end));
-            (About { period, ..About::new("swing", true) }, header, script)
+            (RowSubject { period, ..RowSubject::new("swing", true) }, header, script)
         };
         iter::once(None).chain(periods.iter().copied().map(Some)).map(run).collect()
     }
@@ -192,16 +192,16 @@ impl<'a> Measuring<'a> {
         NETWORK.with(header, scale)
     }
 
-    fn simulate(&mut self, about: About, header: Header) {
+    fn simulate(&mut self, about: RowSubject, header: Header) {
         let header = if about.modelled { self.modelled(header, 1.0) } else { header };
         self.add(about, &header, &[], &self.costs.clone());
     }
 
     /// Adds the row of a run in virtual time.
-    fn add(&mut self, about: About, header: &Header, script: &[(Time, Command)], costs: &Costs) {
+    fn add(&mut self, about: RowSubject, header: &Header, script: &[(Time, Command)], costs: &AtomCosts) {
         let header = Header { driver: Driver::Sim, ..header.clone() };
         let tally = simulate(&header, script, costs);
-        self.rows.push(Row::new(about, &header, &tally, None));
+        self.rows.push(PaperRow::new(about, &header, &tally, None));
     }
 }
 

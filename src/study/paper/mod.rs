@@ -10,17 +10,17 @@ mod rows;
 
 use std::time::Duration;
 
-use super::fixture::{Workbench, cost_of};
+use super::fixture::{Fixture, cost_of};
 use super::progress::Progress;
 use super::rivals::{self, Needs};
-use super::{Study, Tell};
+use super::{ProgressSink, Study};
 use crate::driver::cores;
 use crate::picture::{Quality, Size};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
 pub use article::over_ideal as article_over_ideal;
 use measure::Measuring;
-use rows::Row;
+use rows::PaperRow;
 
 /// How long a run of four machines is to last on threads: "a second or more", and the threads' rests make work dearer.
 const RUN: Duration = Duration::from_millis(1100);
@@ -30,12 +30,12 @@ const RUN: Duration = Duration::from_millis(1100);
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+pub fn paper(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
     let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + rivals::STEPS, tell);
     progress.next("what the picture costs");
     let size = Size::new(640, 480)?;
     let (samples, work, pace) = long_enough(scene, size);
-    let bench = Workbench::new(scene, size, samples)?;
+    let bench = Fixture::new(scene, size, samples)?;
     let mut measuring = Measuring::new(&bench, work, pace);
     progress.next("virtual time");
     measuring.simulated();
@@ -53,15 +53,15 @@ pub fn paper(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
 
 /// Everything that was found, and how.
 struct Found<'a> {
-    bench: &'a Workbench,
+    bench: &'a Fixture,
     /// The part of a core that a machine of the article's speed gets.
     pace: f64,
-    rows: Vec<Row>,
+    rows: Vec<PaperRow>,
     /// See [`Measuring::handling`].
     handling: Vec<(f64, [f64; 4])>,
     /// The ring, the ring with two threads a node, and rayon.
     competing: [Needs; 3],
-    divisions: Vec<division::Division>,
+    divisions: Vec<division::SpaceDivision>,
 }
 
 impl Found<'_> {
@@ -97,14 +97,14 @@ mod tests {
     #[test]
     fn the_report_shows_its_charts_and_misses_no_number() {
         let scene = Opened::new("ten-objects").unwrap();
-        let bench = Workbench::new(&scene, Size::new(100, 75).unwrap(), 1).unwrap();
+        let bench = Fixture::new(&scene, Size::new(100, 75).unwrap(), 1).unwrap();
         let mut measuring = Measuring::new(&bench, RUN, 0.2);
         measuring.simulated();
         measuring.sizes();
         measuring.swings();
         let handling = measuring.handling();
-        let on_threads = |row: &Row| Row { driver: "threads", twin_s: Some(row.makespan_s), ..row.clone() };
-        let rows: Vec<Row> = measuring.rows.iter().flat_map(|row| [row.clone(), on_threads(row)]).collect();
+        let on_threads = |row: &PaperRow| PaperRow { driver: "threads", twin_s: Some(row.makespan_s), ..row.clone() };
+        let rows: Vec<PaperRow> = measuring.rows.iter().flat_map(|row| [row.clone(), on_threads(row)]).collect();
         let needs = Needs::example();
         let divisions = division::count(&bench.tracer);
         let found =

@@ -8,9 +8,9 @@ use super::Found;
 use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
 use super::charts::select;
 use super::claims;
-use super::division::Division;
+use super::division::SpaceDivision;
 use super::measure::RUNS;
-use super::rows::Row;
+use super::rows::PaperRow;
 use crate::balance::Strategy;
 use crate::study::fixture::STRATEGIES;
 use crate::study::say;
@@ -33,7 +33,7 @@ pub(super) fn report(found: &Found<'_>) -> String {
 }
 
 /// Figure 9: whether time rises as packets shrink.
-fn packets(text: &mut String, rows: &[Row]) {
+fn packets(text: &mut String, rows: &[PaperRow]) {
     text.push_str("\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)\n");
     say!(text, "\nMean atoms in a packet, and time over the ideal, by the least atoms that are worth sending:\n");
     say!(text, "| at least | ring | ring, network | adaptive | adaptive, network |\n|---:|---:|---:|---:|---:|");
@@ -82,14 +82,14 @@ fn head(text: &mut String, Found { bench, pace, .. }: &Found<'_>) {
     );
 }
 
-fn verdicts(text: &mut String, rows: &[Row], competing: &[Needs; 3]) {
+fn verdicts(text: &mut String, rows: &[PaperRow], competing: &[Needs; 3]) {
     say!(text, "## Verdicts\n");
     for claim in claims::all(rows, competing) {
         say!(text, "- **{}** ({}): **{}**. {}", claim.says, claim.place, claim.verdict, claim.why);
     }
 }
 
-fn figures(text: &mut String, rows: &[Row]) {
+fn figures(text: &mut String, rows: &[PaperRow]) {
     for (driver, network, name) in [
         ("threads", "none", "threads, no network"),
         ("sim", "none", "virtual time, no network"),
@@ -125,7 +125,7 @@ fn figures(text: &mut String, rows: &[Row]) {
 }
 
 /// Whether real and virtual time agree.
-fn agreement(text: &mut String, rows: &[Row]) {
+fn agreement(text: &mut String, rows: &[PaperRow]) {
     say!(text, "\n## Do threads and virtual time agree?\n");
     say!(text, "Makespan on threads over that of the same run in virtual time, with the costs measured in it.\n");
     say!(text, "| strategy | runs | least | middle | greatest |\n|---|---:|---:|---:|---:|");
@@ -139,7 +139,7 @@ fn agreement(text: &mut String, rows: &[Row]) {
 }
 
 /// The slow machine at every place.
-fn places(text: &mut String, rows: &[Row]) {
+fn places(text: &mut String, rows: &[PaperRow]) {
     say!(text, "\n## The slow machine at every place of the ring\n");
     say!(text, "| place | threads | virtual time | virtual time, modelled network |\n|---:|---:|---:|---:|");
     let at = |network: &str, driver: &str, place: usize| {
@@ -182,7 +182,7 @@ fn choking(text: &mut String, handling: &[(f64, [f64; 4])]) {
 }
 
 /// §5's division of space.
-fn space(text: &mut String, divisions: &[Division]) {
+fn space(text: &mut String, divisions: &[SpaceDivision]) {
     say!(text, "\n## The third way: division of space (§5)\n");
     say!(
         text,
@@ -220,7 +220,7 @@ fn space(text: &mut String, divisions: &[Division]) {
     );
 }
 
-fn swings(text: &mut String, rows: &[Row]) {
+fn swings(text: &mut String, rows: &[PaperRow]) {
     say!(text, "\n## A machine whose speed swings\n");
     say!(
         text,

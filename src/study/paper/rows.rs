@@ -5,11 +5,11 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::article::{self, times_ideal};
-use crate::runlog::{Driver, Header, Tally};
+use crate::runlog::{Driver, Header, Metrics};
 
 /// One run, or the middle one of several of the same kind.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct PaperRow {
     /// The article's figure that it belongs to, or what is varied: `atom`, `part`, `place`, `swing`.
     pub figure: &'static str,
     /// `none`, or `modelled`.
@@ -42,25 +42,25 @@ pub(super) struct Row {
 
 /// What a row is about.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct About {
+pub(super) struct RowSubject {
     pub figure: &'static str,
     pub modelled: bool,
     /// The period with which a machine's speed swings.
     pub period: Option<Duration>,
 }
 
-impl About {
+impl RowSubject {
     /// A run of machines whose speeds do not change.
     pub fn new(figure: &'static str, modelled: bool) -> Self {
         Self { figure, modelled, period: None }
     }
 }
 
-impl Row {
+impl PaperRow {
     /// The row of a run; with its twin in virtual time, if it has one.
-    pub fn new(about: About, header: &Header, tally: &Tally, twin: Option<&Tally>) -> Self {
+    pub fn new(about: RowSubject, header: &Header, tally: &Metrics, twin: Option<&Metrics>) -> Self {
         let messages = tally.messages();
-        let seconds = |tally: &Tally| tally.makespan().unwrap_or_default().as_secs_f64();
+        let seconds = |tally: &Metrics| tally.makespan().unwrap_or_default().as_secs_f64();
         let place = header.speeds.iter().position(|&speed| speed < 1.0);
         let nodes = header.speeds.len();
         let is_last = place.is_none_or(|place| place + 1 == nodes);
@@ -91,7 +91,7 @@ impl Row {
 }
 
 /// The middle one of several rows, by how far from ideal they are.
-pub(super) fn middle(mut rows: Vec<Row>) -> Option<Row> {
+pub(super) fn middle(mut rows: Vec<PaperRow>) -> Option<PaperRow> {
     rows.sort_by(|a, b| a.over_ideal.total_cmp(&b.over_ideal));
     let middle = rows.len() / 2;
     rows.into_iter().nth(middle)

@@ -12,7 +12,7 @@ mod step;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{Study, Tell};
+use super::{ProgressSink, Study};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
 use crate::scene::{Opened, Scene};
@@ -23,7 +23,7 @@ use step::Step;
 
 /// A scene after some of the steps, as both programs see it.
 #[derive(Clone, Debug, Serialize)]
-struct Row {
+struct PeerRow {
     scene: String,
     /// The last step that was taken.
     step: &'static str,
@@ -47,7 +47,7 @@ struct Row {
 ///
 /// # Errors
 /// A sentence, if POV-Ray is not installed or failed, or a picture could not be kept.
-pub fn peer(scenes: &[Opened], size: Size, tell: Tell<'_>) -> Result<Study, String> {
+pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
     let povray = PovRay::find()?;
     let bored = bored_cylinder::scene()?;
     let bore = Bore::of(&bored.scene, size);
@@ -99,9 +99,9 @@ impl Pictures {
         self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| apart(*ours, *theirs))
     }
 
-    fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> Row {
+    fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> PeerRow {
         let differing = self.differences().filter(|&difference| difference > Difference::SAME).count() as u32;
-        Row {
+        PeerRow {
             scene: scene.to_owned(),
             step: step.name(),
             pixels: self.size.pixels(),

@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use super::povray::PovRay;
 use super::step::Step;
-use super::{DIFFERENCE, OURS, Row, THEIRS, picture_name};
+use super::{DIFFERENCE, OURS, PeerRow, THEIRS, picture_name};
 use crate::picture::{Difference, Size};
 use crate::study::say;
 
 /// The report, in Markdown. `rows` are by scene, then by step; the last scene is the bored cylinder.
-pub(super) fn report(povray: &PovRay, size: Size, rows: &[Row]) -> String {
+pub(super) fn report(povray: &PovRay, size: Size, rows: &[PeerRow]) -> String {
     let mut text = String::from("# Every pixel beside POV-Ray's\n\n");
-    let scenes: Vec<&[Row]> = rows.chunks_exact(Step::ALL.len()).collect();
+    let scenes: Vec<&[PeerRow]> = rows.chunks_exact(Step::ALL.len()).collect();
     head(&mut text, povray, size);
     table(&mut text, &scenes);
     causes(&mut text);
@@ -43,7 +43,7 @@ fn head(text: &mut String, povray: &PovRay, size: Size) {
     );
 }
 
-fn table(text: &mut String, scenes: &[&[Row]]) {
+fn table(text: &mut String, scenes: &[&[PeerRow]]) {
     let columns = Step::ALL.map(Step::name).join(" | ");
     say!(text, "## Pixels that differ\n\n| scene | of | {columns} | share, as it is | greatest difference, as it is |");
     say!(text, "|---|---:|{}", "---:|".repeat(Step::ALL.len() + 2));
@@ -71,7 +71,7 @@ fn causes(text: &mut String) {
     }
 }
 
-fn through_the_bore(text: &mut String, povray: &PovRay, bored: &Row) {
+fn through_the_bore(text: &mut String, povray: &PovRay, bored: &PeerRow) {
     let count = |pixels: Option<u32>| pixels.map_or("–".into(), |pixels| pixels.to_string());
     say!(
         text,
@@ -86,7 +86,7 @@ fn through_the_bore(text: &mut String, povray: &PovRay, bored: &Row) {
     pictures(text, bored);
 }
 
-fn side_by_side(text: &mut String, steps: &[Row]) {
+fn side_by_side(text: &mut String, steps: &[PeerRow]) {
     let [as_it_is, ..] = steps else { return };
     let counts: Vec<u32> = steps.iter().map(|row| row.differing).collect();
     let gone = counts.windows(2).zip(&Step::ALL[1..]).filter(|(pair, _)| pair[1] < pair[0]);
@@ -100,7 +100,7 @@ fn side_by_side(text: &mut String, steps: &[Row]) {
     pictures(text, as_it_is);
 }
 
-fn pictures(text: &mut String, row: &Row) {
+fn pictures(text: &mut String, row: &PeerRow) {
     let shown = |which| format!("![]({})", picture_name(&row.scene, which));
     say!(text, "\n| anel | POV-Ray | where they differ |\n|---|---|---|");
     say!(text, "| {} | {} | {} |", shown(OURS), shown(THEIRS), shown(DIFFERENCE));

@@ -14,7 +14,7 @@ const THROTTLED: f64 = 0.01;
 const VICTIM: NodeId = 1;
 
 /// One case.
-pub(super) struct Case {
+pub(super) struct RemedyCase {
     pub name: String,
     /// What befalls whom, for the report.
     pub about: String,
@@ -30,16 +30,16 @@ pub(super) struct Case {
 }
 
 /// Unequal machines, of which one is throttled in mid-run: for rayon, which knows no losses.
-pub(super) fn throttled() -> Case {
+pub(super) fn throttled() -> RemedyCase {
     let about = "machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % of the run";
     let script = at(0.3, Command::Speed { node: VICTIM, speed: THROTTLED });
-    Case { speeds: vec![1.0, 0.7, 0.4, 1.0], script, ..plain("unequal, throttled", about, 1.05) }
+    RemedyCase { speeds: vec![1.0, 0.7, 0.4, 1.0], script, ..plain("unequal, throttled", about, 1.05) }
 }
 
 /// Four equal machines to which nothing happens.
-fn plain(name: &str, about: &str, aim: f64) -> Case {
+fn plain(name: &str, about: &str, aim: f64) -> RemedyCase {
     let script = Box::new(|_| Script::new());
-    Case { name: name.into(), about: about.into(), speeds: vec![1.0; 4], spares: 0, corner: false, script, aim }
+    RemedyCase { name: name.into(), about: about.into(), speeds: vec![1.0; 4], spares: 0, corner: false, script, aim }
 }
 
 /// One thing that is done when so much of the run is over.
@@ -48,9 +48,11 @@ fn at(part: f64, command: Command) -> Box<dyn Fn(Duration) -> Script> {
 }
 
 /// All of them.
-pub(super) fn cases() -> Vec<Case> {
-    let with =
-        |name: &str, about: &str, script: Box<dyn Fn(Duration) -> Script>| Case { script, ..plain(name, about, 1.05) };
+pub(super) fn cases() -> Vec<RemedyCase> {
+    let with = |name: &str, about: &str, script: Box<dyn Fn(Duration) -> Script>| RemedyCase {
+        script,
+        ..plain(name, about, 1.05)
+    };
     let speed = |speed| Command::Speed { node: VICTIM, speed };
     let put = |condition| Command::Condition { node: VICTIM, condition };
     let mut cases = vec![plain("equal", "four equal machines", 1.01)];
@@ -58,7 +60,7 @@ pub(super) fn cases() -> Vec<Case> {
         let mut speeds = vec![1.0; 4];
         speeds.insert(place, SLOW);
         let name = format!("slow fifth, place {}", place + 1);
-        Case { name, speeds, ..plain("", "a fifth machine at 14 % of the speed of four equal ones", 1.02) }
+        RemedyCase { name, speeds, ..plain("", "a fifth machine at 14 % of the speed of four equal ones", 1.02) }
     }));
     cases.extend([
         with("1 % at 30 %", "one of four falls to 1 % of its speed at 30 % of the run", at(0.3, speed(THROTTLED))),
@@ -78,13 +80,13 @@ pub(super) fn cases() -> Vec<Case> {
                     .to_vec()
             }),
         ),
-        Case {
+        RemedyCase {
             speeds: vec![1.0; 5],
             spares: 1,
             script: at(0.3, Command::Condition { node: 4, condition: Condition::Well }),
             ..plain("joined at 30 %", "a fifth equal machine joins four at 30 % of the run", 1.05)
         },
-        Case { corner: true, ..plain("corner", "nearly all the work in one corner of the picture", 1.05) },
+        RemedyCase { corner: true, ..plain("corner", "nearly all the work in one corner of the picture", 1.05) },
         with(
             "square wave",
             "one of four swings between full speed and a twentieth, ten times in the run",

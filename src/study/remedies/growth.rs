@@ -10,9 +10,9 @@ use super::super::progress::Progress;
 use super::super::say;
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, Link};
-use crate::study::fixture::{Costs, simulate, weighted};
-use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+use crate::runlog::{Driver, Header, LinkSettings};
+use crate::study::fixture::{AtomCosts, simulate, weighted};
+use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// How many machines.
 const NODES: [usize; 5] = [4, 16, 64, 256, 1024];
@@ -32,7 +32,7 @@ const RIVALS: [(&str, Strategy, Remedies); 3] = [
 
 /// One run.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct GrowthRow {
     pub nodes: usize,
     pub uneven: bool,
     pub rival: &'static str,
@@ -48,7 +48,7 @@ pub(super) struct Row {
 pub(super) const STEPS: usize = 2 * NODES.len();
 
 /// Runs all of it in virtual time.
-pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<Row> {
+pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<GrowthRow> {
     let mut rows = Vec::new();
     for uneven in [false, true] {
         for nodes in NODES {
@@ -63,7 +63,7 @@ pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<Row> {
 }
 
 /// What atoms cost: within a tenfold range at random, and nine tenths of it in one part of the picture if it is uneven.
-fn costs(nodes: usize, uneven: bool) -> Costs {
+fn costs(nodes: usize, uneven: bool) -> AtomCosts {
     let mut rng = Rng::with_seed(nodes as u64);
     let atoms = ATOMS as usize * nodes;
     let dear = if uneven { 0.9 * PART as f64 } else { 1.0 };
@@ -75,23 +75,23 @@ fn costs(nodes: usize, uneven: bool) -> Costs {
 fn row(
     nodes: usize,
     uneven: bool,
-    costs: &Costs,
+    costs: &AtomCosts,
     rival: &'static str,
     (strategy, remedies): (Strategy, Remedies),
-) -> Row {
+) -> GrowthRow {
     // No picture of so many atoms is too large.
     let size = Size::new(50, costs.len() as u32).unwrap_or_else(|why| unreachable!("{why}"));
     let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
     let header = Header {
         driver: Driver::Sim,
         rules: Rules { batch: None, remedies, ..plain.rules },
-        link: Link { latency: LATENCY, ..plain.link },
+        link: LinkSettings { latency: LATENCY, ..plain.link },
         ..plain
     };
     let tally = simulate(&header, &[], costs);
     let messages = tally.messages();
     let a_node = |count: u64| count as f64 / nodes as f64;
-    Row {
+    GrowthRow {
         nodes,
         uneven,
         rival,
@@ -104,39 +104,41 @@ fn row(
 }
 
 /// Efficiency, and messages a machine, over the number of machines.
-pub(super) fn charts(rows: &[Row]) -> Vec<(String, Chart)> {
+pub(super) fn charts(rows: &[GrowthRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
     for uneven in [false, true] {
         let kind = if uneven { "uneven" } else { "even" };
         let words = if uneven { "nine tenths of the work in a sixteenth of the picture" } else { "work spread evenly" };
         let efficiency = chart(rows, uneven, "efficiency", Scale::Linear, |row| row.efficiency);
-        charts
-            .push((format!("growth-{kind}"), Chart { title: format!("A picture that grows: {words}"), ..efficiency }));
+        charts.push((
+            format!("growth-{kind}"),
+            LineChart { title: format!("A picture that grows: {words}"), ..efficiency },
+        ));
         let asking =
             chart(rows, uneven, "offers, hops, notes and wakes a machine", Scale::Log10, |row| row.asking_per_node);
-        charts.push((format!("asking-{kind}"), Chart { title: format!("How asking grows: {words}"), ..asking }));
+        charts.push((format!("asking-{kind}"), LineChart { title: format!("How asking grows: {words}"), ..asking }));
     }
     charts
 }
 
-fn chart(rows: &[Row], uneven: bool, label: &str, scale: Scale, value: impl Fn(&Row) -> f64) -> Chart {
+fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: impl Fn(&GrowthRow) -> f64) -> LineChart {
     let line = |(place, (name, ..)): (usize, (&str, Strategy, Remedies))| {
         let of = rows.iter().filter(|row| row.uneven == uneven && row.rival == name);
         let points = of.map(|row| (row.nodes as f64, value(row))).collect();
         Series { name: name.into(), hue: series_hue(place), points, style: Style::Line }
     };
     let range = (scale == Scale::Linear).then_some((0.0, 1.0));
-    Chart {
+    LineChart {
         note: format!("{} ms a message, {ATOMS} atoms a machine", LATENCY.as_millis()),
         x: Axis { label: "machines".into(), scale: Scale::Log2, range: None },
         y: Axis { label: label.into(), scale, range },
         series: RIVALS.into_iter().enumerate().map(line).collect(),
-        ..Chart::default()
+        ..LineChart::default()
     }
 }
 
 /// Both as a table.
-pub(super) fn report(text: &mut String, rows: &[Row]) {
+pub(super) fn report(text: &mut String, rows: &[GrowthRow]) {
     say!(text, "\n## From four machines to a thousand\n");
     say!(
         text,

@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::super::median;
 use super::super::progress::Progress;
-use super::cases::{Case, cases, throttled};
+use super::cases::{RemedyCase, cases, throttled};
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, Link, Tally};
+use crate::runlog::{Driver, Header, LinkSettings, Metrics};
 use crate::scene::Opened;
-use crate::study::fixture::{Workbench, cost_of, simulate};
+use crate::study::fixture::{Fixture, cost_of, simulate};
 
 /// How long a run in virtual time takes all machines together at full speed, and about how long one on threads does.
 const RUN: Duration = Duration::from_millis(1200);
@@ -59,7 +59,7 @@ impl Rival {
 
 /// One case of one rival: the middle of its runs.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct RemedyRow {
     pub case: String,
     pub driver: &'static str,
     pub latency_ms: f64,
@@ -83,12 +83,12 @@ pub(super) fn steps() -> usize {
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec<Row>, String> {
+pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec<RemedyRow>, String> {
     let cases = cases();
     let size = Size::new(SIZE.0, SIZE.1)?;
     let corner = Opened::new("corner").map_err(|error| error.to_string())?;
-    let (plain, corner) = (Workbench::new(scene, size, 1)?, Workbench::new(&corner, size, 1)?);
-    let bench = |case: &Case| if case.corner { &corner } else { &plain };
+    let (plain, corner) = (Fixture::new(scene, size, 1)?, Fixture::new(&corner, size, 1)?);
+    let bench = |case: &RemedyCase| if case.corner { &corner } else { &plain };
     let mut rows = Vec::new();
     for latency in LATENCIES {
         for case in &cases {
@@ -110,20 +110,20 @@ pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec
     Ok(rows)
 }
 
-fn header(bench: &Workbench, case: &Case, atom: u32, rival: Rival) -> Header {
+fn header(bench: &Fixture, case: &RemedyCase, atom: u32, rival: Rival) -> Header {
     let plain = bench.header(atom, rival.strategy(), case.speeds.clone());
     let remedies = if let Rival::Adaptive(remedies) = rival { remedies } else { plain.rules.remedies };
     let spares = if rival == Rival::Ring { 0 } else { case.spares };
     Header { rules: Rules { batch: Some(Rules::BATCH), remedies, ..plain.rules }, spares, ..plain }
 }
 
-fn virtually(bench: &Workbench, case: &Case, latency: f64, rival: Rival) -> Row {
+fn virtually(bench: &Fixture, case: &RemedyCase, latency: f64, rival: Rival) -> RemedyRow {
     let power: f64 = case.speeds.iter().sum();
-    let runs: Vec<Tally> = ATOMS
+    let runs: Vec<Metrics> = ATOMS
         .iter()
         .map(|&atom| {
             let plain = header(bench, case, atom, rival);
-            let link = Link { latency: Duration::from_secs_f64(latency * 1e-3), ..plain.link };
+            let link = LinkSettings { latency: Duration::from_secs_f64(latency * 1e-3), ..plain.link };
             let header = Header { link, ..plain };
             simulate(&header, &(case.script)(RUN), &bench.costs(atom, RUN.mul_f64(power)))
         })
@@ -132,34 +132,39 @@ fn virtually(bench: &Workbench, case: &Case, latency: f64, rival: Rival) -> Row 
 }
 
 /// Each of the rivals in turn, so that what disturbs the computer disturbs all alike.
-fn on_threads(scene: &Opened, case: &Case, rivals: &[Rival], progress: &mut Progress<'_>) -> Result<Vec<Row>, String> {
+fn on_threads(
+    scene: &Opened,
+    case: &RemedyCase,
+    rivals: &[Rival],
+    progress: &mut Progress<'_>,
+) -> Result<Vec<RemedyRow>, String> {
     // What leaves more than half of the computer idle.
     let pace = (0.4 * cores() as f64 / case.speeds.iter().sum::<f64>()).min(1.0);
     let rate = case.speeds.iter().sum::<f64>() * pace;
     let size = Size::new(SIZE.0, SIZE.1)?;
     let long_enough = |samples: &u32| cost_of(scene, size, *samples).as_secs_f64() >= RUN.as_secs_f64() * rate;
     let samples = (1..8).find(long_enough).unwrap_or(8);
-    let bench = Workbench::new(scene, size, samples)?;
+    let bench = Fixture::new(scene, size, samples)?;
     let run = cost_of(scene, size, samples).div_f64(rate);
-    let mut runs: Vec<Vec<Tally>> = rivals.iter().map(|_| Vec::new()).collect();
+    let mut runs: Vec<Vec<Metrics>> = rivals.iter().map(|_| Vec::new()).collect();
     for _ in 0..RUNS {
         for (&rival, runs) in rivals.iter().zip(&mut runs) {
             progress.next(&format!("on threads: {}, {}", case.name, rival.name()));
             let driver = if rival == Rival::Rayon { Driver::WorkStealing } else { Driver::Threads };
             let header = Header { driver, pace, cores: cores(), ..header(&bench, case, 50, rival) };
-            runs.push(Tally::of(&run_to_end(&bench.tracer, &header, &(case.script)(run))?));
+            runs.push(Metrics::of(&run_to_end(&bench.tracer, &header, &(case.script)(run))?));
         }
     }
     Ok(rivals.iter().zip(&runs).map(|(&rival, runs)| row(case, Driver::Threads, 0.0, rival, runs)).collect())
 }
 
-fn row(case: &Case, driver: Driver, latency_ms: f64, rival: Rival, runs: &[Tally]) -> Row {
-    let over = |tally: &Tally| Some(tally.makespan()?.div_duration_f64(tally.ideal()?));
+fn row(case: &RemedyCase, driver: Driver, latency_ms: f64, rival: Rival, runs: &[Metrics]) -> RemedyRow {
+    let over = |tally: &Metrics| Some(tally.makespan()?.div_duration_f64(tally.ideal()?));
     let mut ratios: Vec<f64> = runs.iter().filter_map(over).collect();
     let all = ratios.len() == runs.len();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let of_runs = |of: &dyn Fn(&Tally) -> f64| median(&mut runs.iter().map(of).collect::<Vec<_>>());
-    Row {
+    let of_runs = |of: &dyn Fn(&Metrics) -> f64| median(&mut runs.iter().map(of).collect::<Vec<_>>());
+    RemedyRow {
         case: case.name.clone(),
         driver: driver.name(),
         latency_ms,

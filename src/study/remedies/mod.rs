@@ -6,14 +6,14 @@ mod measure;
 mod report;
 
 use super::progress::Progress;
-use super::{Study, Tell};
+use super::{ProgressSink, Study};
 use crate::scene::Opened;
 
 /// Measures all cases with this scene's picture.
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn remedies(scene: &Opened, tell: Tell<'_>) -> Result<Study, String> {
+pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
     let mut progress = Progress::new(measure::steps() + growth::STEPS, tell);
     let growth = growth::measure(&mut progress);
     let rows = measure::measure(scene, &mut progress)?;

@@ -4,15 +4,15 @@ use std::fmt::Write;
 
 use super::super::say;
 use super::cases::cases;
-use super::measure::{LATENCIES, Row};
+use super::measure::{LATENCIES, RemedyRow};
 use crate::balance::Remedy;
-use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// A ring that never ends is shown here.
 const ENDLESS: f64 = 10.0;
 
 /// A chart for each remedy: what a run takes over the bound, with all remedies and without this one, by case.
-pub(super) fn charts(rows: &[Row]) -> Vec<(String, Chart)> {
+pub(super) fn charts(rows: &[RemedyRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
     for latency in LATENCIES {
         let name = |what: &str| format!("{what}-{latency}ms");
@@ -27,10 +27,10 @@ pub(super) fn charts(rows: &[Row]) -> Vec<(String, Chart)> {
     charts
 }
 
-fn chart(rows: &[Row], latency: f64, title: String, rivals: &[&str]) -> Chart {
+fn chart(rows: &[RemedyRow], latency: f64, title: String, rivals: &[&str]) -> LineChart {
     let cases = cases();
     let of = |rival: &str| {
-        let point = |(number, case): (usize, &super::cases::Case)| {
+        let point = |(number, case): (usize, &super::cases::RemedyCase)| {
             let row = find(rows, &case.name, "sim", latency, rival)?;
             // On a scale of ratios there is no zero.
             Some((number as f64 + 1.0, row.over_bound.unwrap_or(ENDLESS).min(ENDLESS) - 1.0 + 1e-4))
@@ -43,7 +43,7 @@ fn chart(rows: &[Row], latency: f64, title: String, rivals: &[&str]) -> Chart {
         points: of(rival),
         style: if place == 0 { Style::Hollow } else { Style::Dots },
     });
-    Chart {
+    LineChart {
         title,
         note: "time over the bound, less one; at 9 a run never ends; the cases' numbers are the report's".into(),
         x: Axis { label: "case".into(), scale: Scale::Linear, range: Some((0.0, cases.len() as f64 + 1.0)) },
@@ -52,11 +52,11 @@ fn chart(rows: &[Row], latency: f64, title: String, rivals: &[&str]) -> Chart {
     }
 }
 
-fn find<'a>(rows: &'a [Row], case: &str, driver: &str, latency: f64, rival: &str) -> Option<&'a Row> {
+fn find<'a>(rows: &'a [RemedyRow], case: &str, driver: &str, latency: f64, rival: &str) -> Option<&'a RemedyRow> {
     rows.iter().find(|row| row.case == case && row.driver == driver && row.latency_ms == latency && row.rival == rival)
 }
 
-pub(super) fn report(rows: &[Row]) -> String {
+pub(super) fn report(rows: &[RemedyRow]) -> String {
     let mut text = String::from("# The ring that adapts\n\n");
     say!(
         text,
@@ -111,7 +111,7 @@ pub(super) fn report(rows: &[Row]) -> String {
 }
 
 /// What a remedy gains at most, and where; and on the average.
-fn gain(rows: &[Row], remedy: Remedy, latency: f64) -> String {
+fn gain(rows: &[RemedyRow], remedy: Remedy, latency: f64) -> String {
     let (mut most, mut place, mut sum, mut count) = (0.0, String::new(), 0.0, 0u32);
     for case in cases() {
         let of = |rival: &str| find(rows, &case.name, "sim", latency, rival).map(|row| row.over_bound);

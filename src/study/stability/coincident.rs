@@ -4,14 +4,14 @@ use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::super::random::{aside, between, turn, unit};
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::{Primitive, Solid, Stack, Tree};
 use crate::geometry::{Ray, rotation};
 use crate::view::Scale;
 
-pub(super) fn cases() -> [Case; 2] {
+pub(super) fn cases() -> [StabilityCase; 2] {
     [
-        Case {
+        StabilityCase {
             name: "bore",
             title: "Coincident faces",
             about: "A cylinder bored by one that ends exactly where it ends, which its map says in another order of moves and \
@@ -28,7 +28,7 @@ pub(super) fn cases() -> [Case; 2] {
             tries: 5000,
             attempt: bore,
         },
-        Case {
+        StabilityCase {
             name: "plate",
             title: "A thin plate",
             about: "What is grouped may not be lost: a plate seen from a distance of 10, turned somehow, in a union with a ball \
@@ -60,7 +60,7 @@ fn events(solid: &Solid, ray: &Ray) -> Vec<f64> {
     places
 }
 
-fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     let mut count = Count::<3>::new();
     for index in 0..tries {
         let turned = if index % 4 == 0 { rotation(DVec3::new(3.0, 11.0, 5.0)) } else { turn(rng) };
@@ -97,7 +97,7 @@ fn caps(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
     [(-1.0 - o.y) / d.y, (1.0 - o.y) / d.y]
 }
 
-fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const FUSED: f64 = 0.0005;
     let mut count = Count::<2>::new();
     for index in 0..tries {

@@ -5,14 +5,14 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::super::random::{aside, between, unit};
 use super::subject::Subject;
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
 
 /// Discriminants by b² − c lose what the ball is to what the distance is.
-pub(super) fn sphere() -> Case {
-    Case {
+pub(super) fn sphere() -> StabilityCase {
+    StabilityCase {
         name: "far-sphere",
         title: "A far sphere",
         about: "Rays towards a sphere of radius 1 that pass its centre within 2: is it hit? The textbook's discriminant b² − ac \
@@ -30,7 +30,7 @@ pub(super) fn sphere() -> Case {
     }
 }
 
-fn attempt(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn attempt(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     let ball = Subject::new(Primitive::Sphere, DAffine3::IDENTITY);
     let mut count = Count::<3>::new();
     for _ in 0..tries {

@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::super::random::{aside, between, placing, sign, turn, unit};
 use super::subject::{Subject, is_broken};
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
@@ -19,8 +19,8 @@ const FROM: f64 = 100.0;
 
 const SIZE: DVec3 = DVec3::new(1.0, 0.8, 0.6);
 
-pub(super) fn cases() -> [Case; 4] {
-    let grazing = |name, title, about, required, attempt| Case {
+pub(super) fn cases() -> [StabilityCase; 4] {
+    let grazing = |name, title, about, required, attempt| StabilityCase {
         name,
         title,
         about,
@@ -34,7 +34,7 @@ pub(super) fn cases() -> [Case; 4] {
         attempt,
     };
     [
-        Case {
+        StabilityCase {
             parameter: "angle off the generator",
             values: down_to_0(0),
             ..grazing(
@@ -82,7 +82,7 @@ fn down_to_0(from: i32) -> Vec<f64> {
     tens(from, -16).into_iter().chain([0.0]).collect()
 }
 
-fn generator(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn generator(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const TOLERANCE: f64 = 1e-9;
     let mut count = Count::<2>::new();
     for index in 0..tries {
@@ -107,7 +107,7 @@ fn generator(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     count.outcomes()
 }
 
-fn tangent(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn tangent(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const SOLIDS: [(Primitive, DVec3); 4] =
         [(Primitive::Sphere, DVec3::ONE), (Primitive::Sphere, SIZE), (Primitive::Cylinder, SIZE), (CONE, SIZE)];
     graze(tries, rng, |index, rng| {
@@ -126,7 +126,7 @@ fn tangent(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     graze(tries, rng, |index, rng| {
         let off = distance * sign(rng);
         if index % 4 == 0 {
@@ -150,7 +150,7 @@ fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn apex(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn apex(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     graze(tries, rng, |_, rng| {
         let cone = Subject::new(CONE, placing(rng, SIZE));
         let point = cone.scene_from_own.transform_point3(DVec3::Y) + unit(rng) * distance;
@@ -160,7 +160,7 @@ fn apex(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
 }
 
 /// What becomes of rays given by their origin and direction, each with the solid that it grazes.
-fn graze(tries: u32, rng: &mut Rng, mut aim: impl FnMut(u32, &mut Rng) -> (Subject, DVec3, DVec3)) -> Vec<Outcome> {
+fn graze(tries: u32, rng: &mut Rng, mut aim: impl FnMut(u32, &mut Rng) -> (Subject, DVec3, DVec3)) -> Vec<Verdicts> {
     let mut count = Count::<2>::new();
     for index in 0..tries {
         let (solid, origin, direction) = aim(index, rng);

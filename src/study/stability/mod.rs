@@ -19,11 +19,11 @@ use fastrand::Rng;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{Study, Tell};
+use super::{ProgressSink, Study};
 use crate::view::Scale;
 
 /// Something that is tried at growing hardness, by several methods.
-pub(super) struct Case {
+pub(super) struct StabilityCase {
     /// In file names.
     name: &'static str,
     title: &'static str,
@@ -35,21 +35,21 @@ pub(super) struct Case {
     values: Vec<f64>,
     /// The hardest of them at which ours must not be wrong.
     required: f64,
-    /// How [`Case::values`] are drawn.
+    /// How [`StabilityCase::values`] are drawn.
     scale: Scale,
     /// Ours is the last one; of the protocol, the ring.
     methods: &'static [&'static str],
-    /// What [`Outcome::measured`] is, if it is drawn instead of the share that is wrong.
+    /// What [`Verdicts::measured`] is, if it is drawn instead of the share that is wrong.
     measures: Option<&'static str>,
     /// How often each value is tried.
     tries: u32,
     /// Tries one value so often; what comes of it, by method.
-    attempt: fn(f64, u32, &mut Rng) -> Vec<Outcome>,
+    attempt: fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
 }
 
 /// What came of a method's tries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Outcome {
+pub(super) struct Verdicts {
     tried: u64,
     wrong: u64,
     /// Something else that was measured; `None` if it is infinite, or nothing is.
@@ -58,7 +58,7 @@ pub(super) struct Outcome {
 
 /// What came of one method at one value.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct StabilityRow {
     case: &'static str,
     parameter: &'static str,
     value: f64,
@@ -73,7 +73,7 @@ pub(super) struct Row {
 }
 
 /// All cases, from the geometry to the protocol.
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<StabilityCase> {
     let mut cases = vec![far::sphere()];
     cases.extend(graze::cases());
     cases.extend(torus::cases());
@@ -89,7 +89,7 @@ fn cases() -> Vec<Case> {
 ///
 /// # Errors
 /// A sentence, if the rows could not be written.
-pub fn stability(tell: Tell<'_>) -> Result<Study, String> {
+pub fn stability(tell: ProgressSink<'_>) -> Result<Study, String> {
     let cases = cases();
     let mut progress = Progress::new(cases.len(), tell);
     let mut study = Study::new("stability");
@@ -101,7 +101,7 @@ pub fn stability(tell: Tell<'_>) -> Result<Study, String> {
     }
     study.add_rows(&rows)?;
     let starts = [0].into_iter().chain(ends.iter().copied());
-    let found: Vec<(&Case, &[Row])> =
+    let found: Vec<(&StabilityCase, &[StabilityRow])> =
         cases.iter().zip(starts.zip(&ends)).map(|(case, (start, &end))| (case, &rows[start..end])).collect();
     for (case, rows) in &found {
         study.add_chart(case.name, &report::chart(case, rows).marks(crate::view::CHART_SIZE));
@@ -110,14 +110,14 @@ pub fn stability(tell: Tell<'_>) -> Result<Study, String> {
     Ok(study)
 }
 
-impl Case {
+impl StabilityCase {
     /// What comes of `tries` at each value: a row for each value and method.
-    fn rows(&self, tries: u32) -> Vec<Row> {
+    fn rows(&self, tries: u32) -> Vec<StabilityRow> {
         let mut rows = Vec::new();
         let hardest = self.values.iter().position(|&value| value == self.required);
         for (place, &value) in self.values.iter().enumerate() {
             let outcomes = (self.attempt)(value, tries, &mut Rng::with_seed(place as u64));
-            rows.extend(self.methods.iter().zip(outcomes).map(|(&method, outcome)| Row {
+            rows.extend(self.methods.iter().zip(outcomes).map(|(&method, outcome)| StabilityRow {
                 case: self.name,
                 parameter: self.parameter,
                 value,
@@ -153,12 +153,12 @@ fn powers(from: i32, to: i32) -> impl Iterator<Item = i32> {
 }
 
 /// Counts wrong answers of several methods that try the same.
-struct Count<const N: usize>([Outcome; N]);
+struct Count<const N: usize>([Verdicts; N]);
 
 impl<const N: usize> Count<N> {
     /// Nothing has been tried.
     fn new() -> Self {
-        Self([Outcome::default(); N])
+        Self([Verdicts::default(); N])
     }
 
     /// All have tried once more; which of them were wrong.
@@ -177,7 +177,7 @@ impl<const N: usize> Count<N> {
         }
     }
 
-    fn outcomes(self) -> Vec<Outcome> {
+    fn outcomes(self) -> Vec<Verdicts> {
         self.0.to_vec()
     }
 }
@@ -185,7 +185,7 @@ impl<const N: usize> Count<N> {
 /// Tries a case less often than the study does. Ours must hold as far as it is required, and the case must be a hard one:
 /// there each other method must be wrong somewhere.
 #[cfg(test)]
-fn check(case: &Case, tries: u32) {
+fn check(case: &StabilityCase, tries: u32) {
     let rows = case.rows(tries);
     assert_eq!(rows.len(), case.values.len() * case.methods.len(), "{}", case.name);
     for method in case.methods {
@@ -208,8 +208,9 @@ mod tests {
         let cases = cases();
         let names: BTreeSet<&str> = cases.iter().map(|case| case.name).collect();
         assert_eq!(names.len(), cases.len());
-        let rows: Vec<Vec<Row>> = cases.iter().map(|case| case.rows(4)).collect();
-        let found: Vec<(&Case, &[Row])> = cases.iter().zip(&rows).map(|(case, rows)| (case, &rows[..])).collect();
+        let rows: Vec<Vec<StabilityRow>> = cases.iter().map(|case| case.rows(4)).collect();
+        let found: Vec<(&StabilityCase, &[StabilityRow])> =
+            cases.iter().zip(&rows).map(|(case, rows)| (case, &rows[..])).collect();
         let report = report::report(&found);
         for (case, rows) in found {
             assert!(report.contains(&format!("](stability-{}.svg)", case.name)) && report.contains(case.about));

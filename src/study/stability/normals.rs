@@ -6,12 +6,12 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::super::random::{turn, unit};
 use super::exact::{cross, dot, vector};
 use super::subject::Subject;
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::{Primitive, Surface};
 use crate::view::Scale;
 
-pub(super) fn cases() -> [Case; 2] {
-    let flat = |name, title, about, required, attempt| Case {
+pub(super) fn cases() -> [StabilityCase; 2] {
+    let flat = |name, title, about, required, attempt| StabilityCase {
         name,
         title,
         about,
@@ -47,7 +47,7 @@ pub(super) fn cases() -> [Case; 2] {
     ]
 }
 
-fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3) -> Vec<Outcome> {
+fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3) -> Vec<Verdicts> {
     const MOST: f64 = 1e-12;
     let mut count = Count::<2>::new();
     for _ in 0..tries {

@@ -5,14 +5,14 @@ use std::time::Duration;
 use fastrand::Rng;
 
 use super::super::random::between;
-use super::{Case, Outcome, twos};
+use super::{StabilityCase, Verdicts, twos};
 use crate::balance::{Message, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
-use crate::record::What;
-use crate::runlog::{Driver, Header, Link, Tally};
+use crate::record::RecordKind;
+use crate::runlog::{Driver, Header, LinkSettings, Metrics};
 use crate::scenario::{Command, Script, square_wave};
 use crate::sim::Sim;
-use crate::study::fixture::{Costs, weighted};
+use crate::study::fixture::{AtomCosts, weighted};
 use crate::time::Time;
 use crate::view::Scale;
 
@@ -28,8 +28,8 @@ const IDEAL: Duration = Duration::from_millis(2 * ATOMS as u64 / NODES as u64);
 /// A message's, where nothing else is said.
 const LATENCY: Duration = Duration::from_micros(100);
 
-pub(super) fn cases() -> [Case; 5] {
-    let case = |name, title, about, parameter, values: Vec<f64>, scale, attempt| Case {
+pub(super) fn cases() -> [StabilityCase; 5] {
+    let case = |name, title, about, parameter, values: Vec<f64>, scale, attempt| StabilityCase {
         name,
         title,
         about,
@@ -99,8 +99,8 @@ pub(super) fn cases() -> [Case; 5] {
 
 /// So many runs of each strategy. `plan` says, the same for all of them, what atoms cost, how many nodes there are, and what is
 /// done to them.
-fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (Costs, usize, Script)) -> Vec<Outcome> {
-    let mut outcomes = vec![Outcome { measured: Some(0.0), ..Outcome::default() }; STRATEGIES.len()];
+fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (AtomCosts, usize, Script)) -> Vec<Verdicts> {
+    let mut outcomes = vec![Verdicts { measured: Some(0.0), ..Verdicts::default() }; STRATEGIES.len()];
     for index in 0..tries {
         let (costs, nodes, script) = plan(index, rng);
         for (strategy, outcome) in STRATEGIES.into_iter().zip(&mut outcomes) {
@@ -114,24 +114,24 @@ fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (Costs, us
 }
 
 /// One run: wrong are the atoms that were not traced and placed exactly once; measured is its time over the ideal one.
-fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &Costs) -> Outcome {
+fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> Verdicts {
     // One atom a row.
-    let Ok(size) = Size::new(50, costs.len() as u32) else { return Outcome::default() };
+    let Ok(size) = Size::new(50, costs.len() as u32) else { return Verdicts::default() };
     let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
     let header = Header {
         driver: Driver::Sim,
-        link: Link { latency: LATENCY, ..plain.link },
+        link: LinkSettings { latency: LATENCY, ..plain.link },
         rules: Rules { batch: None, ..plain.rules },
         ..plain
     };
     let cost = costs.clone();
     let mut sim = Sim::new(&header, script, move |atom| cost[atom as usize]);
     let (mut traced, mut placed) = (vec![0u32; costs.len()], vec![0u32; costs.len()]);
-    let mut tally = Tally::new(&header);
+    let mut tally = Metrics::new(&header);
     sim.run(&mut |record| {
         match &record.what {
-            What::AtomDone { atom, .. } => traced[*atom as usize] += 1,
-            What::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
+            RecordKind::AtomDone { atom, .. } => traced[*atom as usize] += 1,
+            RecordKind::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
                 ranges.iter().cloned().flatten().for_each(|atom| placed[atom as usize] += 1);
             }
             _ => {}
@@ -141,11 +141,11 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &Costs) -> Outc
     let wrong = traced.iter().zip(&placed).filter(|&times| times != (&1, &1)).count();
     let dearest = costs.iter().max().copied().unwrap_or_default();
     let over = |makespan: Duration| Some(makespan.div_duration_f64(tally.ideal()?.max(dearest)));
-    Outcome { tried: costs.len() as u64, wrong: wrong as u64, measured: tally.makespan().and_then(over) }
+    Verdicts { tried: costs.len() as u64, wrong: wrong as u64, measured: tally.makespan().and_then(over) }
 }
 
 /// Costs of so many atoms, [`COST`] on average: the dearest costs ten times what the cheapest does.
-fn uneven(atoms: u32, rng: &mut Rng) -> Costs {
+fn uneven(atoms: u32, rng: &mut Rng) -> AtomCosts {
     weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect(), COST)
 }
 
@@ -153,7 +153,7 @@ fn after(duration: Duration) -> Time {
     Time::ZERO + duration
 }
 
-fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const FAST: f64 = 1.0;
     const SLOW: f64 = 0.05;
     attempt(tries, rng, |_, rng| {
@@ -169,7 +169,7 @@ fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     attempt(tries, rng, |index, rng| {
         let node = rng.u16(0..NODES as NodeId);
         let from = if index % 2 == 0 { Duration::ZERO } else { IDEAL.mul_f64(rng.f64() / 2.0) };
@@ -178,12 +178,12 @@ fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn crowd(an_atom: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn crowd(an_atom: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const FEW: u32 = 64;
     attempt(tries, rng, |_, rng| (uneven(FEW, rng), (f64::from(FEW) * an_atom) as usize, Script::new()))
 }
 
-fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     attempt(tries, rng, |_, rng| {
         let dear = (f64::from(ATOMS) * share) as u32;
         let first = rng.u32(0..=ATOMS - dear);
@@ -193,7 +193,7 @@ fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     attempt(tries, rng, |_, rng| {
         // Longer than any run lasts.
         let changes = (0..50 * 100).map(|change| {
@@ -207,12 +207,12 @@ fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Row;
+    use super::super::StabilityRow;
     use super::*;
 
     /// The rows of one method, which all have ended with every atom once.
-    fn ended(case: &Case, method: &str) -> Vec<Row> {
-        let rows: Vec<Row> = case.rows(4).into_iter().filter(|row| row.method == method).collect();
+    fn ended(case: &StabilityCase, method: &str) -> Vec<StabilityRow> {
+        let rows: Vec<StabilityRow> = case.rows(4).into_iter().filter(|row| row.method == method).collect();
         assert_eq!(rows.len(), case.values.len());
         for row in &rows {
             assert!(row.wrong == 0 && row.measured.is_some_and(|over| over >= 1.0), "{row:?}");

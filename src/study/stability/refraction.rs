@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::super::random::{aside, between, sign, turn, unit};
 use super::exact::{Exact, dot, vector};
-use super::{Case, Count, Outcome, tens, twos};
+use super::{Count, StabilityCase, Verdicts, tens, twos};
 use crate::csg::{Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Material, Scene};
@@ -16,9 +16,9 @@ const IOR: f64 = 1.5;
 
 const WATER: f64 = 1.33;
 
-pub(super) fn cases() -> [Case; 3] {
+pub(super) fn cases() -> [StabilityCase; 3] {
     [
-        Case {
+        StabilityCase {
             name: "critical",
             title: "The critical angle",
             about: "Rays inside glass (n = 1.5) that meet its face at a small angle more or less than the critical one (41.81°: \
@@ -34,7 +34,7 @@ pub(super) fn cases() -> [Case; 3] {
             tries: 2000,
             attempt: critical,
         },
-        Case {
+        StabilityCase {
             name: "slabs",
             title: "A stack of slabs",
             about: "Rays through k parallel slabs of glass, turned somehow, at angles from 10⁻⁶ to 80° off their normal: they must \
@@ -49,7 +49,7 @@ pub(super) fn cases() -> [Case; 3] {
             tries: 100,
             attempt: slabs,
         },
-        Case {
+        StabilityCase {
             name: "media",
             title: "Glass that overlaps water",
             about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only touches it: in the glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air has to leave a gap, and in it light goes as in air. Wrong: a direction behind the water that differs by more than 10⁻¹², or a ray that does not get through.",
@@ -91,7 +91,7 @@ fn ways(scene: &Scene, depth: u32) -> Vec<Path> {
     ways
 }
 
-fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     let mut count = Count::<3>::new();
     for _ in 0..tries {
         let normal = unit(rng);
@@ -126,7 +126,7 @@ fn is_let_out(direction: DVec3, normal: DVec3) -> bool {
     !(&lengths - squared * (&lengths - &cosine * &cosine)).is_negative()
 }
 
-fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const MOST: f64 = 1e-12;
     let mut count = Count::<2>::new();
     for _ in 0..tries {
@@ -155,7 +155,7 @@ fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     count.outcomes()
 }
 
-fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const MOST: f64 = 1e-12;
     let mut count = Count::<2>::new();
     for _ in 0..tries {

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Case, Row, protocol};
+use super::{StabilityCase, StabilityRow, protocol};
 use crate::study::say;
-use crate::view::{Axis, Chart, Scale, Series, Style, series_hue};
+use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// The report, in Markdown.
 pub(super) fn report(found: &[Found<'_>]) -> String {
@@ -15,7 +15,7 @@ pub(super) fn report(found: &[Found<'_>]) -> String {
          without rounding from the very numbers that the methods were given. All is in f64 unless it says otherwise, and random with \
          fixed seeds: who runs it again gets the same.\n"
     );
-    let of_protocol = |(case, _): &&(&Case, &[Row])| case.methods == protocol::METHODS;
+    let of_protocol = |(case, _): &&(&StabilityCase, &[StabilityRow])| case.methods == protocol::METHODS;
     methods(&mut text, found.iter().filter(|found| !of_protocol(found)));
     strategies(&mut text, found.iter().filter(of_protocol));
     for &(case, rows) in found {
@@ -27,7 +27,7 @@ pub(super) fn report(found: &[Found<'_>]) -> String {
     text
 }
 
-type Found<'a> = (&'a Case, &'a [Row]);
+type Found<'a> = (&'a StabilityCase, &'a [StabilityRow]);
 
 /// Where geometric methods hold, and where they first fail.
 fn methods<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>) {
@@ -79,13 +79,13 @@ fn strategies<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>)
     }
 }
 
-fn of<'a>(rows: &'a [Row], method: &str) -> impl Iterator<Item = &'a Row> {
+fn of<'a>(rows: &'a [StabilityRow], method: &str) -> impl Iterator<Item = &'a StabilityRow> {
     rows.iter().filter(move |row| row.method == method)
 }
 
 /// From where to where a method is never wrong.
-fn held(rows: &[Row], method: &str) -> String {
-    let held: Vec<&Row> = of(rows, method).take_while(|row| row.wrong == 0).collect();
+fn held(rows: &[StabilityRow], method: &str) -> String {
+    let held: Vec<&StabilityRow> = of(rows, method).take_while(|row| row.wrong == 0).collect();
     match held[..] {
         [] => "nowhere".into(),
         [only] => number(only.value),
@@ -93,11 +93,11 @@ fn held(rows: &[Row], method: &str) -> String {
     }
 }
 
-fn first_wrong(rows: &[Row], method: &str) -> String {
+fn first_wrong(rows: &[StabilityRow], method: &str) -> String {
     of(rows, method).find(|row| row.wrong > 0).map_or("nowhere".into(), |row| number(row.value))
 }
 
-fn table(text: &mut String, case: &Case, rows: &[Row]) {
+fn table(text: &mut String, case: &StabilityCase, rows: &[StabilityRow]) {
     say!(text, "| {} | tried | {} |", case.parameter, case.methods.join(" | "));
     say!(text, "|---:|---:|{}", "---:|".repeat(case.methods.len()));
     for rows in rows.chunks(case.methods.len()) {
@@ -108,7 +108,7 @@ fn table(text: &mut String, case: &Case, rows: &[Row]) {
     }
 }
 
-fn cell(case: &Case, row: &Row) -> String {
+fn cell(case: &StabilityCase, row: &StabilityRow) -> String {
     match (case.measures, row.measured) {
         (Some(_), Some(measured)) if row.wrong == 0 => number(measured),
         (Some(_), Some(measured)) => format!("{} ({} wrong)", number(measured), row.wrong),
@@ -131,11 +131,11 @@ fn number(value: f64) -> String {
 const REQUIRED: usize = 3;
 
 /// The share of wrong answers, or what was measured, against what grows harder.
-pub(super) fn chart(case: &Case, rows: &[Row]) -> Chart {
+pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
     let tried = rows.iter().map(|row| row.tried).max().unwrap_or(1).max(1);
     // What is 0 has no place on a logarithmic axis: it lies on the lowest line.
     let floor = if case.measures.is_some() { 1e-17 } else { 10f64.powf((0.1 / tried as f64).log10().floor()) };
-    let y = |row: &Row| match case.measures {
+    let y = |row: &StabilityRow| match case.measures {
         Some(_) => row.measured.map(|measured| measured.max(floor)),
         None => Some((row.wrong as f64 / row.tried.max(1) as f64).max(floor)),
     };
@@ -165,7 +165,7 @@ pub(super) fn chart(case: &Case, rows: &[Row]) -> Chart {
         }
         Some(_) => String::new(),
     };
-    Chart {
+    LineChart {
         title: case.title.into(),
         note,
         x: Axis { label: format!("{}{at_0}", case.parameter), scale: case.scale, range: None },

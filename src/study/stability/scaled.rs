@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
-use super::{Case, Count, Outcome, twos};
+use super::{Count, StabilityCase, Verdicts, twos};
 use crate::csg::Solid;
 use crate::geometry::Ray;
 use crate::picture::{Colour, Quality, Size};
@@ -12,8 +12,8 @@ use crate::tracer::{Scratch, Tracer};
 use crate::view::Scale;
 
 /// Nothing in a tracer may know how large a scene is.
-pub(super) fn scenes() -> Case {
-    Case {
+pub(super) fn scenes() -> StabilityCase {
+    StabilityCase {
         name: "scaled",
         title: "A scene and its copies at other scales",
         about: "Each built-in scene, scaled by 2ᵏ and by 2⁻ᵏ: its picture must be the same, bit by bit, since powers of two round \
@@ -31,7 +31,7 @@ pub(super) fn scenes() -> Case {
     }
 }
 
-fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Outcome> {
+fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Verdicts> {
     let height = (f64::from(tries) * 0.75).sqrt().max(1.0) as u32;
     let Ok(size) = Size::new(height * 4 / 3 + 1, height) else { return Vec::new() };
     let mut count = Count::<2>::new();

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::super::random::{aside, between, placing, sign, unit};
 use super::subject::Subject;
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
@@ -14,8 +14,8 @@ use crate::view::Scale;
 const OFFSETS: [f64; 2] = [1e-4, 1e-9];
 
 /// The root where a ray starts is 0, and rounding makes something else of it.
-pub(super) fn on_faces() -> Case {
-    Case {
+pub(super) fn on_faces() -> StabilityCase {
+    StabilityCase {
         name: "start",
         title: "Rays that start on a face",
         about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, where another ray has hit it: outwards they \
@@ -34,7 +34,7 @@ pub(super) fn on_faces() -> Case {
     }
 }
 
-fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const SIZE: DVec3 = DVec3::new(1.0, 0.8, 0.6);
     let solids = [
         (Primitive::Sphere, DVec3::ONE),

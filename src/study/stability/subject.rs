@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::exact::{Exact, Vector, cross, dot, vector};
-use crate::csg::{Hit, Primitive, Solid, Stack, Start, Surface, Tree};
+use crate::csg::{Hit, Primitive, RayStart, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 
 /// A sphere, cylinder or cone at its place.
@@ -47,7 +47,7 @@ impl Subject {
     }
 
     /// Where our tree says that the ray crosses the boundary.
-    pub fn crossings(&self, ray: &Ray, start: Option<Start>) -> Vec<Hit> {
+    pub fn crossings(&self, ray: &Ray, start: Option<RayStart>) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.tree.crossings(self.root, ray, start, f64::INFINITY, &mut Stack::new(), |hit| {
             hits.push(hit);
@@ -62,8 +62,8 @@ impl Subject {
     }
 
     /// Where a ray starts that goes on from a hit of this solid.
-    pub fn start(&self, hit: &Hit) -> Start {
-        Start { root: self.root, surface: hit.surface, leaves: !hit.enters, turned: false }
+    pub fn start(&self, hit: &Hit) -> RayStart {
+        RayStart { root: self.root, surface: hit.surface, leaves: !hit.enters, turned: false }
     }
 
     /// Our normal at a point of a face.

@@ -8,13 +8,13 @@ use glam::{DAffine3, DVec3};
 use super::super::random::{aside, between, unit};
 use super::exact::{Exact, dot, vector};
 use super::subject::Subject;
-use super::{Case, Count, Outcome, tens};
+use super::{Count, StabilityCase, Verdicts, tens};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
 
-pub(super) fn cases() -> [Case; 2] {
-    let torus = |name, title, about, parameter, values, required, attempt| Case {
+pub(super) fn cases() -> [StabilityCase; 2] {
+    let torus = |name, title, about, parameter, values, required, attempt| StabilityCase {
         name,
         title,
         about,
@@ -38,7 +38,7 @@ pub(super) fn cases() -> [Case; 2] {
             "distance, radii",
             tens(0, 10),
             1e8,
-            far as fn(f64, u32, &mut Rng) -> Vec<Outcome>,
+            far as fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
         ),
         torus(
             "thin-torus",
@@ -54,7 +54,7 @@ pub(super) fn cases() -> [Case; 2] {
     ]
 }
 
-fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     count(tries, rng, |rng| {
         let (way, target) = (unit(rng), unit(rng) * between(rng, 0.0, 1.5));
         // All of the torus lies before the origin.
@@ -62,7 +62,7 @@ fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
     })
 }
 
-fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
+fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     count(tries, rng, |rng| {
         let (sine, cosine) = between(rng, 0.0, TAU).sin_cos();
         let way = unit(rng);
@@ -72,7 +72,7 @@ fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<Outcome> {
 }
 
 /// Tries lines from an origin to a target past tori of a radius of the tube.
-fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<Outcome> {
+fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<Verdicts> {
     let mut count = Count::<2>::new();
     for _ in 0..tries {
         let (tube, origin, target) = line(rng);

@@ -2,24 +2,24 @@
 
 use std::time::Duration;
 
-use super::time_budget::Account;
+use super::time_budget::TimeBudget;
 use crate::language::{decimal, say, word};
 use crate::view::text::format::{atoms_words, count, duration, fraction, node_name};
 
 /// A run that came to its end, and what it is called.
 #[derive(Clone, Copy, Debug)]
-pub struct Named<'a> {
+pub struct NamedBudget<'a> {
     /// What it is called.
     pub name: &'a str,
     /// What it amounts to.
-    pub account: &'a Account,
+    pub account: &'a TimeBudget,
 }
 
 /// Runs whose times differ by less than this are told to take the same time.
 const SAME: f64 = 1.02;
 
 /// What tells two runs apart: which took longer, and where its time went.
-pub fn contrast(one: Named<'_>, other: Named<'_>) -> String {
+pub fn contrast(one: NamedBudget<'_>, other: NamedBudget<'_>) -> String {
     let [quick, slow] = if one.account.makespan <= other.account.makespan { [one, other] } else { [other, one] };
     let times = slow.account.makespan.as_secs_f64() / quick.account.makespan.as_secs_f64().max(f64::MIN_POSITIVE);
     if times < SAME {
@@ -39,7 +39,7 @@ pub fn contrast(one: Named<'_>, other: Named<'_>) -> String {
 }
 
 /// Both take about as long.
-fn same(one: Named<'_>, other: Named<'_>) -> String {
+fn same(one: NamedBudget<'_>, other: NamedBudget<'_>) -> String {
     let (a, b) = (one.name, other.name);
     let [first, second] = [one, other].map(|run| duration(run.account.makespan));
     let least = one.account.efficiency().min(other.account.efficiency());
@@ -58,7 +58,7 @@ fn same(one: Named<'_>, other: Named<'_>) -> String {
 }
 
 /// The machines themselves are not the same.
-fn power(quick: &Account, slow: &Account) -> Option<String> {
+fn power(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
     // As long as both go on: what is set later in one of them explains nothing.
     let [of_quick, of_slow] = [quick, slow].map(|run| run.power(quick.makespan));
     let times = of_quick / of_slow.max(f64::MIN_POSITIVE);
@@ -72,10 +72,10 @@ fn power(quick: &Account, slow: &Account) -> Option<String> {
 }
 
 /// Where the slower run's time went that the quicker one's did not.
-fn cause(quick: &Account, slow: &Account) -> Option<String> {
+fn cause(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
     // Shares of the machines' time, so that more machines do not count for more waiting.
     let excess = |part: Part| {
-        let seconds = |account: &Account| part(account) / account.spent.sum() * account.makespan.as_secs_f64();
+        let seconds = |account: &TimeBudget| part(account) / account.spent.sum() * account.makespan.as_secs_f64();
         seconds(slow) - seconds(quick)
     };
     let parts: [(Part, Tell); 4] = [
@@ -91,13 +91,13 @@ fn cause(quick: &Account, slow: &Account) -> Option<String> {
 }
 
 /// Seconds of a run's machines that were spent on something.
-type Part = fn(&Account) -> f64;
+type Part = fn(&TimeBudget) -> f64;
 
 /// Tells of the slower run, its second argument.
-type Tell = fn(&Account, &Account) -> String;
+type Tell = fn(&TimeBudget, &TimeBudget) -> String;
 
 /// Machines were done while others still traced.
-fn waiting(quick: &Account, slow: &Account) -> String {
+fn waiting(quick: &TimeBudget, slow: &TimeBudget) -> String {
     let last = slow.last;
     let (name, alone, share) = (node_name(last.node), duration(last.alone), fraction(share(slow, slow.spent.waiting)));
     let traced = atoms_words(last.traced);
@@ -134,7 +134,7 @@ fn waiting(quick: &Account, slow: &Account) -> String {
 }
 
 /// Machines waited for messages in the middle of the work.
-fn asking(_: &Account, slow: &Account) -> String {
+fn asking(_: &TimeBudget, slow: &TimeBudget) -> String {
     let share = fraction(share(slow, slow.spent.asking));
     let waited = slow.waited_at_parent;
     // Only what comes to it keeps the parent busy.
@@ -156,7 +156,7 @@ fn asking(_: &Account, slow: &Account) -> String {
 }
 
 /// Machines waited for their first atom.
-fn starting(_: &Account, slow: &Account) -> String {
+fn starting(_: &TimeBudget, slow: &TimeBudget) -> String {
     let estimating = duration(slow.estimating);
     let share = fraction(share(slow, slow.spent.starting));
     if slow.estimating > Duration::ZERO {
@@ -173,7 +173,7 @@ fn starting(_: &Account, slow: &Account) -> String {
 }
 
 /// Workers were made to stand still.
-fn standing(_: &Account, slow: &Account) -> String {
+fn standing(_: &TimeBudget, slow: &TimeBudget) -> String {
     let share = fraction(share(slow, slow.spent.standing));
     say!(
         "There machines that were stopped hold atoms for {share} of the time.",
@@ -181,6 +181,6 @@ fn standing(_: &Account, slow: &Account) -> String {
     )
 }
 
-fn share(of: &Account, part: f64) -> f64 {
+fn share(of: &TimeBudget, part: f64) -> f64 {
     part / of.spent.sum().max(f64::MIN_POSITIVE)
 }

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use crate::balance::{NodeId, Strategy};
 use crate::language::{decimal, say, word};
-use crate::runlog::{RunLog, Tally};
+use crate::runlog::{Metrics, RunLog};
 use crate::time::Time;
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
@@ -15,7 +15,7 @@ use crate::view::text::format::{atoms_words, count, counted, duration, fraction,
 
 /// What a finished run amounts to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Summary {
     /// From the first band sent to the last atom placed.
     pub makespan: Duration,
     /// What the makespan would have been, had the work been shared perfectly.
@@ -26,17 +26,17 @@ pub struct Outcome {
     pub spread: Duration,
 }
 
-impl Outcome {
+impl Summary {
     /// What the run of a log amounts to, if it came to its end. Sums over all records, so not for every frame.
     pub fn of(log: &RunLog) -> Option<Self> {
-        let tally = Tally::of(log);
+        let tally = Metrics::of(log);
         let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
         Some(Self { makespan, ideal, efficiency, spread: tally.finish_spread() })
     }
 }
 
 /// The figures of the result, each with what it is, to be shown large.
-pub fn figures(outcome: &Outcome) -> [(String, &'static str); 4] {
+pub fn figures(outcome: &Summary) -> [(String, &'static str); 4] {
     [
         (seconds(outcome.makespan), word!("start to finish", "início ao fim")),
         (seconds(outcome.ideal), word!("shared perfectly", "divisão perfeita")),
@@ -46,7 +46,7 @@ pub fn figures(outcome: &Outcome) -> [(String, &'static str); 4] {
 }
 
 /// The result in a sentence or two: how well the work was shared, and who did most and least of it, and why.
-pub fn result_words(state: &RunState, outcome: &Outcome) -> String {
+pub fn result_words(state: &RunState, outcome: &Summary) -> String {
     let [takes, ideal, spread] = [outcome.makespan, outcome.ideal, outcome.spread].map(seconds);
     let efficiency = fraction(outcome.efficiency);
     let mut words = say!(
@@ -120,7 +120,7 @@ fn waited_for(state: &RunState) -> Option<String> {
 fn last_atoms(state: &RunState) -> Vec<Time> {
     let mut last = vec![Time::ZERO; state.nodes().len()];
     for place in state.places() {
-        if let Place::Traced { by, at, .. } = *place
+        if let AtomState::Traced { by, at, .. } = *place
             && let Some(last) = last.get_mut(usize::from(by))
         {
             *last = at.max(*last);
@@ -171,8 +171,8 @@ fn at_speed(state: &RunState, node: &NodeState) -> String {
 
 /// What an atom that `node` has traced cost on average, in seconds of CPU time; 0 if it has traced none.
 fn mean_cost(state: &RunState, node: NodeId) -> f64 {
-    let cost = |place: &Place| match *place {
-        Place::Traced { by, cost, .. } if by == node => Some(f64::from(cost)),
+    let cost = |place: &AtomState| match *place {
+        AtomState::Traced { by, cost, .. } if by == node => Some(f64::from(cost)),
         _ => None,
     };
     let (sum, atoms) = state.places().iter().filter_map(cost).fold((0.0, 0_u32), |(sum, n), cost| (sum + cost, n + 1));
@@ -183,11 +183,11 @@ fn mean_cost(state: &RunState, node: NodeId) -> f64 {
 mod tests {
     use super::*;
     use crate::balance::Rules;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
     use crate::view::tests::sample_runs;
 
-    const OUTCOME: Outcome = Outcome {
+    const OUTCOME: Summary = Summary {
         makespan: Duration::from_millis(20_440),
         ideal: Duration::from_millis(19_800),
         efficiency: 0.9687,
@@ -202,11 +202,11 @@ mod tests {
         let mut atoms = 0..;
         for (node, &(_, count, cost)) in (0..).zip(machines) {
             for atom in atoms.by_ref().take(count as usize) {
-                let what = What::AtomDone { node, atom, cost: Duration::from_millis(cost) };
+                let what = RecordKind::AtomDone { node, atom, cost: Duration::from_millis(cost) };
                 state.apply(&Record { at: Time::from_secs(1.0), what });
             }
         }
-        state.apply(&Record { at: Time::from_secs(20.44), what: What::Finished });
+        state.apply(&Record { at: Time::from_secs(20.44), what: RecordKind::Finished });
         result_words(&state, &OUTCOME)
     }
 
@@ -259,10 +259,10 @@ mod tests {
     fn a_speed_that_changed_is_told_as_a_mean() {
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 3));
         for (at, what) in [
-            (0.0, What::SpeedSet { node: 1, speed: 0.0 }),
-            (5.0, What::SpeedSet { node: 1, speed: 1.0 }),
-            (6.0, What::AtomDone { node: 0, atom: 0, cost: Duration::ZERO }),
-            (10.0, What::Finished),
+            (0.0, RecordKind::SpeedSet { node: 1, speed: 0.0 }),
+            (5.0, RecordKind::SpeedSet { node: 1, speed: 1.0 }),
+            (6.0, RecordKind::AtomDone { node: 0, atom: 0, cost: Duration::ZERO }),
+            (10.0, RecordKind::Finished),
         ] {
             state.apply(&Record { at: Time::from_secs(at), what });
         }
@@ -275,7 +275,7 @@ mod tests {
         let header = Header { spares: 1, ..sample_runs::header(&[1.0, 0.5, 1.0], 3) };
         let mut state = RunState::new(&header);
         for (node, atom) in [(0, 0), (0, 1), (1, 2)] {
-            state.apply(&Record { at: Time::ZERO, what: What::AtomDone { node, atom, cost: Duration::ZERO } });
+            state.apply(&Record { at: Time::ZERO, what: RecordKind::AtomDone { node, atom, cost: Duration::ZERO } });
         }
         let words = uneven(&state).unwrap_or_default();
         assert!(words.contains("1 traced most: 2 atoms at 100 %; 2 least: 1 at 50 %"), "{words}");

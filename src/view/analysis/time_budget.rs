@@ -4,16 +4,16 @@ use std::time::Duration;
 
 use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::atoms_in;
-use crate::record::{Record, What};
-use crate::runlog::{Messages, RunLog, Tally};
+use crate::record::{Record, RecordKind};
+use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::time::Time;
-use crate::view::state::lane::{Lane, Stay};
+use crate::view::state::lane::{Lane, LanePhase};
 use crate::view::state::lanes::Lanes;
 use crate::view::state::scheduler::Sharing;
 
 /// What a run that came to its end amounts to, and where its time went.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Account {
+pub struct TimeBudget {
     /// How the atoms were shared.
     pub sharing: Sharing,
     /// From the first band sent to the last atom placed.
@@ -23,11 +23,11 @@ pub struct Account {
     /// From when on the machines' speeds together are how much: how many reference machines they are worth.
     pub powers: Vec<(Duration, f64)>,
     /// Where the time of all machines went.
-    pub spent: Spent,
+    pub spent: MachineSeconds,
     /// What was said.
-    pub messages: Messages,
+    pub messages: MessageCounts,
     /// Whoever traced the last atom.
-    pub last: Last,
+    pub last: LastMachine,
     /// How long messages waited at the parent, all of them together.
     pub waited_at_parent: Duration,
     /// How long the parent sampled the picture before it gave bands.
@@ -36,7 +36,7 @@ pub struct Account {
 
 /// The machine that traced the last atom.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Last {
+pub struct LastMachine {
     /// Which.
     pub node: NodeId,
     /// Its speed at the end.
@@ -51,7 +51,7 @@ pub struct Last {
 
 /// Seconds of all machines: a run of eight machines has eight in each second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spent {
+pub struct MachineSeconds {
     /// Atoms were traced.
     pub tracing: f64,
     /// Until the first atom was begun.
@@ -64,7 +64,7 @@ pub struct Spent {
     pub waiting: f64,
 }
 
-impl Spent {
+impl MachineSeconds {
     /// All of it.
     pub fn sum(&self) -> f64 {
         self.parts().iter().sum()
@@ -78,7 +78,8 @@ impl Spent {
     /// What one machine spent until `end`.
     fn of(lane: &Lane, end: Time) -> Self {
         let (Some(first), Some(last)) = (lane.bars().first(), lane.bars().last()) else {
-            let starting = lane.stays().last().filter(|(_, stay)| *stay == Stay::Waits).map_or(Time::ZERO, |_| end);
+            let starting =
+                lane.stays().last().filter(|(_, stay)| *stay == LanePhase::Waits).map_or(Time::ZERO, |_| end);
             return Self { starting: starting.secs(), waiting: end.since(starting).as_secs_f64(), ..Self::default() };
         };
         let stood = |from: Time, to: Time| -> f64 {
@@ -102,7 +103,7 @@ impl Spent {
     }
 }
 
-impl Account {
+impl TimeBudget {
     /// The account of a run; `None` unless its picture was completed.
     pub fn of(log: &RunLog) -> Option<Self> {
         Self::new(log, &Lanes::of(log))
@@ -110,11 +111,11 @@ impl Account {
 
     /// The same, where what each machine did is known already.
     pub(crate) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
-        let tally = Tally::of(log);
+        let tally = Metrics::of(log);
         let (makespan, ideal) = (tally.makespan()?, tally.ideal()?);
-        let end = log.records().iter().rfind(|record| record.what == What::Finished)?.at;
-        let mut spent = Spent::default();
-        for lane in lanes.lanes().iter().map(|lane| Spent::of(lane, end)) {
+        let end = log.records().iter().rfind(|record| record.what == RecordKind::Finished)?.at;
+        let mut spent = MachineSeconds::default();
+        for lane in lanes.lanes().iter().map(|lane| MachineSeconds::of(lane, end)) {
             spent.tracing += lane.tracing;
             spent.starting += lane.starting;
             spent.asking += lane.asking;
@@ -160,8 +161,8 @@ fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
     let mut powers = vec![(Duration::ZERO, power(&speeds, &works))];
     for record in log.records() {
         match record.what {
-            What::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
-            What::Condition { node, condition } => {
+            RecordKind::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
+            RecordKind::Condition { node, condition } => {
                 works[usize::from(node)] = matches!(condition, Condition::Well | Condition::CutOff);
             }
             _ => continue,
@@ -171,7 +172,7 @@ fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
     powers
 }
 
-fn last(log: &RunLog, lanes: &Lanes) -> Option<Last> {
+fn last(log: &RunLog, lanes: &Lanes) -> Option<LastMachine> {
     let ends = (0..).zip(lanes.lanes()).map(|(node, lane)| (lane.bars().last().map_or(Time::ZERO, |bar| bar.to), node));
     let mut ends: Vec<(Time, NodeId)> = ends.collect();
     ends.sort_unstable();
@@ -181,15 +182,15 @@ fn last(log: &RunLog, lanes: &Lanes) -> Option<Last> {
     let mut gave = 0;
     for record in log.records() {
         match &record.what {
-            What::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
-            What::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
+            RecordKind::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
+            RecordKind::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
                 gave += atoms_in(ranges);
             }
             _ => {}
         }
     }
     let traced = lanes.lanes()[usize::from(node)].bars().len() as u32;
-    Some(Last { node, speed, alone: end.since(before), traced, gave })
+    Some(LastMachine { node, speed, alone: end.since(before), traced, gave })
 }
 
 /// The parent is busy with one message after the other; those that come meanwhile wait.
@@ -198,7 +199,7 @@ fn waited_at_parent(log: &RunLog) -> Duration {
         .records()
         .iter()
         .filter_map(|record| match &record.what {
-            What::Sent { to: Party::Parent, arrives, .. } => Some(*arrives),
+            RecordKind::Sent { to: Party::Parent, arrives, .. } => Some(*arrives),
             _ => None,
         })
         .collect();
@@ -213,9 +214,10 @@ fn waited_at_parent(log: &RunLog) -> Duration {
 }
 
 fn estimating(records: &[Record]) -> Duration {
-    let at = |wanted: fn(&What) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
-    let begun = at(|what| matches!(what, What::Estimating));
-    let done = at(|what| matches!(what, What::Sent { message: Message::Band(_), .. }));
+    let at =
+        |wanted: fn(&RecordKind) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
+    let begun = at(|what| matches!(what, RecordKind::Estimating));
+    let done = at(|what| matches!(what, RecordKind::Sent { message: Message::Band(_), .. }));
     begun.zip(done).map_or(Duration::ZERO, |(begun, done)| done.since(begun))
 }
 
@@ -223,7 +225,7 @@ fn estimating(records: &[Record]) -> Duration {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::compare_runs::{Named, contrast};
+    use super::super::compare_runs::{NamedBudget, contrast};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::record::Record;
@@ -245,8 +247,8 @@ mod tests {
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), strategy in 0..6usize, handling in 0..20u64,
         ) {
             let log = log(Strategy::ALL[strategy], &speeds, handling);
-            let account = Account::of(&log).expect("it came to its end");
-            let end = log.records().iter().find(|record| record.what == What::Finished).expect("its end").at.secs();
+            let account = TimeBudget::of(&log).expect("it came to its end");
+            let end = log.records().iter().find(|record| record.what == RecordKind::Finished).expect("its end").at.secs();
             let (spent, parts) = (account.spent, account.spent.parts());
             prop_assert!((spent.sum() - end * speeds.len() as f64).abs() < 1e-6, "{spent:?}");
             prop_assert!(parts.iter().all(|part| *part >= 0.0), "{spent:?}");
@@ -256,11 +258,11 @@ mod tests {
 
     #[test]
     fn with_bands_the_slow_machine_is_alone_at_the_end() {
-        let bands = Account::of(&log(Strategy::Static, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
-        let Last { node, speed, alone, traced, gave } = bands.last;
+        let bands = TimeBudget::of(&log(Strategy::Static, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
+        let LastMachine { node, speed, alone, traced, gave } = bands.last;
         assert_eq!((node, speed, traced, gave), (3, 0.1, 300, 0));
         assert!(alone > bands.makespan / 2 && bands.spent.waiting > 0.5 * bands.spent.sum());
-        let ring = Account::of(&log(Strategy::Ring, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
+        let ring = TimeBudget::of(&log(Strategy::Ring, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
         assert!(ring.spent.waiting < 0.1 * ring.spent.sum(), "{ring:?}");
         assert!(ring.makespan < bands.makespan / 2 && ring.messages.atoms_moved > 100);
     }
@@ -268,7 +270,7 @@ mod tests {
     #[test]
     fn messages_wait_for_a_parent_that_is_busy() {
         let waited =
-            |handling| Account::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
+            |handling| TimeBudget::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
         assert_eq!(waited(0), Duration::ZERO);
         assert!(waited(30) > 3 * waited(5), "{:?} {:?}", waited(30), waited(5));
     }
@@ -276,19 +278,20 @@ mod tests {
     #[test]
     fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
         let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
-        let quick = Account::of(&plain).expect("it came to its end");
+        let quick = TimeBudget::of(&plain).expect("it came to its end");
         let mut records = plain.records().to_vec();
         let half = Time(records[records.len() - 1].at.0 / 2);
         let place = records.partition_point(|record| record.at <= half);
-        records.insert(place, Record { at: half, what: What::SpeedSet { node: 1, speed: 0.5 } });
+        records.insert(place, Record { at: half, what: RecordKind::SpeedSet { node: 1, speed: 0.5 } });
         let mut slowed = RunLog::new(plain.header.clone());
         slowed.add(records);
-        let slow = Account::of(&slowed).expect("it came to its end");
+        let slow = TimeBudget::of(&slowed).expect("it came to its end");
         let half = Duration::from_nanos(half.0);
         assert_eq!(slow.power(half), 2.0);
         assert!((slow.power(2 * half) - 1.75).abs() < 1e-9, "{}", slow.power(2 * half));
-        let slow = Account { makespan: quick.makespan.mul_f64(1.2), ..slow };
-        let told = contrast(Named { name: "One", account: &quick }, Named { name: "The other", account: &slow });
+        let slow = TimeBudget { makespan: quick.makespan.mul_f64(1.2), ..slow };
+        let told =
+            contrast(NamedBudget { name: "One", account: &quick }, NamedBudget { name: "The other", account: &slow });
         assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
     }
 }

@@ -3,13 +3,13 @@
 use std::iter;
 
 use super::axis::Axis;
-use super::frame::{BESIDE, DASHES, GAP, Sheet, Words, width_of};
+use super::frame::{BESIDE, ChartFrame, ChartHeading, DASHES, GAP, width_of};
 use super::line_chart::series_hue;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 
 /// Measurements side by side. Bars begin at 0 or, on a logarithmic axis, which has none, at the plot's lower edge.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bars {
+pub struct BarChart {
     /// What it is about.
     pub title: String,
     /// What is to be seen in it, in one line; may be empty.
@@ -43,17 +43,17 @@ const CUT: f32 = 12.0;
 /// How thick a mark of what others have measured is.
 const MARKED: f32 = 3.0;
 
-impl Bars {
+impl BarChart {
     /// The bars as a display list whose corner is at 0, 0; it needs 480 × 360 at least.
     pub fn marks(&self, size: Point) -> Vec<Mark> {
         let names = self.names();
         let legend: Vec<_> = names.iter().enumerate().map(|(i, &name)| (name, series_hue(i))).collect();
         let rough = (size[0] - 2.0 * BESIDE) / self.groups.len().max(1) as f32 - GAP;
         let below = if self.groups.iter().any(|(group, _)| width_of(group) > rough) { 2 } else { 1 };
-        let words = Words { title: &self.title, note: &self.note, legend: &legend, below };
+        let words = ChartHeading { title: &self.title, note: &self.note, legend: &legend, below };
         let bars =
             || self.groups.iter().flat_map(|(_, bars)| bars).flat_map(|bar| iter::once(bar.value).chain(bar.other));
-        let (mut sheet, ruler) = Sheet::new(size, &words, &self.y, bars().chain(self.reference), 0.0);
+        let (mut sheet, ruler) = ChartFrame::new(size, &words, &self.y, bars().chain(self.reference), 0.0);
         let zero = ruler.place(0.0).unwrap_or(0.0).clamp(0.0, 1.0);
         let group_width = (sheet.right - sheet.left) / self.groups.len().max(1) as f32;
         let slot = group_width * (1.0 - APART) / names.len().max(1) as f32;
@@ -102,7 +102,7 @@ fn halves(name: &str) -> (&str, &str) {
 }
 
 /// A bar between two heights; one that leaves the plot is broken there.
-fn put_bar(sheet: &mut Sheet, [x, half]: [f32; 2], (from, to): (f64, f64), hue: Hue) {
+fn put_bar(sheet: &mut ChartFrame, [x, half]: [f32; 2], (from, to): (f64, f64), hue: Hue) {
     let [start, end] = [from, to.clamp(0.0, 1.0)].map(|height| sheet.at([0.0, height])[1]);
     let (top, bottom) = (start.min(end), start.max(end));
     let tall = (bottom - top).max(LEAST);
@@ -136,14 +136,14 @@ mod tests {
         marks.iter().filter_map(edges).filter(inside).collect()
     }
 
-    fn bars(scale: Scale, groups: &[&[f64]]) -> Bars {
+    fn bars(scale: Scale, groups: &[&[f64]]) -> BarChart {
         let named = |(i, values): (usize, &&[f64])| {
             let bar = |(j, &value)| Bar { name: format!("machine {j}"), value, other: None };
             let bars = values.iter().enumerate().map(bar).collect();
             (format!("the case with number {i}"), bars)
         };
         let groups = groups.iter().enumerate().map(named).collect();
-        Bars { groups, y: Axis { scale, ..Axis::default() }, ..Bars::default() }
+        BarChart { groups, y: Axis { scale, ..Axis::default() }, ..BarChart::default() }
     }
 
     proptest! {

@@ -5,7 +5,7 @@ use crate::view::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::view::draw::polyline::dashes;
 
 /// The words above a plot.
-pub(crate) struct Words<'a> {
+pub(crate) struct ChartHeading<'a> {
     /// What the chart is about.
     pub(crate) title: &'a str,
     /// What is to be seen in it.
@@ -17,7 +17,7 @@ pub(crate) struct Words<'a> {
 }
 
 /// A chart in the making.
-pub(crate) struct Sheet {
+pub(crate) struct ChartFrame {
     /// What is drawn so far.
     pub(crate) marks: Vec<Mark>,
     size: Point,
@@ -50,14 +50,14 @@ const BELOW: f32 = 20.0;
 /// From there to the next one.
 const NEXT: f32 = 22.0;
 
-impl Sheet {
+impl ChartFrame {
     /// Charts are laid out for this size at least.
     pub(crate) const LEAST: Point = [480.0, 272.0];
 
     /// The words, the plot with room for `aside` to its right, and what is measured upwards.
     pub(crate) fn new(
         size: Point,
-        words: &Words<'_>,
+        words: &ChartHeading<'_>,
         axis: &Axis,
         values: impl Iterator<Item = f64>,
         aside: f32,

@@ -1,7 +1,7 @@
 //! Charts of measurements: what is known of them, and a display list.
 
 use super::axis::{Axis, Ruler};
-use super::frame::{DASHES, DOTTED, LINE, Sheet, Words, width_of_name};
+use super::frame::{ChartFrame, ChartHeading, DASHES, DOTTED, LINE, width_of_name};
 use crate::palette::CHART;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::draw::polyline::{clipped, is_inside, spread};
@@ -10,11 +10,11 @@ use crate::view::draw::polyline::{clipped, is_inside, spread};
 pub const CHART_SIZE: Point = [960.0, 540.0];
 
 /// The least height of a chart without a title.
-pub const LEAST_HIGH: f32 = Sheet::LEAST[1];
+pub const LEAST_HIGH: f32 = ChartFrame::LEAST[1];
 
 /// Measurements over something that was varied.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chart {
+pub struct LineChart {
     /// What it is about.
     pub title: String,
     /// What is to be seen in it, in one line; may be empty.
@@ -73,7 +73,7 @@ const ASIDE: f32 = 16.0;
 /// How thick the line of a hollow dot is.
 const HOLLOW: f32 = 2.0;
 
-impl Chart {
+impl LineChart {
     /// The chart as a display list whose corner is at 0, 0; it needs 480 × 360 at least, without a title [`LEAST_HIGH`].
     pub fn marks(&self, size: Point) -> Vec<Mark> {
         let are_named = self.series.len() <= NAMED;
@@ -82,11 +82,11 @@ impl Chart {
         let aside = if are_named && names > 0.0 { ASIDE + names.min(NAMES * size[0]) } else { 0.0 };
         let legend = if are_named { &[] } else { &legend[..] };
         let below = if self.x.label.is_empty() { 1 } else { 2 };
-        let words = Words { title: &self.title, note: &self.note, legend, below };
+        let words = ChartHeading { title: &self.title, note: &self.note, legend, below };
         let points = || self.series.iter().flat_map(|series| series.points.iter().copied());
         let (from, to) = self.x.range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let heights = points().filter(|(x, _)| (from..=to).contains(x)).map(|(_, y)| y);
-        let (mut sheet, y) = Sheet::new(size, &words, &self.y, heights, aside);
+        let (mut sheet, y) = ChartFrame::new(size, &words, &self.y, heights, aside);
         let x = sheet.columns(&self.x, points().map(|(x, _)| x));
         let ends: Vec<_> = self.series.iter().map(|series| series.draw(&mut sheet, &x, &y)).collect();
         if are_named {
@@ -96,7 +96,7 @@ impl Chart {
     }
 
     /// Each name beside the end of its line, or dots that lead from there to its name.
-    fn put_names(&self, sheet: &mut Sheet, ends: &[Option<Point>]) {
+    fn put_names(&self, sheet: &mut ChartFrame, ends: &[Option<Point>]) {
         let all = self.series.iter().zip(ends).filter(|(series, _)| !series.name.is_empty());
         let named: Vec<_> = all.filter_map(|(series, end)| Some((series, (*end)?))).collect();
         let heights: Vec<f32> = named.iter().map(|(_, end)| end[1]).collect();
@@ -114,7 +114,7 @@ impl Chart {
 
 impl Series {
     /// Draws the series and gives its last point that is seen.
-    fn draw(&self, sheet: &mut Sheet, x: &Ruler, y: &Ruler) -> Option<Point> {
+    fn draw(&self, sheet: &mut ChartFrame, x: &Ruler, y: &Ruler) -> Option<Point> {
         let place = |&(u, v): &(f64, f64)| Some([x.place(u)?, y.place(v)?]);
         let places: Vec<_> = self.points.iter().map(place).collect();
         let lines: Vec<Vec<Point>> =
@@ -174,14 +174,14 @@ mod tests {
         marks.iter().filter_map(place).collect()
     }
 
-    fn charts(series: std::ops::Range<usize>) -> impl Strategy<Value = Chart> {
+    fn charts(series: std::ops::Range<usize>) -> impl Strategy<Value = LineChart> {
         let number = || prop_oneof![9 => -10.0..1100.0f64, 1 => any::<f64>()];
         let styles = prop_oneof![Just(Style::Line), Just(Style::Dots), Just(Style::Hollow), Just(Style::Dashed)];
         let one = ("[a-z, ]{0,40}", prop::collection::vec((number(), number()), 0..12), styles);
         let all = prop::collection::vec(one, series);
         ("[A-Z ]{0,90}", "[a-z ]{0,120}", axes(), axes(), all).prop_map(|(title, note, x, y, all)| {
             let made = |(i, (name, points, style))| Series { name, hue: series_hue(i), points, style };
-            Chart { title, note, x, y, series: all.into_iter().enumerate().map(made).collect() }
+            LineChart { title, note, x, y, series: all.into_iter().enumerate().map(made).collect() }
         })
     }
 
@@ -193,7 +193,7 @@ mod tests {
 
         #[test]
         fn without_a_title_less_is_enough(chart in charts(0..6), width in 480.0..1600.0f32) {
-            check_words(&Chart { title: String::new(), ..chart }.marks([width, LEAST_HIGH]), [width, LEAST_HIGH])?;
+            check_words(&LineChart { title: String::new(), ..chart }.marks([width, LEAST_HIGH]), [width, LEAST_HIGH])?;
         }
 
         #[test]
@@ -207,7 +207,7 @@ mod tests {
             let points = chart.series.iter().flat_map(|series| &series.points);
             let seen = points.filter(|(u, v)| is_seen(&x, *u) && is_seen(&y, *v)).count();
             chart.series.iter_mut().for_each(|series| series.style = Style::Line);
-            let marks = Chart { x, y, ..chart }.marks(CHART_SIZE);
+            let marks = LineChart { x, y, ..chart }.marks(CHART_SIZE);
             let [left, top, right, bottom] = plot(&marks);
             let dots = dots(&marks);
             prop_assert_eq!(dots.len(), seen);
@@ -227,7 +227,7 @@ mod tests {
         let (x, y) = (Axis { scale: Scale::Log2, ..Axis::default() }, Axis::default());
         let points = vec![(1.0, 0.0), (32.0, 1.0), (1024.0, 2.0), (2.0, f64::NAN), (0.0, 1.0)];
         let series = vec![Series { name: "ring".into(), hue: series_hue(0), points, style: Style::Dots }];
-        let marks = Chart { x, y, series, ..Chart::default() }.marks(CHART_SIZE);
+        let marks = LineChart { x, y, series, ..LineChart::default() }.marks(CHART_SIZE);
         let [left, top, right, bottom] = plot(&marks);
         assert_eq!(dots(&marks), [[left, bottom], [(left + right) / 2.0, (top + bottom) / 2.0], [right, top]]);
     }

@@ -1,7 +1,7 @@
 //! Where the time of several runs went, as bars of one length a second.
 
 use crate::language::word;
-use crate::view::analysis::time_budget::Account;
+use crate::view::analysis::time_budget::TimeBudget;
 use crate::view::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::view::text::format::{duration, fraction};
 
@@ -34,7 +34,7 @@ fn inks() -> [Ink; 5] {
 }
 
 /// A bar a run, as long as it took, cut into what its machines' time was spent on.
-pub fn spent(runs: &[(&str, &Account)], width: f32) -> Vec<Mark> {
+pub fn spent(runs: &[(&str, &TimeBudget)], width: f32) -> Vec<Mark> {
     let mut marks = Vec::new();
     legend(runs, width, &mut marks);
     let longest = runs.iter().map(|(_, account)| account.makespan.as_secs_f64()).fold(f64::MIN_POSITIVE, f64::max);
@@ -68,8 +68,8 @@ pub fn spent(runs: &[(&str, &Account)], width: f32) -> Vec<Mark> {
 }
 
 /// Says the same in words, a line a run.
-pub fn spent_words(runs: &[(&str, &Account)]) -> String {
-    let line = |(name, account): &(&str, &Account)| {
+pub fn spent_words(runs: &[(&str, &TimeBudget)]) -> String {
+    let line = |(name, account): &(&str, &TimeBudget)| {
         let parts = account.spent.parts().into_iter().zip(part_names()).filter(|(part, _)| *part > 0.0);
         let parts: Vec<_> =
             parts.map(|(part, name)| format!("{name} {}", fraction(part / account.spent.sum()))).collect();
@@ -79,10 +79,10 @@ pub fn spent_words(runs: &[(&str, &Account)]) -> String {
 }
 
 /// Only of parts that there are.
-fn legend(runs: &[(&str, &Account)], width: f32, marks: &mut Vec<Mark>) {
+fn legend(runs: &[(&str, &TimeBudget)], width: f32, marks: &mut Vec<Mark>) {
     let mut left = 0.0;
     for (i, (name, ink)) in part_names().into_iter().zip(inks()).enumerate() {
-        let share = |account: &Account| account.spent.parts()[i] / account.spent.sum().max(f64::MIN_POSITIVE);
+        let share = |account: &TimeBudget| account.spent.parts()[i] / account.spent.sum().max(f64::MIN_POSITIVE);
         let needed = 18.0 + TextSize::Small(1.0).width(name.chars().count()) + 10.0;
         if runs.iter().all(|(_, account)| share(account) < 0.005) || left + needed > width + 20.0 {
             continue;
@@ -106,8 +106,8 @@ mod tests {
 
     #[test]
     fn bars_are_as_long_as_runs_and_their_parts_fill_them() {
-        let accounts =
-            [&[1.0, 1.0][..], &[1.0, 0.1]].map(|speeds| Account::of(&sample_runs::log(speeds, 400)).expect("its end"));
+        let accounts = [&[1.0, 1.0][..], &[1.0, 0.1]]
+            .map(|speeds| TimeBudget::of(&sample_runs::log(speeds, 400)).expect("its end"));
         let runs = [("one", &accounts[0]), ("other", &accounts[1])];
         let marks = spent(&runs, 600.0);
         let row = |row: usize| -> f32 {

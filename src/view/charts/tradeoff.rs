@@ -1,7 +1,7 @@
 //! Speed against accuracy: what several qualities of one picture cost, and how far each is from the reference.
 
 use super::axis::{Axis, Ruler, Scale};
-use super::frame::{DASHES, Sheet, Words};
+use super::frame::{ChartFrame, ChartHeading, DASHES};
 use crate::language::word;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 
@@ -52,13 +52,13 @@ impl Tradeoff {
             (word!("the best for its time", "a melhor em seu tempo"), Hue::Text),
             (word!("chosen", "escolhida"), Hue::Accent),
         ];
-        let words = Words { title: "", note: "", legend: &legend, below: 2 };
+        let words = ChartHeading { title: "", note: "", legend: &legend, below: 2 };
         let floor = Some(self.floor).filter(|floor| *floor > LEAST_ERROR && !shown.is_empty());
         // Above the highest point there is room for its name.
         let above_all = shown.iter().map(|(_, error)| *error).reduce(f64::max).map(|error| 1.5 * error);
         let heights = shown.iter().map(|(_, error)| *error).chain(floor).chain(above_all);
         let error = axis(word!("error of the picture (RMSE, linear light)", "erro da imagem (RMSE, luz linear)"));
-        let (mut sheet, y) = Sheet::new(size, &words, &error, heights, 0.0);
+        let (mut sheet, y) = ChartFrame::new(size, &words, &error, heights, 0.0);
         let x = sheet.columns(&axis(&self.time), shown.iter().map(|(time, _)| *time));
         if let Some(height) = floor.and_then(|floor| y.place(floor)) {
             let ends = [sheet.at([0.0, height]), sheet.at([1.0, height])];
@@ -83,7 +83,7 @@ impl Tradeoff {
     }
 }
 
-fn place(sheet: &Sheet, x: &Ruler, y: &Ruler, (time, error): (f64, f64)) -> Point {
+fn place(sheet: &ChartFrame, x: &Ruler, y: &Ruler, (time, error): (f64, f64)) -> Point {
     sheet.at([x.place(time).unwrap_or(0.0), y.place(error).unwrap_or(0.0)])
 }
 
@@ -95,7 +95,7 @@ fn above([x, y]: Point) -> Mark {
 }
 
 /// What the point of the present settings is called, on the side where there is room.
-fn beside([x, y]: Point, sheet: &Sheet) -> Mark {
+fn beside([x, y]: Point, sheet: &ChartFrame) -> Mark {
     let (anchor, side) = if sheet.room_from(x) > 110.0 { (Anchor::Left, 1.0) } else { (Anchor::Right, -1.0) };
     let at = [x + side * (RING[1] + 6.0), y - 1.6 * RING[1]];
     let text = word!("set now", "atual").into();

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
-use crate::csg::Figure;
+use crate::csg::SpanDiagram;
 use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
@@ -20,7 +20,7 @@ use crate::scene::{Material, Scene};
 use crate::tracer::{Explained, RayCounts, RayNotes, Scratch, Tracer};
 
 pub use rays::{RaySpot, RayTree};
-pub use spans::Spans;
+pub use spans::SpanPlot;
 pub use terms::{Term, Terms};
 
 /// A pixel and all that is known of it, and one of its rays, which is looked at more closely.
@@ -33,16 +33,16 @@ pub struct Inspected {
     /// What it took.
     pub rays: RayCounts,
     /// The ray that is looked at.
-    pub chosen: Chosen,
+    pub chosen: ChosenRay,
     /// What this ray passes: the root of each solid, and the stays in it and in what it is made of.
-    pub figures: Vec<(u32, Figure)>,
+    pub figures: Vec<(u32, SpanDiagram)>,
     materials: Arc<[(String, Material)]>,
     lights: usize,
 }
 
 /// A ray of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Chosen {
+pub struct ChosenRay {
     /// Its sample.
     pub sample: usize,
     /// Its number among the sample's rays; 0 is the primary ray.
@@ -62,13 +62,13 @@ impl Inspected {
         let samples: Arc<[Explained]> = tracer.explain(y * size.width() + x, &mut scratch).into();
         let materials = scene.names.iter().cloned().zip(scene.materials.iter().copied()).collect();
         let (rays, lights) = (scratch.rays, scene.lights.len());
-        let chosen = Chosen { sample: samples.iter().position(|sample| sample.counts)?, ray: 0 };
+        let chosen = ChosenRay { sample: samples.iter().position(|sample| sample.counts)?, ray: 0 };
         let unseen = Self { place, samples, rays, chosen, figures: Vec::new(), materials, lights };
         unseen.choose(tracer, chosen)
     }
 
     /// The same pixel, seen along another of its rays; nothing if it has no such ray.
-    pub fn choose(&self, tracer: &Tracer, chosen: Chosen) -> Option<Self> {
+    pub fn choose(&self, tracer: &Tracer, chosen: ChosenRay) -> Option<Self> {
         let ray = self.samples.get(chosen.sample)?.rays.get(chosen.ray)?;
         let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
         Some(Self { chosen, figures, ..self.clone() })
@@ -202,9 +202,9 @@ mod tests {
         let tracer = Tracer::new(&scene, Size::new(4, 3).expect("small"), Quality::default());
         assert!([[4, 0], [0, 3], [u32::MAX; 2]].iter().all(|&place| Inspected::new(&tracer, &scene, place).is_none()));
         let inspected = Inspected::new(&tracer, &scene, [3, 2]).expect("the last pixel");
-        let beyond = Chosen { sample: 0, ray: inspected.samples[0].rays.len() };
+        let beyond = ChosenRay { sample: 0, ray: inspected.samples[0].rays.len() };
         assert!(inspected.choose(&tracer, beyond).is_none());
-        assert!(inspected.choose(&tracer, Chosen { sample: 1, ray: 0 }).is_none());
+        assert!(inspected.choose(&tracer, ChosenRay { sample: 1, ray: 0 }).is_none());
     }
 
     #[test]

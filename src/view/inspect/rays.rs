@@ -180,7 +180,7 @@ fn places(rays: &[RayNotes], width: f32) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Chosen;
+    use super::super::ChosenRay;
     use super::super::tests::{assert_within, each};
     use super::*;
     use crate::picture::Quality;
@@ -214,7 +214,7 @@ mod tests {
     fn the_chosen_ray_and_only_that_is_marked() {
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(3) {
-                let one = inspected.choose(tracer, Chosen { sample: 0, ray }).expect("a ray of it");
+                let one = inspected.choose(tracer, ChosenRay { sample: 0, ray }).expect("a ray of it");
                 let tree = one.ray_tree(500.0);
                 let rings = |mark: &&Mark| match mark {
                     Mark::Disc { ink, .. } | Mark::Box { ink, .. } => ink.hue == Hue::Text,

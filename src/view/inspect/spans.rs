@@ -2,7 +2,7 @@
 
 use super::format::{number, passes_nothing};
 use super::{Inspected, cut, edge, label, line, shown};
-use crate::csg::{Figure, Operation, What};
+use crate::csg::{Operation, SolidKind, SpanDiagram};
 use crate::language::{say, word};
 use crate::view::charts::axis::{Axis, Ruler};
 use crate::view::draw::display_list::{Anchor, Hue, Mark};
@@ -11,7 +11,7 @@ use crate::view::text::scene_stats::shape_names;
 
 /// The spans as they are drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spans {
+pub struct SpanPlot {
     /// What is to be drawn.
     pub marks: Vec<Mark>,
     /// How high it is.
@@ -19,8 +19,8 @@ pub struct Spans {
 }
 
 /// A solid, or an operand of it, that the ray passes.
-pub(super) struct Row<'a> {
-    pub(super) figure: &'a Figure,
+pub(super) struct SpanRow<'a> {
+    pub(super) figure: &'a SpanDiagram,
     /// Of how many compositions it is an operand.
     pub(super) depth: usize,
     /// It is what the ray met, or a part of that.
@@ -37,11 +37,11 @@ const BEYOND: f64 = 0.35;
 impl Inspected {
     /// The stays of the chosen ray in each solid that it passes and in what it is made of, `most` rows at most. Distances are
     /// to the right.
-    pub fn spans(&self, width: f32, most: usize) -> Spans {
+    pub fn spans(&self, width: f32, most: usize) -> SpanPlot {
         let (rows, range) = (self.rows(), self.range());
         if rows.is_empty() {
             let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, passes_nothing(), Hue::Quiet)];
-            return Spans { marks, height: ROW };
+            return SpanPlot { marks, height: ROW };
         }
         let left = (0.42 * width).min(210.0);
         let axis = Axis { range: Some(range.into()), ..Axis::default() };
@@ -80,17 +80,17 @@ impl Inspected {
             let text = say!("and {more} more", "e mais {more}");
             marks.push(label([0.0, bottom + ROW / 2.0], Anchor::Left, text, Hue::Quiet));
         }
-        Spans { marks, height: bottom + ROW }
+        SpanPlot { marks, height: bottom + ROW }
     }
 
     /// All that the ray passes, each solid before what it is made of.
-    pub(super) fn rows(&self) -> Vec<Row<'_>> {
+    pub(super) fn rows(&self) -> Vec<SpanRow<'_>> {
         let met = self.ray().met.map(|met| met.start.root);
         let (range, mut rows) = (self.range(), Vec::new());
         for (root, figure) in self.figures.iter().filter(|(_, figure)| seen(figure, range).next().is_some()) {
             let mut waiting = vec![(figure, 0)];
             while let Some((figure, depth)) = waiting.pop() {
-                rows.push(Row { figure, depth, is_met: met == Some(*root) });
+                rows.push(SpanRow { figure, depth, is_met: met == Some(*root) });
                 // What the ray does not pass says nothing.
                 let passed = figure.operands.iter().rev().filter(|operand| seen(operand, range).next().is_some());
                 waiting.extend(passed.map(|operand| (operand, depth + 1)));
@@ -100,12 +100,12 @@ impl Inspected {
     }
 
     /// What a row is called.
-    pub(super) fn row_name(&self, figure: &Figure) -> String {
+    pub(super) fn row_name(&self, figure: &SpanDiagram) -> String {
         match figure.what {
-            What::Composition(Operation::Union) => word!("union", "união").into(),
-            What::Composition(Operation::Intersection) => word!("intersection", "interseção").into(),
-            What::Composition(Operation::Difference) => word!("difference", "diferença").into(),
-            What::Primitive { tag, kind } => {
+            SolidKind::Composition(Operation::Union) => word!("union", "união").into(),
+            SolidKind::Composition(Operation::Intersection) => word!("intersection", "interseção").into(),
+            SolidKind::Composition(Operation::Difference) => word!("difference", "diferença").into(),
+            SolidKind::Primitive { tag, kind } => {
                 let [kind, _] = shape_names(kind);
                 self.name(tag).map_or_else(|| kind.into(), |name| format!("{name}: {kind}"))
             }
@@ -118,7 +118,7 @@ impl Inspected {
         let to = self.ray().path.to;
         let most = if to.is_finite() { (1.0 + BEYOND) * to } else { f64::MAX };
         let (mut first, mut last) = if to.is_finite() { (to, to) } else { (f64::MAX, 0.0) };
-        let mut waiting: Vec<&Figure> = self.figures.iter().map(|(_, figure)| figure).collect();
+        let mut waiting: Vec<&SpanDiagram> = self.figures.iter().map(|(_, figure)| figure).collect();
         while let Some(figure) = waiting.pop() {
             for &t in figure.stays.iter().flatten().filter(|t| (NOTHING..=most).contains(*t)) {
                 (first, last) = (first.min(t), last.max(t));
@@ -134,22 +134,22 @@ impl Inspected {
         }
     }
 
-    fn row(&self, row: &Row<'_>, y: f32, left: f32, marks: &mut Vec<Mark>) {
+    fn row(&self, row: &SpanRow<'_>, y: f32, left: f32, marks: &mut Vec<Mark>) {
         let x = INDENT * row.depth.min(MOST_INDENTS) as f32;
         let hue = if row.is_met { Hue::Text } else { Hue::Quiet };
         let text = cut(&self.row_name(row.figure), left - x - 8.0);
         marks.push(label([x, y], Anchor::Left, text, hue));
     }
 
-    fn bars(&self, figure: &Figure, y: f32, x: &impl Fn(f64) -> f32, range: [f64; 2], marks: &mut Vec<Mark>) {
+    fn bars(&self, figure: &SpanDiagram, y: f32, x: &impl Fn(f64) -> f32, range: [f64; 2], marks: &mut Vec<Mark>) {
         let inks = match figure.what {
-            What::Composition(_) => [Hue::Quiet, Hue::Quiet],
-            What::Primitive { tag, .. } => {
+            SolidKind::Composition(_) => [Hue::Quiet, Hue::Quiet],
+            SolidKind::Primitive { tag, .. } => {
                 let colour = shown(self.material(tag).colour);
                 [Hue::Told(edge(colour)), Hue::Told(colour)]
             }
         };
-        let high = if matches!(figure.what, What::Composition(_)) { 3.0 } else { 6.0 };
+        let high = if matches!(figure.what, SolidKind::Composition(_)) { 3.0 } else { 6.0 };
         for [enter, leave] in seen(figure, range) {
             let (from, to) = (x(enter), x(leave));
             // A stay that is too short to be seen is seen.
@@ -168,7 +168,7 @@ const NOTHING: f64 = 1e-9;
 const RIGHT: f32 = 24.0;
 
 /// The stays that are drawn, cut to what is drawn of them.
-fn seen(figure: &Figure, [near, far]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+fn seen(figure: &SpanDiagram, [near, far]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let first = near + NOTHING * far;
     let stays = figure.stays.iter().filter(move |[enter, leave]| *leave > first && *enter < far);
     stays.map(move |[enter, leave]| [enter.max(near), leave.min(far)])
@@ -176,13 +176,13 @@ fn seen(figure: &Figure, [near, far]: [f64; 2]) -> impl Iterator<Item = [f64; 2]
 
 #[cfg(test)]
 mod tests {
-    use super::super::Chosen;
+    use super::super::ChosenRay;
     use super::super::tests::{assert_within, each};
     use super::*;
     use crate::picture::Quality;
 
-    fn rays(of: &Inspected) -> impl Iterator<Item = Chosen> + use<> {
-        (0..of.sample().rays.len().min(4)).map(|ray| Chosen { sample: 0, ray })
+    fn rays(of: &Inspected) -> impl Iterator<Item = ChosenRay> + use<> {
+        (0..of.sample().rays.len().min(4)).map(|ray| ChosenRay { sample: 0, ray })
     }
 
     #[test]

@@ -112,7 +112,7 @@ const PART: f32 = 66.0;
 
 #[cfg(test)]
 mod tests {
-    use super::super::Chosen;
+    use super::super::ChosenRay;
     use super::super::tests::{assert_within, each};
     use super::*;
     use crate::picture::Quality;
@@ -121,7 +121,7 @@ mod tests {
     fn the_terms_of_each_ray_are_what_comes_by_it() {
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(5) {
-                let one = inspected.choose(tracer, Chosen { sample: 0, ray }).expect("a ray of it");
+                let one = inspected.choose(tracer, ChosenRay { sample: 0, ray }).expect("a ray of it");
                 let terms = one.terms();
                 let (sum, others) = terms.split_last().expect("at least the sum");
                 let brings = one.sample().brings(ray);
@@ -141,7 +141,7 @@ mod tests {
         let quality = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         each(quality, |tracer, inspected| {
             let part = |sample| {
-                let one = inspected.choose(tracer, Chosen { sample, ray: 0 }).expect("a primary ray");
+                let one = inspected.choose(tracer, ChosenRay { sample, ray: 0 }).expect("a primary ray");
                 one.terms().last().and_then(|term| term.part).unwrap_or_default()
             };
             let all: f64 = (0..inspected.samples.len()).map(part).sum();

@@ -304,7 +304,7 @@ fn others_run(state: &RunState, node: NodeId) -> bool {
 mod tests {
     use super::*;
     use crate::balance::{Message, Party};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
@@ -316,8 +316,8 @@ mod tests {
         for (id, node) in [(0, 0), (1, 1)] {
             let (from, to, message) = (Party::Parent, Party::Node(node), Message::Band(9 * id..9 * id + 9));
             let (at, id) = (Time::ZERO, u64::from(id));
-            state.apply(&Record { at, what: What::Sent { id, from, to, message, bytes: 0, arrives: at } });
-            state.apply(&Record { at, what: What::Received { id, by: to } });
+            state.apply(&Record { at, what: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } });
+            state.apply(&Record { at, what: RecordKind::Received { id, by: to } });
         }
         state
     }

@@ -4,13 +4,13 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use super::event_sentences;
-use super::events::{Events, is_done, jam};
+use super::events::{EventLog, is_done, jam};
 use super::failure_sentences;
 use super::status::standing;
 use crate::balance::{Message, Party, Remedy};
 use crate::language::say;
 use crate::picture::atoms_in;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::node_name;
@@ -23,7 +23,7 @@ pub struct Narrator {
     told: Option<Told>,
     /// The last that were passed over since, for want of time to read them: where time goes slower there is some.
     passed_over: VecDeque<Told>,
-    events: Events,
+    events: EventLog,
 }
 
 #[derive(Clone, Debug)]
@@ -57,11 +57,11 @@ impl Narrator {
         self.events.apply(record, state);
         let by_hand = matches!(
             record.what,
-            What::SpeedSet { .. }
-                | What::Paused { .. }
-                | What::Resumed { .. }
-                | What::LatencySet { .. }
-                | What::Condition { .. }
+            RecordKind::SpeedSet { .. }
+                | RecordKind::Paused { .. }
+                | RecordKind::Resumed { .. }
+                | RecordKind::LatencySet { .. }
+                | RecordKind::Condition { .. }
         );
         let told = if by_hand {
             // The list knows where a slider was before the hand took hold of it.
@@ -132,36 +132,38 @@ const MOST_PASSED_OVER: usize = 64;
 
 fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
     let told = match &record.what {
-        What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
+        RecordKind::Sent {
+            from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+        } => {
             let atoms = atoms_in(ranges);
             ((3, atoms.checked_ilog2().unwrap_or(0)), event_sentences::transfer(state, *from, *to, atoms))
         }
-        What::Sent { from: Party::Parent, message: Message::Gone(_), .. } => {
+        RecordKind::Sent { from: Party::Parent, message: Message::Gone(_), .. } => {
             (MISSED, failure_sentences::ring_changed(state, record.at)?)
         }
-        What::Sent { from, to: Party::Node(to), message: Message::Again(ranges), .. } => {
+        RecordKind::Sent { from, to: Party::Node(to), message: Message::Again(ranges), .. } => {
             let atoms = atoms_in(ranges);
             match *from {
                 Party::Parent => ((3, atoms.checked_ilog2().unwrap_or(0)), failure_sentences::given_out(&[*to], atoms)),
                 Party::Node(from) => ((2, 0), failure_sentences::copies(from, &[*to], atoms)),
             }
         }
-        What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Wake, .. } => {
+        RecordKind::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Wake, .. } => {
             ((1, 1), failure_sentences::wakes(*from, &[*to]))
         }
-        What::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
+        RecordKind::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
             ((1, 0), event_sentences::offer(state, *from, false, message.own_offer(*from)?))
         }
         // One that is asked back, or let in, gets no band.
-        What::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
+        RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
             return None;
         }
-        What::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
+        RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
             ((2, 0), event_sentences::bands(state, band))
         }
-        What::Retired { .. } if state.sharing.is_farm() => return None,
-        What::Retired { node } if state.has(Remedy::Wake) => ((1, 0), event_sentences::retired(state, &[*node])),
-        What::Retired { node } => {
+        RecordKind::Retired { .. } if state.sharing.is_farm() => return None,
+        RecordKind::Retired { node } if state.has(Remedy::Wake) => ((1, 0), event_sentences::retired(state, &[*node])),
+        RecordKind::Retired { node } => {
             let name = node_name(*node);
             let words = say!(
                 "{name}'s offer came back, nobody needs help: it retires",
@@ -170,17 +172,17 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
             ((2, 0), words)
         }
         // The bands follow, perhaps soon.
-        What::Estimating => ((1, 0), event_sentences::estimating().into()),
-        What::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
+        RecordKind::Estimating => ((1, 0), event_sentences::estimating().into()),
+        RecordKind::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
             let weight = if part.is_empty() { 2 } else { 1 };
             ((weight, 0), event_sentences::part(*to, part.len() as u32))
         }
-        What::Received { by: Party::Parent, .. } => {
+        RecordKind::Received { by: Party::Parent, .. } => {
             let waiting = jam(state, record.at)?;
             ((2, waiting.ilog2()), event_sentences::jam(state, waiting))
         }
-        What::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), event_sentences::done(&[*node])),
-        What::Finished => (END, event_sentences::complete().into()),
+        RecordKind::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), event_sentences::done(&[*node])),
+        RecordKind::Finished => (END, event_sentences::complete().into()),
         _ => return None,
     };
     Some(told)
@@ -224,14 +226,16 @@ mod tests {
             narrator.apply(&record, &state);
             narrator.sentence(&state, record.at)
         };
-        assert!(say(0, What::Retired { node: 0 }).starts_with("1's offer"));
-        assert!(say(100, What::Retired { node: 1 }).starts_with("1's offer"));
-        assert!(say(200, What::SpeedSet { node: 1, speed: 0.25 }).starts_with("Machine 2 now runs at 25 %"));
-        assert!(say(300, What::Retired { node: 1 }).starts_with("Machine 2"));
-        assert!(say(400, What::LatencySet { latency: Duration::from_millis(200) }).starts_with("A hop takes 200 ms"));
-        assert!(say(2100, What::Retired { node: 1 }).starts_with("2's offer"));
-        assert!(say(2200, What::Finished).starts_with("The picture"));
-        assert!(say(9000, What::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
+        assert!(say(0, RecordKind::Retired { node: 0 }).starts_with("1's offer"));
+        assert!(say(100, RecordKind::Retired { node: 1 }).starts_with("1's offer"));
+        assert!(say(200, RecordKind::SpeedSet { node: 1, speed: 0.25 }).starts_with("Machine 2 now runs at 25 %"));
+        assert!(say(300, RecordKind::Retired { node: 1 }).starts_with("Machine 2"));
+        assert!(
+            say(400, RecordKind::LatencySet { latency: Duration::from_millis(200) }).starts_with("A hop takes 200 ms")
+        );
+        assert!(say(2100, RecordKind::Retired { node: 1 }).starts_with("2's offer"));
+        assert!(say(2200, RecordKind::Finished).starts_with("The picture"));
+        assert!(say(9000, RecordKind::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
     }
 
     #[test]
@@ -240,7 +244,7 @@ mod tests {
         let mut narrator = Narrator::default();
         let at = |ms: u64| Time(ms * 1_000_000);
         for (ms, node) in [(0, 0), (100, 1), (200, 2)] {
-            let record = Record { at: at(ms), what: What::Retired { node } };
+            let record = Record { at: at(ms), what: RecordKind::Retired { node } };
             state.apply(&record);
             narrator.apply(&record, &state);
         }
@@ -261,7 +265,7 @@ mod tests {
         let mut say = |ms: u64, from, atoms| {
             let (from, to, at) = (Party::Node(from), Party::Node(0), Time(ms * 1_000_000));
             let message = Message::Transfer(std::iter::once(0..atoms).collect());
-            let what = What::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
+            let what = RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
             narrator.apply(&Record { at, what }, &state);
             narrator.sentence(&state, at)
         };
@@ -276,7 +280,7 @@ mod tests {
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 9));
         let mut narrator = Narrator::default();
         let mut set = |ms: u64, node, speed| {
-            let record = Record { at: Time(ms * 1_000_000), what: What::SpeedSet { node, speed } };
+            let record = Record { at: Time(ms * 1_000_000), what: RecordKind::SpeedSet { node, speed } };
             state.apply(&record);
             narrator.apply(&record, &state);
             narrator.sentence(&state, record.at)
@@ -371,7 +375,7 @@ mod tests {
         let mut say = |ms: u64, from, atoms| {
             let (from, to, at) = (Party::Node(from), Party::Node(2), Time(ms * 1_000_000));
             let message = Message::Transfer(std::iter::once(0..atoms).collect());
-            let record = Record { at, what: What::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
+            let record = Record { at, what: RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
             state.apply(&record);
             narrator.apply(&record, &state);
             narrator.sentence(&state, at)

@@ -5,7 +5,7 @@ use super::failure_sentences;
 use super::status::PIPE;
 use crate::balance::{NodeId, Party, Remedy};
 use crate::language::{say, word};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
@@ -15,11 +15,11 @@ use crate::view::text::tooltips::flight_words;
 /// What happened, in a sentence; `state` already knows it.
 pub fn record_words(record: &Record, state: &RunState) -> String {
     match &record.what {
-        What::Sent { id, .. } => match state.flight(*id) {
+        RecordKind::Sent { id, .. } => match state.flight(*id) {
             Some(flight) => sent_words(flight, state),
             None => word!("A message leaves", "Parte uma mensagem").into(),
         },
-        What::Received { id, by } => {
+        RecordKind::Received { id, by } => {
             let by = match by {
                 Party::Parent => word!("The parent", "O pai").into(),
                 Party::Node(node) => node_name(*node).to_string(),
@@ -29,28 +29,28 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
                 None => say!("{by} handles a message", "{by} atende uma mensagem"),
             }
         }
-        What::Estimating => event_sentences::estimating().into(),
-        What::Estimated { .. } => word!("The parent has sampled the picture", "O pai amostrou a imagem").into(),
-        What::AtomStarted { node, atom } => {
+        RecordKind::Estimating => event_sentences::estimating().into(),
+        RecordKind::Estimated { .. } => word!("The parent has sampled the picture", "O pai amostrou a imagem").into(),
+        RecordKind::AtomStarted { node, atom } => {
             let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
             say!("{name} begins atom {atom}", "{name} começa o átomo {atom}")
         }
-        What::AtomDone { node, atom, cost } => {
+        RecordKind::AtomDone { node, atom, cost } => {
             let (name, atom, cost) = (node_name(*node), count(atom.saturating_add(1)), duration(*cost));
             say!(
                 "{name} has traced atom {atom}, at a cost of {cost}",
                 "{name} calculou o átomo {atom}, ao custo de {cost}"
             )
         }
-        What::SpeedSet { node, speed } => {
+        RecordKind::SpeedSet { node, speed } => {
             let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
             event_sentences::speed(state, *node, before, *speed)
         }
-        What::Paused { node } => event_sentences::paused(state, *node),
-        What::Resumed { node } => event_sentences::resumed(state, *node),
-        What::LatencySet { latency } => event_sentences::latency(state, *latency),
-        What::Condition { node, .. } => failure_sentences::condition(state, *node),
-        What::Link { one, other, cut } => {
+        RecordKind::Paused { node } => event_sentences::paused(state, *node),
+        RecordKind::Resumed { node } => event_sentences::resumed(state, *node),
+        RecordKind::LatencySet { latency } => event_sentences::latency(state, *latency),
+        RecordKind::Condition { node, .. } => failure_sentences::condition(state, *node),
+        RecordKind::Link { one, other, cut } => {
             let (one, other) = (party_name(*one), party_name(*other));
             if *cut {
                 say!("The link between {one} and {other} is cut", "A ligação entre {one} e {other} foi cortada")
@@ -58,21 +58,21 @@ pub fn record_words(record: &Record, state: &RunState) -> String {
                 say!("The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
             }
         }
-        What::Delayed { from, to, until } => failure_sentences::delayed((*from, *to), until.since(record.at)),
-        What::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
-        What::AtomFailed { node, atom } => {
+        RecordKind::Delayed { from, to, until } => failure_sentences::delayed((*from, *to), until.since(record.at)),
+        RecordKind::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
+        RecordKind::AtomFailed { node, atom } => {
             let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
             say!("{name} fails to trace atom {atom}", "{name} não consegue calcular o átomo {atom}")
         }
-        What::GivenUp { atom } => {
+        RecordKind::GivenUp { atom } => {
             let atom = count(atom.saturating_add(1));
             say!(
                 "Atom {atom} cannot be traced: the run has failed",
                 "O átomo {atom} não pode ser calculado: a execução falhou"
             )
         }
-        What::Retired { node } => event_sentences::retired(state, &[*node]),
-        What::Finished => event_sentences::complete().into(),
+        RecordKind::Retired { node } => event_sentences::retired(state, &[*node]),
+        RecordKind::Finished => event_sentences::complete().into(),
     }
 }
 
@@ -154,8 +154,11 @@ mod tests {
             state.apply(&record);
             let words = record_words(&record, &state);
             assert!(!words.is_empty() && words.chars().count() < 190, "{words}");
-            if let What::Sent {
-                from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            if let RecordKind::Sent {
+                from: Party::Node(from),
+                to: Party::Node(to),
+                message: Message::Transfer(ranges),
+                ..
             } = &record.what
             {
                 let atoms: u32 = ranges.iter().map(|range| range.len() as u32).sum();

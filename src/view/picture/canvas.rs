@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::overlay::{Layer, Tones};
+use super::overlay::{Layer, Shades};
 use crate::balance::NodeId;
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Colour, Division, Size, srgb8};
@@ -17,7 +17,7 @@ pub struct Canvas {
     size: Size,
     division: Division,
     colours: Vec<Rgb>,
-    tones: Tones,
+    tones: Shades,
     ground: Rgb,
     blend: f32,
     /// What an atom costs on the average, as far as costs are shown by it.
@@ -51,7 +51,7 @@ impl Canvas {
         Self {
             size,
             division,
-            tones: Tones::new(Layer::Owners, &colours),
+            tones: Shades::new(Layer::Owners, &colours),
             colours,
             ground,
             blend: 0.0,
@@ -123,7 +123,7 @@ impl Canvas {
         /// What costs are compared with follows the mean in steps, or each atom would be drawn anew with every other.
         const STEP: f64 = 1.1;
         if layer != self.tones.layer() {
-            self.tones = Tones::new(layer, &self.colours);
+            self.tones = Shades::new(layer, &self.colours);
             self.blend = f32::NAN;
         }
         let mean = state.mean_cost();

@@ -4,7 +4,7 @@ use super::false_colour::ramp;
 use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Frame, srgb8};
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::run_state::RunState;
 
 /// What lies over the render.
@@ -53,12 +53,12 @@ const STEPS: usize = 48;
 
 /// For each colour of a layer, 256 levels of light.
 #[derive(Clone, Debug)]
-pub(crate) struct Tones {
+pub(crate) struct Shades {
     layer: Layer,
     tones: Vec<[Rgb; 256]>,
 }
 
-impl Tones {
+impl Shades {
     /// The tones of a layer, where nodes have these colours.
     pub(crate) fn new(layer: Layer, colours: &[Rgb]) -> Self {
         let tones = match layer {
@@ -77,7 +77,7 @@ impl Tones {
 
     /// Which of the tones an atom has, where atoms cost so much on the average; `None` if it is not traced.
     pub(crate) fn of(&self, atom: Atom, state: &RunState, mean: f64) -> Option<u16> {
-        let Place::Traced { by, cost, .. } = state.places()[atom as usize] else { return None };
+        let AtomState::Traced { by, cost, .. } = state.places()[atom as usize] else { return None };
         let step = |share: f64| (share.clamp(0.0, 1.0) * (STEPS - 1) as f64).round() as u16;
         Some(match self.layer {
             Layer::Owners => by,
@@ -99,7 +99,7 @@ impl Tones {
 /// The picture as it is shown, as 8-bit RGB in scan order: the render (`blend` 0, exactly [`Frame::to_srgb8`]), in the
 /// colours of a layer (1; those of nodes are given), or between. What is not traced yet is black.
 pub fn picture_pixels(frame: &Frame, state: &RunState, colours: &[Rgb], (layer, blend): (Layer, f32)) -> Vec<u8> {
-    let (tones, division, mean) = (Tones::new(layer, colours), state.division(), state.mean_cost());
+    let (tones, division, mean) = (Shades::new(layer, colours), state.division(), state.mean_cost());
     let atoms = (0..state.atoms()).map(|atom| (division.pixels(atom), tones.of(atom, state, mean)));
     let pixels = atoms.flat_map(|(pixels, tone)| {
         let pixels = &frame.pixels()[pixels.start as usize..pixels.end as usize];
@@ -187,7 +187,7 @@ mod tests {
     #[test]
     fn the_last_to_come_is_lighter_than_the_first() {
         let (_, state) = traced(usize::MAX, [0.2; 3]);
-        let tones = Tones::new(Layer::Arrival, &COLOURS);
+        let tones = Shades::new(Layer::Arrival, &COLOURS);
         let of =
             |order: u32| (0..20).find(|&atom| state.order(atom) == order).and_then(|atom| tones.of(atom, &state, 0.0));
         let shown = |order| light(tones.shown([120; 3], of(order), 1.0));
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn whatever_costs_twice_the_mean_is_lighter_than_the_mean() {
         let (_, state) = traced(usize::MAX, [0.2; 3]);
-        let tones = Tones::new(Layer::Costs, &COLOURS);
+        let tones = Shades::new(Layer::Costs, &COLOURS);
         let mean = state.mean_cost();
         assert!((mean - sample_runs::COST.as_secs_f64()).abs() < 1e-9);
         let of = |mean| tones.of(3, &state, mean);

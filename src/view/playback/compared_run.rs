@@ -2,44 +2,53 @@
 
 use std::sync::Arc;
 
-use super::snapshots::{Moment, Past};
+use super::snapshots::{Snapshot, SnapshotCache};
 use crate::palette::{Rgb, node_colours};
 use crate::picture::Colour;
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::analysis::time_budget::Account;
+use crate::view::analysis::time_budget::TimeBudget;
 use crate::view::picture::canvas::Canvas;
 use crate::view::picture::overlay::Layer;
 use crate::view::state::lanes::Lanes;
 
 /// One of several runs that are over, at the time that is shown of all of them.
 #[derive(Clone, Debug)]
-pub struct Contender {
+pub struct ComparedRun {
     /// What it is called.
     pub name: String,
     /// All of it.
     pub log: Arc<RunLog>,
     /// What it amounts to; `None` if its picture was never completed.
-    pub account: Option<Account>,
+    pub account: Option<TimeBudget>,
     /// What each machine did and when.
     pub lanes: Lanes,
     /// Its machines' colours.
     pub colours: Vec<Rgb>,
-    past: Past,
-    moment: Moment,
+    past: SnapshotCache,
+    moment: Snapshot,
     canvas: Canvas,
 }
 
-impl Contender {
+impl ComparedRun {
     /// A run and its picture's pixels in scan order, before anything has happened.
     pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
         let header = &log.header;
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
         canvas.take(0..header.division.atoms(), pixels);
-        let (moment, lanes) = (Moment::new(header), Lanes::of(&log));
+        let (moment, lanes) = (Snapshot::new(header), Lanes::of(&log));
         canvas.show_all(&moment.state);
-        Self { name, account: Account::new(&log, &lanes), log, lanes, colours, past: Past::default(), moment, canvas }
+        Self {
+            name,
+            account: TimeBudget::new(&log, &lanes),
+            log,
+            lanes,
+            colours,
+            past: SnapshotCache::default(),
+            moment,
+            canvas,
+        }
     }
 
     /// How long its records go on.
@@ -53,7 +62,7 @@ impl Contender {
     }
 
     /// What is known at the shown time.
-    pub fn moment(&self) -> &Moment {
+    pub fn moment(&self) -> &Snapshot {
         &self.moment
     }
 
@@ -81,8 +90,8 @@ impl Contender {
 }
 
 /// When the last of them is over.
-pub fn length_of_all(contenders: &[Contender]) -> Time {
-    contenders.iter().map(Contender::length).max().unwrap_or(Time::ZERO)
+pub fn length_of_all(contenders: &[ComparedRun]) -> Time {
+    contenders.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
 }
 
 #[cfg(test)]
@@ -92,18 +101,18 @@ mod tests {
     use super::*;
     use crate::view::tests::sample_runs;
 
-    fn contender(speeds: &[f64]) -> Contender {
+    fn contender(speeds: &[f64]) -> ComparedRun {
         let header = sample_runs::header(speeds, 300);
         let mut log = RunLog::new(header.clone());
         log.add(sample_runs::records(&header));
         let pixels = vec![[0.5; 3]; header.size.pixels() as usize];
-        Contender::new("Ring".into(), Arc::new(log), &pixels, [0; 3])
+        ComparedRun::new("Ring".into(), Arc::new(log), &pixels, [0; 3])
     }
 
     #[test]
     fn at_each_time_a_run_shows_what_it_had_come_to() {
         let mut shown = contender(&[1.0, 0.2]);
-        let rows = |shown: &mut Contender| -> Vec<Rgb> {
+        let rows = |shown: &mut ComparedRun| -> Vec<Rgb> {
             let all: Range<u32> = 0..shown.log.header.size.height();
             shown.canvas((Layer::Owners, 0.0), [0; 3]).rows(all).to_vec()
         };

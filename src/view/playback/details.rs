@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::snapshots::{Moment, Past};
+use super::snapshots::{Snapshot, SnapshotCache};
 use crate::balance::{NodeId, Party};
 use crate::language::{say, word};
 use crate::picture::{Atom, push_atom};
-use crate::record::What;
+use crate::record::RecordKind;
 use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::narration::record_sentences::share_words;
@@ -16,13 +16,13 @@ use crate::view::state::lanes::Lanes;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{count, duration, node_name, time_words};
 use crate::view::text::tooltips::{Fact, atom_words, flight_words, node_facts};
-use crate::view::timeline::landmarks::About;
+use crate::view::timeline::landmarks::Subject;
 
 /// What is known of it whatever moment is shown; found by looking through the run, so not for every frame.
 #[derive(Clone, Debug)]
-pub struct Dossier {
+pub struct Details {
     /// What it is of.
-    pub about: About,
+    pub about: Subject,
     /// The message itself.
     flight: Option<Flight>,
     /// Why it carries so much.
@@ -33,7 +33,7 @@ pub struct Dossier {
 
 /// What lights up.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Lit {
+pub struct Highlight {
     /// Machines.
     pub nodes: Vec<NodeId>,
     /// Atoms.
@@ -44,21 +44,21 @@ pub struct Lit {
     pub bar: Option<(NodeId, Traced)>,
 }
 
-impl Dossier {
+impl Details {
     /// Looks through the run for what is known of `about`.
-    pub fn of(about: About, log: &RunLog, lanes: &Lanes, past: &mut Past) -> Self {
+    pub fn of(about: Subject, log: &RunLog, lanes: &Lanes, past: &mut SnapshotCache) -> Self {
         let mut dossier = Self { about, flight: None, why: None, bar: None };
         match about {
-            About::Node(_) => {}
-            About::Atom(atom) => dossier.bar = lanes.bar_of(atom),
-            About::Message(id) => {
-                let is_it = |what: &What| matches!(what, What::Sent { id: other, .. } if *other == id);
+            Subject::Node(_) => {}
+            Subject::Atom(atom) => dossier.bar = lanes.bar_of(atom),
+            Subject::Message(id) => {
+                let is_it = |what: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
                 let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return dossier };
                 let record = &log.records()[index];
-                let What::Sent { from, to, message, arrives, .. } = &record.what else { return dossier };
+                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return dossier };
                 let flight = Flight::new(id, (*from, *to), message, record.at, *arrives);
                 if let (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) = (*from, *to, &flight.cargo) {
-                    let mut moment = Moment::new(&log.header);
+                    let mut moment = Snapshot::new(&log.header);
                     past.go(log, index + 1, &mut moment);
                     dossier.why = share_words(&moment.state, from, to, flight.cargo.atoms());
                 }
@@ -71,37 +71,37 @@ impl Dossier {
     /// Whether nothing more can become known of it.
     pub fn is_complete(&self) -> bool {
         match self.about {
-            About::Node(_) => true,
-            About::Atom(_) => self.bar.is_some(),
-            About::Message(_) => self.flight.is_some(),
+            Subject::Node(_) => true,
+            Subject::Atom(_) => self.bar.is_some(),
+            Subject::Message(_) => self.flight.is_some(),
         }
     }
 
     /// What lights up with it, where `state` is shown.
-    pub fn lit(&self, state: &RunState) -> Lit {
+    pub fn lit(&self, state: &RunState) -> Highlight {
         match self.about {
-            About::Node(node) => {
+            Subject::Node(node) => {
                 let mut atoms = Vec::new();
                 for (atom, place) in (0..).zip(state.places()) {
                     if place.holder() == Some(node) {
                         push_atom(&mut atoms, atom);
                     }
                 }
-                Lit { nodes: vec![node], atoms, ..Lit::default() }
+                Highlight { nodes: vec![node], atoms, ..Highlight::default() }
             }
-            About::Atom(atom) => {
+            Subject::Atom(atom) => {
                 let holder = state.places().get(atom as usize).and_then(|place| place.holder());
                 let atoms = std::iter::once(atom..atom.saturating_add(1)).collect();
-                Lit { nodes: holder.into_iter().collect(), atoms, bar: self.bar, ..Lit::default() }
+                Highlight { nodes: holder.into_iter().collect(), atoms, bar: self.bar, ..Highlight::default() }
             }
-            About::Message(id) => {
+            Subject::Message(id) => {
                 let parties = self.flight.iter().flat_map(|flight| [flight.from, flight.to]);
                 let nodes = parties.filter_map(|party| match party {
                     Party::Node(node) => Some(node),
                     Party::Parent => None,
                 });
                 let atoms = self.flight.as_ref().map_or_else(Vec::new, |flight| flight.cargo.ranges().to_vec());
-                Lit { nodes: nodes.collect(), atoms, message: Some(id), ..Lit::default() }
+                Highlight { nodes: nodes.collect(), atoms, message: Some(id), ..Highlight::default() }
             }
         }
     }
@@ -110,7 +110,7 @@ impl Dossier {
     /// [`time_words`] does at the rate `grain`.
     pub fn words(&self, state: &RunState, now: Time, grain: f64) -> (String, String) {
         match self.about {
-            About::Node(node) => {
+            Subject::Node(node) => {
                 let facts = node_facts(state, node, now);
                 let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
                 let said = [Fact::Offers, Fact::Gave, Fact::Got, Fact::Asked, Fact::Stole, Fact::Lost];
@@ -129,7 +129,7 @@ impl Dossier {
                 );
                 (title, more)
             }
-            About::Atom(atom) => {
+            Subject::Atom(atom) => {
                 let pixels = state.division().pixels(atom);
                 let [first, last] = [pixels.start, pixels.end.saturating_sub(1)].map(count);
                 let place =
@@ -145,7 +145,7 @@ impl Dossier {
                 });
                 (atom_words(state, atom, now), format!("{place}{}", traced.unwrap_or_default()))
             }
-            About::Message(_) => match &self.flight {
+            Subject::Message(_) => match &self.flight {
                 None => {
                     let title = word!("A message that is not known any more", "Uma mensagem que não se conhece mais");
                     (title.into(), String::new())
@@ -169,7 +169,7 @@ impl Dossier {
 
 #[cfg(test)]
 mod tests {
-    use super::super::run_view::Known;
+    use super::super::run_view::RunView;
     use super::*;
     use crate::view::tests::sample_runs;
     use crate::view::timeline::landmarks::landmarks;
@@ -177,11 +177,11 @@ mod tests {
     #[test]
     fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 900);
-        let Known { latest: moment, lanes, .. } = Known::of(&log);
+        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
         let found = landmarks(&log);
         let biggest = found.iter().find(|mark| mark.words.starts_with("The biggest")).unwrap();
-        let mut past = Past::default();
-        let dossier = Dossier::of(biggest.about, &log, &lanes, &mut past);
+        let mut past = SnapshotCache::default();
+        let dossier = Details::of(biggest.about, &log, &lanes, &mut past);
         let lit = dossier.lit(&moment.state);
         let (title, more) = dossier.words(&moment.state, moment.state.head(), 1.0);
         let atoms: usize = lit.atoms.iter().map(Range::len).sum();
@@ -195,11 +195,11 @@ mod tests {
     #[test]
     fn an_atom_lights_up_its_bar_and_its_machine() {
         let log = sample_runs::log(&[1.0, 0.5], 40);
-        let Known { latest: moment, lanes, .. } = Known::of(&log);
-        let dossier = Dossier::of(About::Atom(7), &log, &lanes, &mut Past::default());
+        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
+        let dossier = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default());
         let lit = dossier.lit(&moment.state);
         assert_eq!((lit.atoms.len(), lit.bar.map(|(node, _)| vec![node])), (1, Some(lit.nodes.clone())));
-        let whole = Dossier::of(About::Node(0), &log, &lanes, &mut Past::default()).lit(&moment.state);
+        let whole = Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default()).lit(&moment.state);
         let atoms: usize = whole.atoms.iter().map(Range::len).sum();
         assert_eq!(atoms as u32, moment.state.nodes()[0].done);
     }

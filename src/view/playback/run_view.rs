@@ -1,30 +1,30 @@
 //! Everything that is known of a run by now, whatever moment is shown.
 
-use super::snapshots::Moment;
+use super::snapshots::Snapshot;
 use crate::language::Language;
 use crate::record::Record;
 use crate::runlog::{Header, RunLog};
 use crate::view::state::lanes::Lanes;
-use crate::view::timeline::markers::Signs;
+use crate::view::timeline::markers::Markers;
 
 /// What is known of a run, as a fold over its records.
 #[derive(Clone, Debug)]
-pub struct Known {
+pub struct RunView {
     /// Its last moment.
-    pub latest: Moment,
+    pub latest: Snapshot,
     /// What stands out in its time.
-    pub signs: Signs,
+    pub signs: Markers,
     /// What each machine did and when.
     pub lanes: Lanes,
     /// What its sentences are in.
     pub language: Language,
 }
 
-impl Known {
+impl RunView {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
         let language = Language::spoken();
-        Self { latest: Moment::new(header), signs: Signs::default(), lanes: Lanes::new(header), language }
+        Self { latest: Snapshot::new(header), signs: Markers::default(), lanes: Lanes::new(header), language }
     }
 
     /// All of a recorded run.

@@ -7,7 +7,7 @@ use crate::view::state::run_state::RunState;
 
 /// A run after some of its records.
 #[derive(Clone, Debug)]
-pub struct Moment {
+pub struct Snapshot {
     /// Its state.
     pub state: RunState,
     /// Its sentences.
@@ -16,7 +16,7 @@ pub struct Moment {
     records: usize,
 }
 
-impl Moment {
+impl Snapshot {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
         Self { state: RunState::new(header), narrator: Narrator::default(), records: 0 }
@@ -39,9 +39,9 @@ impl Moment {
 ///
 /// No moment is further than some thousand records from one that is kept, and what is kept has no more than 64 MiB.
 #[derive(Clone, Debug, Default)]
-pub struct Past {
+pub struct SnapshotCache {
     /// Every `stride` records, the earliest first; the first is the beginning.
-    kept: Vec<Moment>,
+    kept: Vec<Snapshot>,
     stride: usize,
 }
 
@@ -51,10 +51,10 @@ const KEPT_BYTES: usize = 64 << 20;
 /// Fewer records than this are told again sooner than a moment is copied.
 const SHORTEST: usize = 1024;
 
-impl Past {
+impl SnapshotCache {
     /// Comes to the moment after the first `records` records of `log`, or after all if they are fewer. Returns whether
     /// `moment` went on to there, so that its state tells what has changed; else it jumped.
-    pub fn go(&mut self, log: &RunLog, records: usize, moment: &mut Moment) -> bool {
+    pub fn go(&mut self, log: &RunLog, records: usize, moment: &mut Snapshot) -> bool {
         let records = records.min(log.records().len());
         self.keep_until(log, records);
         let nearest = self.kept.iter().rfind(|kept| kept.records <= records);
@@ -75,7 +75,7 @@ impl Past {
 
     fn keep_until(&mut self, log: &RunLog, records: usize) {
         if self.kept.is_empty() {
-            let first = Moment::new(&log.header);
+            let first = Snapshot::new(&log.header);
             self.stride = SHORTEST.max(first.state.atoms() as usize / 8);
             self.kept.push(first);
         }
@@ -101,12 +101,12 @@ mod tests {
 
     use super::*;
     use crate::time::Time;
-    use crate::view::state::atom_state::Place;
+    use crate::view::state::atom_state::AtomState;
     use crate::view::tests::sample_runs;
 
     /// All that is seen of a moment at its own time.
-    fn seen(moment: &Moment, at: Time) -> String {
-        let Moment { state, narrator, records } = moment;
+    fn seen(moment: &Snapshot, at: Time) -> String {
+        let Snapshot { state, narrator, records } = moment;
         let flights: Vec<_> = state.flights().iter().filter(|flight| flight.gone() > at).collect();
         let events: Vec<_> = narrator.events().collect();
         let sentence = narrator.sentence(state, at);
@@ -119,12 +119,12 @@ mod tests {
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..900u32, jumps in prop::collection::vec(0.0..1.0f64, 1..9),
         ) {
             let log = sample_runs::log(&speeds, atoms);
-            let mut past = Past::default();
-            let mut jumped = Moment::new(&log.header);
+            let mut past = SnapshotCache::default();
+            let mut jumped = Snapshot::new(&log.header);
             for jump in jumps {
                 let records = (jump * (log.records().len() + 3) as f64) as usize;
                 past.go(&log, records, &mut jumped);
-                let mut went = Moment::new(&log.header);
+                let mut went = Snapshot::new(&log.header);
                 log.records().iter().take(records).for_each(|record| went.apply(record));
                 let at = went.state.head();
                 prop_assert_eq!(seen(&jumped, at), seen(&went, at));
@@ -139,17 +139,17 @@ mod tests {
             let held_back = told.remove((told.len() / 2).saturating_sub(late));
             let mut log = RunLog::new(whole.header.clone());
             log.add(told);
-            let mut past = Past::default();
-            let mut moment = Moment::new(&whole.header);
+            let mut past = SnapshotCache::default();
+            let mut moment = Snapshot::new(&whole.header);
             past.go(&log, usize::MAX, &mut moment);
             let before = log.until(held_back.at);
             log.add(vec![held_back]);
             past.forget_after(before);
             let records = (records * log.records().len() as f64) as usize;
-            let mut went = Moment::new(&log.header);
+            let mut went = Snapshot::new(&log.header);
             log.records().iter().take(records).for_each(|record| went.apply(record));
             let at = went.state.head();
-            let mut jumped = Moment::new(&log.header);
+            let mut jumped = Snapshot::new(&log.header);
             past.go(&log, records, &mut jumped);
             prop_assert_eq!(seen(&jumped, at), seen(&went, at));
         }
@@ -158,9 +158,9 @@ mod tests {
     #[test]
     fn what_is_kept_has_a_bound() {
         let log = sample_runs::log(&[1.0, 0.7, 0.1], 60_000);
-        let mut past = Past::default();
-        past.go(&log, usize::MAX, &mut Moment::new(&log.header));
-        let bytes = past.kept.len() * 60_000 * size_of::<Place>();
+        let mut past = SnapshotCache::default();
+        past.go(&log, usize::MAX, &mut Snapshot::new(&log.header));
+        let bytes = past.kept.len() * 60_000 * size_of::<AtomState>();
         assert!(bytes <= KEPT_BYTES && past.kept.len() > 3, "{} moments", past.kept.len());
         assert!(past.kept.windows(2).all(|pair| pair[1].records - pair[0].records == past.stride));
     }

@@ -3,18 +3,18 @@
 use std::f32::consts::{PI, TAU};
 
 use super::angles::arc;
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::balance::Strategy;
 use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::analysis::summary::Outcome;
+use crate::view::analysis::summary::Summary;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, TextSize};
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{duration, fraction, percent};
 
 /// The parent, how far the picture is, and whether it is busy.
-pub(crate) fn parent(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn parent(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     let waiting = state.waiting(now);
     if waiting > 0 || state.is_estimating {
         marks.push(Mark::Disc { centre: plan.centre, radius: plan.parent, ink: Hue::Hairline.faint(0.6) });
@@ -46,7 +46,7 @@ pub(crate) fn parent(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
 }
 
 /// The result of a finished run.
-pub(crate) fn result(plan: &Plan, outcome: &Outcome, marks: &mut Vec<Mark>) {
+pub(crate) fn result(plan: &RingLayout, outcome: &Summary, marks: &mut Vec<Mark>) {
     let (large, captions) = (large(plan) * 1.1, has_captions(plan));
     let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
     // What explains them has no room within a small ring; the sentence below says it too.
@@ -60,19 +60,19 @@ pub(crate) fn result(plan: &Plan, outcome: &Outcome, marks: &mut Vec<Mark>) {
 }
 
 /// The size of what is read in the centre.
-fn large(plan: &Plan) -> f32 {
+fn large(plan: &RingLayout) -> f32 {
     (plan.rail * 0.15).clamp(10.0, 48.0)
 }
 
 /// Whether the numbers in the centre have room for what they are.
-fn has_captions(plan: &Plan) -> bool {
+fn has_captions(plan: &RingLayout) -> bool {
     const LETTERS: usize = "start to finish".len();
     let width = TextSize::Small(plan.labels.text).width(LETTERS);
     !plan.labels.are_small() && width < 2.0 * plan.interior()
 }
 
 /// Text in the centre, `dy` below its middle.
-fn text(plan: &Plan, dy: f32, text: String, size: TextSize, hue: Hue, marks: &mut Vec<Mark>) {
+fn text(plan: &RingLayout, dy: f32, text: String, size: TextSize, hue: Hue, marks: &mut Vec<Mark>) {
     let at = [plan.centre[0], plan.centre[1] + dy];
     marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
 }

@@ -2,7 +2,7 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::node_state::Activity;
 
@@ -36,7 +36,7 @@ impl Badge {
     }
 
     /// Draws it at the machine that sits at `seat`.
-    pub(crate) fn draw(self, plan: &Plan, [x, y]: Point, marks: &mut Vec<Mark>) {
+    pub(crate) fn draw(self, plan: &RingLayout, [x, y]: Point, marks: &mut Vec<Mark>) {
         let radius = 0.34 * plan.node;
         let away = plan.reach() - radius;
         let centre = [x + away * FRAC_PI_4.cos(), y - away * FRAC_PI_4.sin()];

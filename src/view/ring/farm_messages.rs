@@ -2,7 +2,7 @@
 //! that answer them; and what has arrived at the parent and waits there.
 
 use super::angles::ease;
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
@@ -11,7 +11,7 @@ use crate::view::state::run_state::RunState;
 use crate::view::text::format::count;
 
 /// Draws requests, parts, and the line at the parent.
-pub(crate) fn draw(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     if state.presence(now) == 0.0 {
         return;
     }
@@ -22,8 +22,8 @@ pub(crate) fn draw(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mar
 }
 
 /// The request or the part that is drawn at `point`.
-pub(crate) fn token_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
-    let covers = |token: &Token<'_>| {
+pub(crate) fn token_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+    let covers = |token: &FarmDisc<'_>| {
         let [u, v] = token.centre;
         token.flight.shown().contains(&now) && (x - u).abs() <= token.half[0] && (y - v).abs() <= token.half[1]
     };
@@ -31,7 +31,7 @@ pub(crate) fn token_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: 
 }
 
 /// What lies on a spoke of the parent: a request, or its answer.
-struct Token<'a> {
+struct FarmDisc<'a> {
     flight: &'a Flight,
     node: NodeId,
     centre: Point,
@@ -45,7 +45,7 @@ struct Token<'a> {
 /// In so large a farm tokens would hide each other if they bore words.
 const WORDED: usize = 12;
 
-fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
+fn tokens<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc<'a>> {
     let token = |flight: &'a Flight| {
         let alpha = flight.presence(now) * state.presence(now);
         if flight.sent > now || !flight.shown().contains(&now) || alpha == 0.0 {
@@ -71,13 +71,13 @@ fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
         };
         let centre = beside(plan, node, way, half, side);
         let text = if is_worded { text } else { String::new() };
-        Some(Token { flight, node, centre, half, text, hue, alpha })
+        Some(FarmDisc { flight, node, centre, half, text, hue, alpha })
     };
     state.flights().iter().filter_map(token).collect()
 }
 
-impl Token<'_> {
-    fn draw(&self, plan: &Plan, marks: &mut Vec<Mark>) {
+impl FarmDisc<'_> {
+    fn draw(&self, plan: &RingLayout, marks: &mut Vec<Mark>) {
         let (centre, alpha, [width, height]) = (self.centre, self.alpha, self.half);
         let is_request = self.flight.cargo == Cargo::Request;
         let round = if is_request { width } else { 4.0 };
@@ -94,7 +94,7 @@ impl Token<'_> {
 }
 
 /// What waits at the parent stands in line before it, each message on its sender's spoke.
-fn line(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+fn line(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     /// More than that would reach the node.
     const MOST: usize = 6;
     let mut lengths = vec![0; plan.nodes];
@@ -114,22 +114,22 @@ fn line(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
 }
 
 /// Radius of a message in line.
-fn dot(plan: &Plan) -> f32 {
+fn dot(plan: &RingLayout) -> f32 {
     (plan.rail * 0.016).clamp(1.5, 4.0)
 }
 
 /// The text of a part: that of labels, unless it would hide the nodes of a small ring.
-fn part(plan: &Plan) -> TextSize {
+fn part(plan: &RingLayout) -> TextSize {
     TextSize::Fit((TextSize::SMALL * plan.labels.text).min(0.6 * plan.node))
 }
 
 /// Radius of a request.
-fn request(plan: &Plan) -> f32 {
+fn request(plan: &RingLayout) -> f32 {
     (plan.node * 0.3).clamp(2.5, 9.0)
 }
 
 /// The middle of a box beside the spoke of `node`, `way` of the way from the parent to it; `side` says on which side.
-fn beside(plan: &Plan, node: NodeId, way: f32, [width, height]: Point, side: f32) -> Point {
+fn beside(plan: &RingLayout, node: NodeId, way: f32, [width, height]: Point, side: f32) -> Point {
     let angle = plan.angle(node);
     let (cos, sin) = (angle.cos().abs(), angle.sin().abs());
     let along = width * cos + height * sin;
@@ -145,7 +145,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::time::Duration;
 
-    use super::super::{Overlay, message_at, ring};
+    use super::super::{RingOverlay, message_at, ring};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::runlog::Header;
@@ -172,7 +172,7 @@ mod tests {
     }
 
     fn texts(state: &RunState, now: Time, size: Point) -> Vec<String> {
-        let marks = ring(state, &Overlay::default(), now, size);
+        let marks = ring(state, &RingOverlay::default(), now, size);
         marks
             .into_iter()
             .filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(text) } else { None })
@@ -194,7 +194,7 @@ mod tests {
     fn what_is_pointed_at_is_told() {
         let mut told = BTreeSet::new();
         moments(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
-            let plan = Plan::new(3, SIZE);
+            let plan = RingLayout::new(3, SIZE);
             for token in tokens(&plan, state, now) {
                 told.extend(message_at(state, now, SIZE, token.centre).map(flight_words));
             }
@@ -230,8 +230,8 @@ mod tests {
     fn everything_stays_inside_whatever_the_size() {
         for (nodes, size) in [(1, [240.0, 240.0]), (8, SIZE), (8, [380.0, 260.0]), (32, [640.0, 400.0])] {
             moments(&header(Strategy::FarmBySpeed, &vec![1.0; nodes], 5), |state, now| {
-                let (plan, inside) = (Plan::new(nodes, size), |at: f32, most: f32| (0.0..=most).contains(&at));
-                for Token { centre: [x, y], half: [w, h], .. } in tokens(&plan, state, now) {
+                let (plan, inside) = (RingLayout::new(nodes, size), |at: f32, most: f32| (0.0..=most).contains(&at));
+                for FarmDisc { centre: [x, y], half: [w, h], .. } in tokens(&plan, state, now) {
                     assert!(inside(x - w, size[0]) && inside(x + w, size[0]), "{x} {w}");
                     assert!(inside(y - h, size[1]) && inside(y + h, size[1]), "{y} {h}");
                 }

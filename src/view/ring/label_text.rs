@@ -1,7 +1,7 @@
 //! What the labels beside the nodes say.
 
 use super::labels::{Form, LABELLED, SECOND};
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::balance::NodeId;
 use crate::language::say;
 use crate::time::Time;
@@ -12,7 +12,7 @@ use crate::view::text::format::{activity_word, count, fraction, percent, rate_wo
 
 /// Puts the words on a node beside the rail.
 pub(crate) fn label(
-    plan: &Plan,
+    plan: &RingLayout,
     state: &RunState,
     (node, of): (NodeId, &NodeState),
     activity: Activity,
@@ -39,7 +39,7 @@ pub(crate) fn label(
 }
 
 /// Whether a node has a label.
-pub(crate) fn is_labelled(plan: &Plan, is_selected: bool) -> bool {
+pub(crate) fn is_labelled(plan: &RingLayout, is_selected: bool) -> bool {
     plan.nodes <= LABELLED || is_selected
 }
 
@@ -84,7 +84,7 @@ mod tests {
     use super::super::labels::{NUMBER, longest};
     use super::*;
     use crate::balance::{Message, Party};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::view::tests::sample_runs;
 
     proptest! {
@@ -111,13 +111,13 @@ mod tests {
         for (id, node) in [(0, 0), (1, 1)] {
             let (to, message) = (Party::Node(node), Message::Band(150 * id..150 * (id + 1)));
             let (from, id, arrives) = (Party::Parent, u64::from(id), Time::ZERO);
-            apply(0, What::Sent { id, from, to, message, bytes: 0, arrives });
-            apply(0, What::Received { id, by: to });
+            apply(0, RecordKind::Sent { id, from, to, message, bytes: 0, arrives });
+            apply(0, RecordKind::Received { id, by: to });
         }
         for (node, each) in [(0, 20), (1, 200)] {
             for i in 1..=1000 / each {
                 let atom = 150 * u32::from(node) + i as u32;
-                apply(i * each, What::AtomDone { node, atom, cost: std::time::Duration::ZERO });
+                apply(i * each, RecordKind::AtomDone { node, atom, cost: std::time::Duration::ZERO });
             }
         }
         let said = |state: &RunState, node: NodeId| {
@@ -125,7 +125,7 @@ mod tests {
             words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now).join(", ")
         };
         assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
-        state.apply(&Record { at: Time::from_secs(1.0), what: What::Paused { node: 1 } });
+        state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });
         assert_eq!(said(&state, 1), "145 left, paused");
         state.nodes[0].left = 0;
         assert_eq!(said(&state, 0), "0 left, idle");

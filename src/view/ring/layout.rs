@@ -8,7 +8,7 @@ use crate::balance::{NodeId, Party};
 use crate::view::draw::display_list::Point;
 
 /// Where everything is, for a number of nodes and a size.
-pub(crate) struct Plan {
+pub(crate) struct RingLayout {
     /// How many nodes there are.
     pub(crate) nodes: usize,
     /// Where the parent is.
@@ -25,7 +25,7 @@ pub(crate) struct Plan {
     pub(crate) labels: Labels,
 }
 
-impl Plan {
+impl RingLayout {
     /// Radius of a node's progress arc, in radii of a node.
     pub(crate) const TRACK: f32 = 1.2;
 
@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn an_offer_runs_anticlockwise_to_the_left_neighbour() {
-        let plan = Plan::new(8, SIZE);
+        let plan = RingLayout::new(8, SIZE);
         let top = plan.at(plan.angle(0) - plan.step() / 2.0, plan.rail);
         assert!(top[0] < plan.centre[0] && top[1] < plan.centre[1]);
         let arrived = plan.at(plan.angle(0) - plan.step(), plan.rail);
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn nodes_do_not_touch() {
         for nodes in 2..=48 {
-            let plan = Plan::new(nodes, SIZE);
+            let plan = RingLayout::new(nodes, SIZE);
             let ([x, y], [u, v]) = (plan.seat(0), plan.seat(1));
             assert!((x - u).hypot(y - v) > 2.6 * plan.node, "{nodes}");
         }
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn parcels_go_round_the_parent() {
-        let plan = Plan::new(8, SIZE);
+        let plan = RingLayout::new(8, SIZE);
         for to in 1..8 {
             let (from, to) = (plan.seat(0), plan.seat(to));
             let bend = plan.bend(from, to);

@@ -1,7 +1,7 @@
 //! What is small and quick in the ring that adapts: sparks that wake sleepers, and crosses where messages are lost.
 
 use super::angles::{curve, ease};
-use super::layout::Plan;
+use super::layout::RingLayout;
 use super::messages::seen_at;
 use crate::balance::Party;
 use crate::time::Time;
@@ -10,7 +10,7 @@ use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 
 /// Sparks fly straight from machine to machine.
-pub(crate) fn sparks(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights().iter().filter(|flight| flight.cargo == Cargo::Wake && flight.sent <= now) {
         let (Party::Node(from), alpha) = (flight.from, seen_at(state, flight, now)) else { continue };
         if alpha == 0.0 {
@@ -29,7 +29,7 @@ pub(crate) fn sparks(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<M
 }
 
 /// A small cross stands where a message is lost.
-pub(crate) fn crosses(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights() {
         let alpha = flight.cross(now) * state.presence(now);
         if alpha == 0.0 {
@@ -45,7 +45,7 @@ pub(crate) fn crosses(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
 }
 
 /// Where a message is drawn.
-fn place(plan: &Plan, flight: &Flight, now: Time) -> Point {
+fn place(plan: &RingLayout, flight: &Flight, now: Time) -> Point {
     let here = flight.progress(now);
     if let (Party::Node(from), Cargo::Offer { .. }) = (flight.from, &flight.cargo) {
         return plan.at(plan.angle(from) - plan.way(from, flight.to) * here, plan.rail);
@@ -59,7 +59,7 @@ fn place(plan: &Plan, flight: &Flight, now: Time) -> Point {
 }
 
 /// Where it begins and where it would end.
-fn ends(plan: &Plan, flight: &Flight) -> [Point; 2] {
+fn ends(plan: &RingLayout, flight: &Flight) -> [Point; 2] {
     let seat = |party| match party {
         Party::Parent => plan.centre,
         Party::Node(node) => plan.seat(node),
@@ -88,8 +88,8 @@ mod tests {
         let (mut crossed, mut sparked, mut copied) = (0, 0, 0);
         Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
             state.apply(&record);
-            let plan = Plan::new(4, [520.0, 480.0]);
-            let drawn = |draw: fn(&Plan, &RunState, Time, &mut Vec<Mark>)| {
+            let plan = RingLayout::new(4, [520.0, 480.0]);
+            let drawn = |draw: fn(&RingLayout, &RunState, Time, &mut Vec<Mark>)| {
                 let mut marks = Vec::new();
                 draw(&plan, &state, record.at, &mut marks);
                 marks.len()

@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 
 use super::angles::arc;
 use super::condition_badge::Badge;
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::balance::NodeId;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::node_state::{Activity, NodeState, Slot};
@@ -17,7 +17,7 @@ const PIPE_SEEN: f32 = 20.0;
 
 /// Draws a machine; its arc says how much of its work is done.
 pub(crate) fn machine(
-    plan: &Plan,
+    plan: &RingLayout,
     (node, of): (NodeId, &NodeState),
     activity: Activity,
     is_selected: bool,
@@ -70,7 +70,7 @@ pub(crate) fn machine(
 }
 
 /// Where a machine may join: only its number within a broken outline.
-fn empty_seat(plan: &Plan, node: NodeId, is_selected: bool, marks: &mut Vec<Mark>) {
+fn empty_seat(plan: &RingLayout, node: NodeId, is_selected: bool, marks: &mut Vec<Mark>) {
     let centre = plan.seat(node);
     marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
     dashes(centre, plan.node, marks);
@@ -80,21 +80,27 @@ fn empty_seat(plan: &Plan, node: NodeId, is_selected: bool, marks: &mut Vec<Mark
     }
 }
 
-fn number(plan: &Plan, node: NodeId, at: Point, radius: f32, hue: Hue, marks: &mut Vec<Mark>) {
+fn number(plan: &RingLayout, node: NodeId, at: Point, radius: f32, hue: Hue, marks: &mut Vec<Mark>) {
     if plan.node >= NUMBER_SEEN {
         let (text, size) = (node_name(node).to_string(), TextSize::Fit((0.86 * plan.node).min(1.05 * radius)));
         marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
     }
 }
 
-fn selection(plan: &Plan, centre: Point, marks: &mut Vec<Mark>) {
+fn selection(plan: &RingLayout, centre: Point, marks: &mut Vec<Mark>) {
     let points = arc(centre, plan.reach() + 1.5, 0.0, TAU);
     marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
 }
 
 /// What of its work is done, round the machine.
-fn progress(plan: &Plan, centre: Point, (node, of): (NodeId, &NodeState), activity: Activity, marks: &mut Vec<Mark>) {
-    let (track, width, colour) = (plan.node * Plan::TRACK, plan.track_width(), Hue::Node(node));
+fn progress(
+    plan: &RingLayout,
+    centre: Point,
+    (node, of): (NodeId, &NodeState),
+    activity: Activity,
+    marks: &mut Vec<Mark>,
+) {
+    let (track, width, colour) = (plan.node * RingLayout::TRACK, plan.track_width(), Hue::Node(node));
     let work = of.done + of.left();
     let done = if work == 0 { 0.0 } else { of.done as f32 / work as f32 };
     marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
@@ -117,7 +123,7 @@ fn dashes(centre: Point, radius: f32, marks: &mut Vec<Mark>) {
 }
 
 /// The two places of the pipe, the atom that is traced on the left.
-fn pipe(plan: &Plan, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
+fn pipe(plan: &RingLayout, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
     let half = 0.12 * plan.node;
     for (slot, side) in of.pipe().into_iter().zip([-1.0, 1.0]) {
         let ink = hue.faint(match slot {

@@ -1,7 +1,7 @@
 //! What moves in the ring: results down the spokes, offers along the rail, atoms across.
 
 use super::angles::{arc, curve, ease};
-use super::layout::Plan;
+use super::layout::RingLayout;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
@@ -10,7 +10,7 @@ use crate::view::state::run_state::RunState;
 use crate::view::text::format::{count, node_name};
 
 /// Results stream down the spokes.
-pub(crate) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn results(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     let dot = (plan.rail * 0.011).clamp(1.5, 3.0);
     for flight in state.flights() {
         if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
@@ -26,7 +26,7 @@ pub(crate) fn results(plan: &Plan, state: &RunState, now: Time, marks: &mut Vec<
 }
 
 /// Offers run along the rail; where an offer has been, its trail fades. Each has a lane of its own.
-pub(crate) fn offers(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
+pub(crate) fn offers(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
     for (lane, flight) in in_lanes(state, now) {
         let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { continue };
         let radius = plan.rail + lane_offset(plan, lane);
@@ -44,8 +44,8 @@ pub(crate) fn offers(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>,
 }
 
 /// The offer whose token is drawn at `point`.
-pub(crate) fn offer_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
-    let covers = |token: &Token<'_>| {
+pub(crate) fn offer_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+    let covers = |token: &OfferDisc<'_>| {
         let [u, v] = token.centre;
         token.flight.shown().contains(&now) && (x - u).hypot(y - v) <= token.radius + 2.0
     };
@@ -53,14 +53,14 @@ pub(crate) fn offer_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: 
 }
 
 /// The disc of an offer that is on its way, or has just been: it lies where its last hop is.
-struct Token<'a> {
+struct OfferDisc<'a> {
     flight: &'a Flight,
     who: NodeId,
     centre: Point,
     radius: f32,
 }
 
-fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
+fn tokens<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<OfferDisc<'a>> {
     let hops = in_lanes(state, now);
     let last = |lane| hops.iter().rfind(|(other, _)| *other == lane).map(|(_, flight)| *flight);
     let token = |lane| {
@@ -71,7 +71,7 @@ fn tokens<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Token<'a>> {
         // Further out it would lie on what is said of a node.
         let most = plan.labels.gap() - radius - BORDER;
         let centre = plan.at(angle, plan.rail + lane_offset(plan, lane).min(most));
-        Some(Token { flight, who: *who, centre, radius })
+        Some(OfferDisc { flight, who: *who, centre, radius })
     };
     (0..FOLLOWED).filter_map(token).collect()
 }
@@ -91,9 +91,9 @@ fn in_lanes(state: &RunState, now: Time) -> Vec<(usize, &Flight)> {
     state.flights().iter().filter(seen).filter_map(hop).collect()
 }
 
-impl Token<'_> {
+impl OfferDisc<'_> {
     fn draw(&self, state: &RunState, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
-        let &Token { flight, who, centre, radius } = self;
+        let &OfferDisc { flight, who, centre, radius } = self;
         let alpha = seen_at(state, flight, now);
         let (wide, border) = if is_lit { (BORDER, Hue::Text) } else { (2.0, Hue::Ground) };
         marks.push(Mark::Disc { centre, radius: radius + wide, ink: border.faint(alpha) });
@@ -114,25 +114,25 @@ pub(crate) fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
 }
 
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
-pub(crate) fn lane_offset(plan: &Plan, lane: usize) -> f32 {
+pub(crate) fn lane_offset(plan: &RingLayout, lane: usize) -> f32 {
     let lane = lane % 8;
     let out = lane.div_ceil(2) as f32 * lane_width(plan);
     if lane % 2 == 1 { out } else { -out }
 }
 
-pub(crate) fn lane_width(plan: &Plan) -> f32 {
+pub(crate) fn lane_width(plan: &RingLayout) -> f32 {
     (plan.rail * 0.025).clamp(1.5, 4.0)
 }
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
-pub(crate) fn parcels(plan: &Plan, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
+pub(crate) fn parcels(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
     for parcel in on_their_way(plan, state, now).into_iter().rev() {
         parcel.draw(plan, now, lit == Some(parcel.flight.id), marks);
     }
 }
 
 /// The flight of the parcel that is drawn at `point`.
-pub(crate) fn parcel_at<'a>(plan: &Plan, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+pub(crate) fn parcel_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
     let covers = |parcel: &Parcel<'_>| {
         let (_, [u, v], half) = parcel.shape(plan, now);
         parcel.flight.shown().contains(&now) && (x - u).abs() <= half[0] && (y - v).abs() <= half[1]
@@ -153,7 +153,7 @@ struct Parcel<'a> {
 }
 
 /// The parcels that are drawn, the largest first; it lies on top.
-fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'a>> {
+fn on_their_way<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<Parcel<'a>> {
     let moving = |flight: &&Flight| flight.sent <= now && seen_at(state, flight, now) > 0.0 && flight.cargo.atoms() > 0;
     let mut flights: Vec<_> = state.flights().iter().filter(moving).collect();
     // The sort keeps the order of equals, so nothing flickers.
@@ -188,7 +188,7 @@ fn on_their_way<'a>(plan: &Plan, state: &'a RunState, now: Time) -> Vec<Parcel<'
 
 impl Parcel<'_> {
     /// Its text, its middle, and half its width and height.
-    fn shape(&self, plan: &Plan, now: Time) -> (String, Point, Point) {
+    fn shape(&self, plan: &RingLayout, now: Time) -> (String, Point, Point) {
         let text = format!("×{}", count(self.flight.cargo.atoms()));
         let letters = text.chars().count() as f32;
         let half = if !self.is_followed {
@@ -202,7 +202,7 @@ impl Parcel<'_> {
         (text, middle, half)
     }
 
-    fn draw(&self, plan: &Plan, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
+    fn draw(&self, plan: &RingLayout, now: Time, is_lit: bool, marks: &mut Vec<Mark>) {
         let (from, to, alpha) = (self.from, self.to, self.strength);
         let (bend, here) = (plan.bend(from, to), ease(self.flight.progress(now)));
         let pieces = 24;
@@ -257,10 +257,10 @@ mod tests {
         for record in sample_runs::records(&header) {
             state.apply(&record);
             for size in [[560.0, 250.0], [330.0, 300.0], [640.0, 490.0], [1200.0, 900.0]] {
-                let plan = Plan::new(header.speeds.len(), size);
+                let plan = RingLayout::new(header.speeds.len(), size);
                 let tokens = tokens(&plan, &state, record.at);
                 most = most.max(tokens.len());
-                for Token { centre: [x, y], radius, .. } in tokens {
+                for OfferDisc { centre: [x, y], radius, .. } in tokens {
                     let out = (x - plan.centre[0]).hypot(y - plan.centre[1]) + radius + BORDER;
                     assert!(out <= plan.rail + plan.labels.gap() + 0.01, "{out} in {size:?}");
                 }

@@ -16,7 +16,7 @@ mod messages;
 
 use std::f32::consts::TAU;
 
-use super::analysis::summary::Outcome;
+use super::analysis::summary::Summary;
 use super::draw::display_list::{Hue, Mark, Point};
 use super::state::flight::Flight;
 use super::state::run_state::RunState;
@@ -25,14 +25,14 @@ use crate::balance::NodeId;
 use crate::time::Time;
 use angles::arc;
 use label_text::{is_labelled, label};
-use layout::Plan;
+use layout::RingLayout;
 use machine::machine;
 
 /// What is laid over the ring.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Overlay {
+pub struct RingOverlay {
     /// The result, which takes the centre.
-    pub outcome: Option<Outcome>,
+    pub outcome: Option<Summary>,
     /// The node that is marked.
     pub selected: Option<NodeId>,
     /// Nodes that stand out.
@@ -43,7 +43,7 @@ pub struct Overlay {
 
 /// What can be pointed at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spot {
+pub enum RingSpot {
     /// A node, with its progress arc.
     Node(NodeId),
     /// The parent in the centre.
@@ -51,8 +51,8 @@ pub enum Spot {
 }
 
 /// The ring at `now`, for an area of `size` whose corner is at 0, 0; the text sizes are taken to be in its units.
-pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<Mark> {
-    let plan = Plan::new(state.nodes().len(), size);
+pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point) -> Vec<Mark> {
+    let plan = RingLayout::new(state.nodes().len(), size);
     let mut marks = Vec::new();
     if state.sharing.is_ring() {
         rail(&plan, &mut marks);
@@ -82,20 +82,20 @@ pub fn ring(state: &RunState, overlay: &Overlay, now: Time, size: Point) -> Vec<
 }
 
 /// What of a ring of `nodes` in an area of `size` is at `point`.
-pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<Spot> {
-    let plan = Plan::new(nodes, size);
+pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<RingSpot> {
+    let plan = RingLayout::new(nodes, size);
     let from = |[x, y]: Point| (point[0] - x).hypot(point[1] - y);
     let away = |node: &NodeId| from(plan.seat(*node));
     let nearest = (0..nodes as NodeId).min_by(|one, other| away(one).total_cmp(&away(other)));
     match nearest {
-        Some(node) if away(&node) <= plan.reach() => Some(Spot::Node(node)),
-        _ => (from(plan.centre) <= plan.parent).then_some(Spot::Parent),
+        Some(node) if away(&node) <= plan.reach() => Some(RingSpot::Node(node)),
+        _ => (from(plan.centre) <= plan.parent).then_some(RingSpot::Parent),
     }
 }
 
 /// The message that is drawn at `point` at `now`, in an area of `size`: atoms, an offer, a request, or its answer.
 pub fn message_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
-    let plan = Plan::new(state.nodes().len(), size);
+    let plan = RingLayout::new(state.nodes().len(), size);
     messages::parcel_at(&plan, state, now, point)
         .or_else(|| farm_messages::token_at(&plan, state, now, point))
         .or_else(|| messages::offer_at(&plan, state, now, point))
@@ -104,7 +104,7 @@ pub fn message_at(state: &RunState, now: Time, size: Point, point: Point) -> Opt
 /// Arrowheads on the rail, and spokes.
 const MOST_LINES: usize = 64;
 
-fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
+fn rail(plan: &RingLayout, marks: &mut Vec<Mark>) {
     let ink = Hue::Hairline.full();
     marks.push(Mark::Line { points: arc(plan.centre, plan.rail, 0.0, TAU), width: 1.5, ink });
     // Arrowheads half-way between neighbours say which way offers go.
@@ -123,7 +123,7 @@ fn rail(plan: &Plan, marks: &mut Vec<Mark>) {
 }
 
 /// The ways between parent and nodes; in a farm, where everything goes that way, they are `strong`.
-fn spokes(plan: &Plan, strong: bool, marks: &mut Vec<Mark>) {
+fn spokes(plan: &RingLayout, strong: bool, marks: &mut Vec<Mark>) {
     let (width, ink) = if strong { (1.5, Hue::Hairline.full()) } else { (1.0, Hue::Hairline.faint(0.7)) };
     for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
         let angle = plan.angle(node as NodeId);
@@ -145,7 +145,7 @@ mod tests {
     use super::super::tests::sample_runs;
     use super::*;
     use crate::balance::{Condition, Strategy};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
 
     const SIZE: Point = [520.0, 480.0];
@@ -197,7 +197,7 @@ mod tests {
         let count = (records.len() as f64 * part) as usize;
         records[..count].iter().for_each(|record| state.apply(record));
         let now = state.head();
-        state.apply(&Record { at: now, what: What::Paused { node: 0 } });
+        state.apply(&Record { at: now, what: RecordKind::Paused { node: 0 } });
         (state, now)
     }
 
@@ -209,7 +209,7 @@ mod tests {
         ) {
             let (state, now) = moment(&speeds, part);
             for later in 0..8 {
-                let overlay = Overlay { selected: Some(selected), ..Overlay::default() };
+                let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
                 let now = now + Duration::from_millis(150 * later);
                 for point in ring(&state, &overlay, now, [width, height]).iter().flat_map(places) {
                     prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
@@ -224,8 +224,8 @@ mod tests {
         ) {
             let (state, now) = moment(&speeds, part);
             let selected = selected % speeds.len() as u16;
-            let overlay = Overlay { selected: Some(selected), ..Overlay::default() };
-            let plan = Plan::new(speeds.len(), [width, height]);
+            let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
+            let plan = RingLayout::new(speeds.len(), [width, height]);
             let [x, y] = plan.centre;
             let nearest = |[left, top, right, bottom]: [f32; 4]| {
                 (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
@@ -248,11 +248,11 @@ mod tests {
 
         #[test]
         fn whatever_is_pointed_at_is_found(nodes in 1..33usize, width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
-            let (size, plan) = ([width, height], Plan::new(nodes, [width, height]));
+            let (size, plan) = ([width, height], RingLayout::new(nodes, [width, height]));
             for node in 0..nodes as NodeId {
-                prop_assert_eq!(ring_at(nodes, size, plan.seat(node)), Some(Spot::Node(node)));
+                prop_assert_eq!(ring_at(nodes, size, plan.seat(node)), Some(RingSpot::Node(node)));
             }
-            prop_assert_eq!(ring_at(nodes, size, plan.centre), Some(Spot::Parent));
+            prop_assert_eq!(ring_at(nodes, size, plan.centre), Some(RingSpot::Parent));
             prop_assert_eq!(ring_at(nodes, size, [1.0, 1.0]), None);
             prop_assert_eq!(ring_at(nodes, size, plan.at(0.3, plan.interior() * 0.9)), None);
         }
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn a_parcel_is_found_where_it_is_drawn() {
         let (state, now) = moment(&[1.0, 1.0, 0.1], 0.7);
-        let marks = ring(&state, &Overlay::default(), now, SIZE);
+        let marks = ring(&state, &RingOverlay::default(), now, SIZE);
         let label = |mark: &Mark| match mark {
             Mark::Label { at, text, .. } if text.starts_with('×') => Some((*at, text.clone())),
             _ => None,
@@ -280,7 +280,7 @@ mod tests {
                 let Mark::Label { at, ink: Ink { hue: Hue::OnNode(who), .. }, .. } = *mark else { return false };
                 message_at(&state, now, SIZE, at).is_some_and(|flight| flight.cargo == Cargo::Offer { who })
             };
-            ring(&state, &Overlay::default(), now, SIZE).iter().any(offer)
+            ring(&state, &RingOverlay::default(), now, SIZE).iter().any(offer)
         };
         assert!((1..20).any(found));
     }
@@ -295,17 +295,18 @@ mod tests {
             let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);
             marks.iter().filter(has).count()
         };
-        let draw =
-            |state: &RunState, selected| ring(state, &Overlay { selected, ..Overlay::default() }, now, [640.0, 490.0]);
+        let draw = |state: &RunState, selected| {
+            ring(state, &RingOverlay { selected, ..RingOverlay::default() }, now, [640.0, 490.0])
+        };
         let paused = draw(&state, None);
         assert!(texts(&paused).contains(&"paused"));
         assert_eq!(draw(&state, Some(1)).len(), paused.len() + 1);
-        state.apply(&Record { at: now, what: What::Resumed { node: 0 } });
+        state.apply(&Record { at: now, what: RecordKind::Resumed { node: 0 } });
         let going = draw(&state, None);
         assert!(!texts(&going).contains(&"paused"));
         assert_eq!([boxes(&paused, Ordering::Greater), boxes(&going, Ordering::Greater)], [2, 0], "bars");
         assert_eq!([boxes(&paused, Ordering::Equal), boxes(&going, Ordering::Equal)], [6, 6], "slots");
-        let small = ring(&state, &Overlay::default(), now, [240.0, 240.0]);
+        let small = ring(&state, &RingOverlay::default(), now, [240.0, 240.0]);
         assert_eq!(boxes(&small, Ordering::Equal), 0, "too small to be seen");
     }
 
@@ -313,7 +314,7 @@ mod tests {
     fn who_has_retired_looks_unlike_who_is_idle() {
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 60));
         state.nodes[0].band_at = Some(Time::ZERO);
-        let draw = |state: &RunState| ring(state, &Overlay::default(), Time::ZERO, SIZE);
+        let draw = |state: &RunState| ring(state, &RingOverlay::default(), Time::ZERO, SIZE);
         let idle = draw(&state);
         state.nodes[0].retired = true;
         let retired = draw(&state);
@@ -326,16 +327,16 @@ mod tests {
     fn every_state_of_a_machine_has_a_sign_and_a_word_of_its_own() {
         let mut header = sample_runs::header(&[1.0; 4], 60);
         header.rules.strategy = Strategy::Adaptive;
-        let draw = |spares, whats: &[What]| {
+        let draw = |spares, whats: &[RecordKind]| {
             let mut state = RunState::new(&Header { spares, ..header.clone() });
             state.nodes[3].band_at = Some(Time::ZERO);
             whats.iter().for_each(|what| state.apply(&Record { at: Time::ZERO, what: what.clone() }));
-            ring(&state, &Overlay::default(), Time::ZERO, [640.0, 490.0])
+            ring(&state, &RingOverlay::default(), Time::ZERO, [640.0, 490.0])
         };
-        let becomes = |condition| vec![What::Condition { node: 3, condition }];
+        let becomes = |condition| vec![RecordKind::Condition { node: 3, condition }];
         let seen = [
             ("idle", draw(0, &[])),
-            ("asleep", draw(0, &[What::Retired { node: 3 }])),
+            ("asleep", draw(0, &[RecordKind::Retired { node: 3 }])),
             ("hung", draw(0, &becomes(Condition::Hung))),
             ("cut off", draw(0, &becomes(Condition::CutOff))),
             ("off", draw(0, &becomes(Condition::Off))),
@@ -367,7 +368,7 @@ mod tests {
         let mut seen = BTreeSet::new();
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            let marks = ring(&state, &Overlay::default(), record.at, SIZE);
+            let marks = ring(&state, &RingOverlay::default(), record.at, SIZE);
             seen.extend(texts(&marks).into_iter().filter(|text| text.starts_with('×')).map(str::to_owned));
         }
         assert!(seen.contains("×100"), "bands {seen:?}");
@@ -378,9 +379,13 @@ mod tests {
     fn the_result_takes_the_centre() {
         let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 30));
         let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
-        let outcome = Outcome { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
-        let marks =
-            ring(&state, &Overlay { outcome: Some(outcome), ..Overlay::default() }, Time::from_secs(21.0), SIZE);
+        let outcome = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
+        let marks = ring(
+            &state,
+            &RingOverlay { outcome: Some(outcome), ..RingOverlay::default() },
+            Time::from_secs(21.0),
+            SIZE,
+        );
         assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
     }
 }

@@ -154,7 +154,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::view::tests::sample_runs;
 
     #[test]
@@ -188,7 +188,7 @@ mod tests {
         for record in sample_runs::records(&header) {
             state.apply(&record);
             if seen.is_empty() {
-                state.apply(&Record { at: record.at, what: What::Paused { node: 1 } });
+                state.apply(&Record { at: record.at, what: RecordKind::Paused { node: 1 } });
             }
             let activity = state.activity(1, record.at);
             assert!(activity != Activity::Computing, "{record:?}");
@@ -226,11 +226,11 @@ mod tests {
         assert!(state.moves(later));
         for node in 0..2 {
             assert!(state.moves(later));
-            state.apply(&Record { at: state.head(), what: What::SpeedSet { node, speed: 0.0 } });
+            state.apply(&Record { at: state.head(), what: RecordKind::SpeedSet { node, speed: 0.0 } });
         }
         assert!(state.moves(state.head()), "something is still in flight");
         assert!(!state.moves(later));
-        state.apply(&Record { at: later, what: What::SpeedSet { node: 1, speed: 0.3 } });
+        state.apply(&Record { at: later, what: RecordKind::SpeedSet { node: 1, speed: 0.3 } });
         assert!(state.moves(later));
 
         records.iter().skip(30).for_each(|record| state.apply(record));

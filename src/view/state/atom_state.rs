@@ -7,7 +7,7 @@ use crate::time::Time;
 
 /// Where an atom stands. There are many atoms, so it is small.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Place {
+pub enum AtomState {
     /// No node has got it yet.
     #[default]
     Nowhere,
@@ -33,7 +33,7 @@ pub enum Place {
     },
 }
 
-impl Place {
+impl AtomState {
     /// Who has traced it.
     pub fn owner(self) -> Option<NodeId> {
         match self {
@@ -82,17 +82,17 @@ mod tests {
 
     #[test]
     fn a_place_is_small() {
-        assert!(size_of::<Place>() <= 16);
+        assert!(size_of::<AtomState>() <= 16);
     }
 
     #[test]
     fn the_latest_arrival_counts_and_what_is_traced_stays() {
-        let mut place = Place::default();
+        let mut place = AtomState::default();
         assert_eq!((place.holder(), place.owner()), (None, None));
         place.arrive(4, Time(9));
         place.arrive(2, Time(5));
         assert_eq!((place.holder(), place.owner()), (Some(4), None));
-        place = Place::traced(4, Duration::from_millis(2), Time(12));
+        place = AtomState::traced(4, Duration::from_millis(2), Time(12));
         place.arrive(7, Time(11));
         assert_eq!((place.holder(), place.owner()), (Some(4), Some(4)));
     }

@@ -14,7 +14,7 @@ pub struct Lane {
     /// The atom that it is tracing, and since when.
     pub(crate) open: Option<(Atom, Time)>,
     /// From when on it is in which state, by time.
-    pub(crate) stays: Vec<(Time, Stay)>,
+    pub(crate) stays: Vec<(Time, LanePhase)>,
     /// When its worker was made to stand still, and how long.
     pub(crate) pauses: Vec<(Time, Option<Time>)>,
     /// How its machine was from when on.
@@ -34,7 +34,7 @@ pub struct Traced {
 
 /// What a machine is about while it traces nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stay {
+pub enum LanePhase {
     /// It waits for its band.
     #[default]
     Waits,
@@ -62,7 +62,7 @@ impl Lane {
     }
 
     /// From when on it is in which state, by time.
-    pub fn stays(&self) -> &[(Time, Stay)] {
+    pub fn stays(&self) -> &[(Time, LanePhase)] {
         &self.stays
     }
 
@@ -89,9 +89,9 @@ impl Lane {
     }
 
     /// What it is about at a time, apart from atoms that it traces.
-    pub fn stay_at(&self, time: Time) -> Stay {
+    pub fn stay_at(&self, time: Time) -> LanePhase {
         let before = self.stays.partition_point(|(from, _)| *from <= time);
-        before.checked_sub(1).map_or(Stay::Waits, |last| self.stays[last].1)
+        before.checked_sub(1).map_or(LanePhase::Waits, |last| self.stays[last].1)
     }
 
     /// Seconds in which it traced atoms.
@@ -104,21 +104,21 @@ impl Lane {
     /// Seconds until `now` in which it offered help, asked, or waited for atoms on their way.
     pub(crate) fn asking(&self, now: Time) -> f64 {
         let ends = self.stays.iter().skip(1).map(|(at, _)| *at).chain([now]);
-        let length = |((from, stay), end): (&(Time, Stay), Time)| match stay {
-            Stay::Offers | Stay::Receives => end.min(now).since(*from),
-            Stay::Waits | Stay::Works | Stay::Retired | Stay::Asleep => Duration::ZERO,
+        let length = |((from, stay), end): (&(Time, LanePhase), Time)| match stay {
+            LanePhase::Offers | LanePhase::Receives => end.min(now).since(*from),
+            LanePhase::Waits | LanePhase::Works | LanePhase::Retired | LanePhase::Asleep => Duration::ZERO,
         };
         self.stays.iter().zip(ends).map(length).sum::<Duration>().as_secs_f64()
     }
 
-    pub(crate) fn stay(&mut self, at: Time, stay: Stay) {
+    pub(crate) fn stay(&mut self, at: Time, stay: LanePhase) {
         // What another party told may come before what this one did earlier.
         let place = self.stays.partition_point(|(other, _)| *other <= at);
         let before = place.checked_sub(1).map(|last| self.stays[last].1);
         // Atoms on their way to a machine that has some make no difference, and what is over stays over.
         let says_nothing = before == Some(stay)
-            || before == Some(Stay::Retired)
-            || before == Some(Stay::Works) && stay == Stay::Receives;
+            || before == Some(LanePhase::Retired)
+            || before == Some(LanePhase::Works) && stay == LanePhase::Receives;
         if !says_nothing {
             self.stays.insert(place, (at, stay));
         }
@@ -130,7 +130,7 @@ impl Lane {
         if condition == Condition::Off {
             // What it had begun is lost, and it begins anew.
             self.open = None;
-            self.stay(at, Stay::Waits);
+            self.stay(at, LanePhase::Waits);
         }
     }
 

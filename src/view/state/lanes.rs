@@ -1,10 +1,10 @@
 //! What each machine did and when, as a fold over records: a lane a node.
 
 use super::flight::{Cargo, Flight};
-use super::lane::{Lane, Stay, Traced};
+use super::lane::{Lane, LanePhase, Traced};
 use crate::balance::{Condition, NodeId, Party, Remedy};
 use crate::picture::Atom;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::{Header, RunLog};
 use crate::time::Time;
 
@@ -84,44 +84,50 @@ impl Lanes {
         self.version += 1;
         let at = record.at;
         match &record.what {
-            What::Sent { id, from, to, message, bytes, arrives } => {
+            RecordKind::Sent { id, from, to, message, bytes, arrives } => {
                 self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), *bytes);
             }
-            What::Condition { node, condition } => {
+            RecordKind::Condition { node, condition } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.condition(at, *condition);
                 }
             }
-            What::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
-            What::Link { .. } | What::Delayed { .. } | What::Lost { .. } | What::GivenUp { .. } => {}
-            What::Received { .. } | What::Estimating | What::Estimated { .. } | What::LatencySet { .. } => {}
-            What::AtomStarted { node, atom } => {
+            RecordKind::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
+            RecordKind::Link { .. }
+            | RecordKind::Delayed { .. }
+            | RecordKind::Lost { .. }
+            | RecordKind::GivenUp { .. } => {}
+            RecordKind::Received { .. }
+            | RecordKind::Estimating
+            | RecordKind::Estimated { .. }
+            | RecordKind::LatencySet { .. } => {}
+            RecordKind::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.open = Some((*atom, at));
-                    lane.stay(at, Stay::Works);
+                    lane.stay(at, LanePhase::Works);
                 }
             }
-            What::AtomDone { node, atom, .. } => {
+            RecordKind::AtomDone { node, atom, .. } => {
                 if let Some(lane) = self.lane(*node) {
                     // The end of a log may be cut, not its beginning; still nothing is known of an atom that was never begun.
                     let from = lane.open.take().filter(|(open, _)| open == atom).map_or(at, |(_, since)| since);
                     lane.bars.push(Traced { from, to: at, atom: *atom });
                 }
             }
-            What::SpeedSet { node, speed } => {
+            RecordKind::SpeedSet { node, speed } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.stands(at, *speed == 0.0);
                 }
             }
-            What::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
-            What::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
-            What::Retired { node } => {
-                let stay = if self.wakes { Stay::Asleep } else { Stay::Retired };
+            RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
+            RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
+            RecordKind::Retired { node } => {
+                let stay = if self.wakes { LanePhase::Asleep } else { LanePhase::Retired };
                 if let Some(lane) = self.lane(*node) {
                     lane.stay(at, stay);
                 }
             }
-            What::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, Stay::Retired)),
+            RecordKind::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, LanePhase::Retired)),
         }
     }
 
@@ -191,13 +197,13 @@ impl Lanes {
             if (own || load == Load::Request)
                 && let Some(lane) = self.lane(node)
             {
-                lane.stay(sent, Stay::Offers);
+                lane.stay(sent, LanePhase::Offers);
             }
         }
         if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
             && let Some(lane) = self.lane(node)
         {
-            lane.stay(sent, Stay::Receives);
+            lane.stay(sent, LanePhase::Receives);
         }
         self.bytes.push(self.bytes.last().copied().unwrap_or(0).saturating_add(bytes));
         self.trips.push(Trip { id, from, to, load, atoms, sent, arrives });
@@ -270,9 +276,9 @@ mod tests {
     fn a_lane_knows_what_it_was_about() {
         let (lanes, end) = lanes(&[1.0, 1.0, 0.1], 300);
         let fast = &lanes.lanes()[0];
-        assert_eq!((fast.stay_at(Time::ZERO), fast.stay_at(end)), (Stay::Receives, Stay::Retired));
-        let seen: Vec<Stay> = fast.stays().iter().map(|(_, stay)| *stay).collect();
-        for stay in [Stay::Works, Stay::Offers, Stay::Receives, Stay::Retired] {
+        assert_eq!((fast.stay_at(Time::ZERO), fast.stay_at(end)), (LanePhase::Receives, LanePhase::Retired));
+        let seen: Vec<LanePhase> = fast.stays().iter().map(|(_, stay)| *stay).collect();
+        for stay in [LanePhase::Works, LanePhase::Offers, LanePhase::Receives, LanePhase::Retired] {
             assert!(seen.contains(&stay), "{stay:?}: {seen:?}");
         }
         let bar = fast.bars()[fast.bars().len() / 2];
@@ -283,11 +289,15 @@ mod tests {
     fn pauses_begin_and_end() {
         let header = sample_runs::header(&[1.0, 1.0], 9);
         let mut lanes = Lanes::new(&header);
-        let whats = [What::Paused { node: 1 }, What::SpeedSet { node: 1, speed: 0.0 }, What::Resumed { node: 1 }];
+        let whats = [
+            RecordKind::Paused { node: 1 },
+            RecordKind::SpeedSet { node: 1, speed: 0.0 },
+            RecordKind::Resumed { node: 1 },
+        ];
         for (at, what) in (1..).zip(whats) {
             lanes.apply(&Record { at: Time(at), what });
         }
-        lanes.apply(&Record { at: Time(9), what: What::SpeedSet { node: 1, speed: 0.0 } });
+        lanes.apply(&Record { at: Time(9), what: RecordKind::SpeedSet { node: 1, speed: 0.0 } });
         assert_eq!(lanes.lanes()[1].pauses(), [(Time(1), Some(Time(3))), (Time(9), None)]);
     }
 }

@@ -9,7 +9,7 @@ use crate::time::Time;
 
 /// What there is to say of a node at some time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct NodeRow {
     /// Which node.
     pub node: NodeId,
     /// Atoms that it has traced.
@@ -34,7 +34,7 @@ pub struct Row {
 
 /// A node's part of the finished work.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Share {
+pub struct NodeShare {
     /// Which node.
     pub node: NodeId,
     /// Where its part begins, 0 to 1 of all atoms.
@@ -46,14 +46,14 @@ pub struct Share {
 }
 
 /// A row for each node at `now`.
-pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
+pub fn rows(state: &RunState, now: Time) -> Vec<NodeRow> {
     let until = state.finished().map_or(now, |end| now.min(end));
     let seen: Vec<_> = (0..state.nodes().len() as NodeId).map(|node| (node, state.seen(node, now))).collect();
     // Twice an equal share, unless somebody has more: then the bars keep their length.
     let share = state.atoms().div_ceil(seen.len().max(1) as u32);
     let most = seen.iter().map(|(_, node)| node.done + node.left()).max().unwrap_or(0).max(2 * share).max(1) as f32;
     let over_all = state.finished().filter(|&end| end > Time::ZERO);
-    let row = |(node, of): &(NodeId, Cow<'_, NodeState>)| Row {
+    let row = |(node, of): &(NodeId, Cow<'_, NodeState>)| NodeRow {
         node: *node,
         done: of.done,
         left: of.left(),
@@ -69,13 +69,13 @@ pub fn rows(state: &RunState, now: Time) -> Vec<Row> {
 }
 
 /// Who has done which part of all atoms, one after the other; what is missing to 1 is still to be done.
-pub fn shares(state: &RunState) -> Vec<Share> {
+pub fn shares(state: &RunState) -> Vec<NodeShare> {
     let all = state.atoms().max(1) as f32;
     let mut start = 0;
     let mut share = |(node, of): (NodeId, &NodeState)| {
         let from = start;
         start += of.done;
-        Share { node, start: from as f32 / all, end: start as f32 / all, atoms: of.done }
+        NodeShare { node, start: from as f32 / all, end: start as f32 / all, atoms: of.done }
     };
     (0..).zip(state.nodes()).map(&mut share).collect()
 }

@@ -6,14 +6,14 @@ use super::sample_runs;
 use crate::balance::{Condition, NodeId, Rules, Strategy};
 use crate::language::Language;
 use crate::picture::{Difference, Quality, Size};
-use crate::record::What;
-use crate::runlog::{Driver, Header, RunLog, Tally};
+use crate::record::RecordKind;
+use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::scenario::Command;
 use crate::scene::{BUILT_IN, Scene};
 use crate::sim::Sim;
 use crate::time::Time;
 use crate::tracer::Tracer;
-use crate::view::analysis::summary::{Outcome, figures, result_words};
+use crate::view::analysis::summary::{Summary, figures, result_words};
 use crate::view::charts::tradeoff::Tradeoff;
 use crate::view::draw::display_list::Mark;
 use crate::view::inspect::Inspected;
@@ -21,18 +21,18 @@ use crate::view::narration::record_sentences::record_words;
 use crate::view::narration::status::standing;
 use crate::view::picture::overlay::Layer;
 use crate::view::playback::clock::{RATES, rate_of_time_words, short_rate_words};
-use crate::view::playback::details::Dossier;
-use crate::view::playback::run_view::Known;
-use crate::view::playback::snapshots::{Moment, Past};
+use crate::view::playback::details::Details;
+use crate::view::playback::run_view::RunView;
+use crate::view::playback::snapshots::{Snapshot, SnapshotCache};
 use crate::view::ring::labels;
-use crate::view::ring::{Overlay, ring};
+use crate::view::ring::{RingOverlay, ring};
 use crate::view::state::node_state::Activity;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::activity_word;
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
 use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
-use crate::view::timeline::landmarks::{About, Step, landmarks};
+use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
 /// How much room there is for what is said.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,14 +199,14 @@ fn runs() -> Vec<RunLog> {
 /// What is said of a run while it goes on.
 fn told(log: &RunLog) -> Said {
     let mut said = Vec::new();
-    let mut moment = Moment::new(&log.header);
+    let mut moment = Snapshot::new(&log.header);
     said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO)));
     for (index, record) in log.records().iter().enumerate() {
         moment.apply(record);
         let (state, narrator, now) = (&moment.state, &moment.narrator, record.at);
         said.push((Room::Some, record_words(record, state)));
         said.push((Room::Heard, narrator.sentence(state, now)));
-        if !matches!(record.what, What::AtomStarted { .. }) {
+        if !matches!(record.what, RecordKind::AtomStarted { .. }) {
             said.push((Room::Heard, standing(state)));
             said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.to_owned())));
         }
@@ -226,14 +226,14 @@ fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
 }
 
 /// What is said of what somebody points at, and what stands in the drawing.
-fn hovered(moment: &Moment, now: Time) -> Said {
+fn hovered(moment: &Snapshot, now: Time) -> Said {
     let (state, mut said) = (&moment.state, Vec::new());
     let nodes = 0..state.nodes().len() as NodeId;
     for (what, words) in nodes.flat_map(|node| node_words(state, node, now)).chain(parent_words(state, now)) {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
     // Offers are drawn where they are: as many in both languages.
-    let drawn = ring(state, &Overlay::default(), now, [1200.0, 1200.0]);
+    let drawn = ring(state, &RingOverlay::default(), now, [1200.0, 1200.0]);
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight))));
@@ -244,19 +244,20 @@ fn hovered(moment: &Moment, now: Time) -> Said {
 /// What is said of a run when it is over.
 fn summed_up(log: &RunLog) -> Said {
     let mut said = Vec::new();
-    let Known { latest: moment, signs, lanes, .. } = Known::of(log);
-    let (state, mut past) = (&moment.state, Past::default());
+    let RunView { latest: moment, signs, lanes, .. } = RunView::of(log);
+    let (state, mut past) = (&moment.state, SnapshotCache::default());
     said.extend(signs.all().iter().map(|sign| (Room::Same, sign.words.clone())));
     let found = landmarks(log);
-    let abouts = found.iter().map(|mark| mark.about).chain([About::Node(0), About::Atom(3), About::Message(u64::MAX)]);
+    let abouts =
+        found.iter().map(|mark| mark.about).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
     for about in abouts.collect::<Vec<_>>() {
-        let (title, more) = Dossier::of(about, log, &lanes, &mut past).words(state, state.head(), 1.0);
+        let (title, more) = Details::of(about, log, &lanes, &mut past).words(state, state.head(), 1.0);
         said.extend([(Room::Some, title), (Room::Some, more)]);
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
-    let tally = Tally::of(log);
+    let tally = Metrics::of(log);
     if let (Some(makespan), Some(ideal), Some(efficiency)) = (tally.makespan(), tally.ideal(), tally.efficiency()) {
-        let outcome = Outcome { makespan, ideal, efficiency, spread: tally.finish_spread() };
+        let outcome = Summary { makespan, ideal, efficiency, spread: tally.finish_spread() };
         said.push((Room::Same, result_words(state, &outcome)));
         said.extend(figures(&outcome).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))));
     }
@@ -266,7 +267,7 @@ fn summed_up(log: &RunLog) -> Said {
 #[test]
 fn runs_are_told_in_portuguese() {
     let runs = runs();
-    assert!(runs.iter().filter(|log| Tally::of(log).makespan().is_some()).count() > 30);
+    assert!(runs.iter().filter(|log| Metrics::of(log).makespan().is_some()).count() > 30);
     compare(|| runs.iter().flat_map(told).collect());
     compare(|| runs.iter().flat_map(summed_up).collect());
 }
@@ -290,7 +291,7 @@ fn names_and_numbers_are_portuguese() {
                 .flat_map(|layer| [layer.name(), layer.ends().map_or("", |ends| ends[1])])
                 .map(str::to_owned),
         );
-        said.extend(Step::ALL.map(|step| step.name().to_owned()));
+        said.extend(StepUnit::ALL.map(|step| step.name().to_owned()));
         said.extend([0.4, 1.0, 2.5].map(|times| times_words(times, 1.0)));
         let adaptive = Quality { samples: 4, threshold: 0.02, cutoff: 0.001, ..Quality::default() };
         said.extend([Quality::default(), adaptive].iter().map(quality_words));

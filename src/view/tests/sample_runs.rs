@@ -5,7 +5,7 @@ use std::time::Duration;
 use crate::balance::Strategy;
 use crate::picture::Size;
 use crate::record::Record;
-use crate::runlog::{Driver, Header, Link, RunLog};
+use crate::runlog::{Driver, Header, LinkSettings, RunLog};
 use crate::sim::Sim;
 
 /// What an atom costs on this computer; a node of speed 1 at pace 0.1 needs ten times as long.
@@ -15,7 +15,7 @@ pub const COST: Duration = Duration::from_millis(1);
 pub fn header(speeds: &[f64], atoms: u32) -> Header {
     let size = Size::new(50, atoms).expect("a small picture");
     let plain = Header::plain(size, 50, Strategy::Ring, speeds.to_vec());
-    let link = Link { latency: Duration::from_millis(40), ..plain.link };
+    let link = LinkSettings { latency: Duration::from_millis(40), ..plain.link };
     Header { scene: "sample".into(), driver: Driver::Sim, pace: 0.1, link, cores: 2, ..plain }
 }
 

@@ -2,11 +2,11 @@
 
 use super::format::{count, listed};
 use crate::language::{decimal, say, word};
-use crate::tracer::Compiled;
+use crate::tracer::SceneStats;
 
 /// What a scene needs, line by line: what, and how much of it. `levels` are the rays of each level of the trees of rays, as
 /// [`crate::tracer::Tracer::levels`] counts them.
-pub fn needs_lines(compiled: &Compiled, levels: &[u64]) -> Vec<(&'static str, String)> {
+pub fn needs_lines(compiled: &SceneStats, levels: &[u64]) -> Vec<(&'static str, String)> {
     let of_kind = |(kind, number): (&&'static str, &usize)| several(*number, shape_names(kind));
     let kinds: Vec<String> = compiled.primitives.iter().map(of_kind).collect();
     let kept: usize = compiled.primitives.values().sum();
@@ -59,7 +59,7 @@ pub(crate) fn shape_names(kind: &'static str) -> [&'static str; 2] {
 }
 
 /// What of the scene is never seen, as a sentence for each; none if all is.
-pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
+pub fn needs_warnings(compiled: &SceneStats) -> Vec<String> {
     let tell = |value: usize, words: [&str; 2]| (value > 0).then(|| format!("{}.", several(value, words)));
     let parts = compiled.parts_dropped;
     let dropped = word!(
@@ -86,7 +86,7 @@ pub fn needs_warnings(compiled: &Compiled) -> Vec<String> {
         .collect()
 }
 
-fn surfaces(compiled: &Compiled) -> &'static str {
+fn surfaces(compiled: &SceneStats) -> &'static str {
     match (compiled.reflects, compiled.transmits) {
         (true, true) => {
             word!(

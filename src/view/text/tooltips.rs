@@ -9,7 +9,7 @@ use crate::balance::{Condition, NodeId, Party};
 use crate::language::{decimal, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::node_rows::rows;
 use crate::view::state::node_state::{Activity, NodeState, Parcels, Slot};
@@ -165,7 +165,7 @@ pub fn small_print(state: &RunState) -> Vec<String> {
 pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
     let Some(&place) = state.places().get(atom as usize) else { return String::new() };
     let stands = match (place, state.carrier(atom)) {
-        (Place::Traced { by, cost, at, .. }, _) => {
+        (AtomState::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default());
             let (by, at) = (node_name(by), decimal(at.secs(), 1));
             say!("traced by {by} at {at} s, at a cost of {cost}", "calculado por {by} em {at} s, ao custo de {cost}")
@@ -186,9 +186,9 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time) -> String {
                 _ => say!("on its way to {to}, in its band", "a caminho de {to}, em sua faixa"),
             }
         }
-        (Place::With { node, since }, _) => with_words(state, atom, (node, since), now),
-        (Place::Lost, _) => word!("lost: nobody has it", "perdido: ninguém o tem").into(),
-        (Place::Nowhere, _) => word!("still with the parent", "ainda com o pai").into(),
+        (AtomState::With { node, since }, _) => with_words(state, atom, (node, since), now),
+        (AtomState::Lost, _) => word!("lost: nobody has it", "perdido: ninguém o tem").into(),
+        (AtomState::Nowhere, _) => word!("still with the parent", "ainda com o pai").into(),
     };
     let name = count(atom.saturating_add(1));
     say!("Atom {name}: {stands}", "Átomo {name}: {stands}")
@@ -271,7 +271,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::view::tests::sample_runs;
 
     fn value<'a>(words: &'a [(&str, String)], label: &str) -> &'a str {
@@ -301,7 +301,7 @@ mod tests {
         let state_of = |state: &RunState| value(&node_words(state, 0, state.head()), "state").to_owned();
         let pipe_of = |state: &RunState| value(&node_words(state, 0, state.head()), "in the pipe").to_owned();
         assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("computing", "two atoms, one of which it traces"));
-        state.apply(&Record { at: state.head(), what: What::Paused { node: 0 } });
+        state.apply(&Record { at: state.head(), what: RecordKind::Paused { node: 0 } });
         assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("paused", "two atoms, which wait"));
         state.nodes[0].left = 0;
         assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("idle, paused", "nothing"));
@@ -317,7 +317,7 @@ mod tests {
         let words = parent_words(&state, Time::from_secs(2.0));
         assert_eq!(value(&words, "placed"), "2\u{a0}000 of 2\u{a0}000 pixels, 100 %");
         assert_eq!(value(&words, "a hop takes"), "40 ms");
-        let seen = |record: &&Record| matches!(record.what, What::Received { by: Party::Parent, .. });
+        let seen = |record: &&Record| matches!(record.what, RecordKind::Received { by: Party::Parent, .. });
         let seen = records.iter().filter(seen).count();
         assert!(value(&words, "messages").starts_with(&format!("{seen} seen, ")), "{words:?}");
     }
@@ -351,9 +351,9 @@ mod tests {
         assert_eq!(atom_words(&state, 0, state.head()), "Atom 1: 1 traces it now");
         let later = state.head() + Duration::from_secs(3);
         assert_eq!(atom_words(&state, 8, later), "Atom 9: waits in the queue of 1, for 3.0 s now");
-        state.apply(&Record { at: later, what: What::SpeedSet { node: 0, speed: 0.0 } });
+        state.apply(&Record { at: later, what: RecordKind::SpeedSet { node: 0, speed: 0.0 } });
         assert_eq!(atom_words(&state, 0, later), "Atom 1: 1 has begun it, but stands still");
-        state.apply(&Record { at: later, what: What::Paused { node: 0 } });
+        state.apply(&Record { at: later, what: RecordKind::Paused { node: 0 } });
         assert_eq!(atom_words(&state, 0, later), "Atom 1: 1 has begun it, but is paused");
     }
 

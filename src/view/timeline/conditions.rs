@@ -1,7 +1,7 @@
 //! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
 
 use super::time_window::TimeWindow;
-use super::{LanePlan, Quad, Timeline};
+use super::{Quad, Timeline, TimelineLayout};
 use crate::balance::{Condition, NodeId};
 use crate::time::Time;
 use crate::view::draw::display_list::Hue;
@@ -17,7 +17,7 @@ pub(crate) fn troubles(
     lane: &Lane,
     node: NodeId,
     window: &TimeWindow,
-    plan: &LanePlan,
+    plan: &TimelineLayout,
     head: Time,
     drawn: &mut Timeline,
 ) {
@@ -85,23 +85,23 @@ pub fn condition_strokes(condition: Condition) -> &'static [[[f32; 2]; 2]] {
 mod tests {
     use super::super::timeline;
     use super::*;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::view::state::lanes::Lanes;
     use crate::view::tests::sample_runs;
 
     /// What is drawn more of three machines' lanes if this becomes of the second at 1 s: quads and lines.
     fn more(condition: Condition) -> (usize, usize) {
         let header = sample_runs::header(&[1.0; 3], 300);
-        let draw = |whats: &[What]| {
+        let draw = |whats: &[RecordKind]| {
             let mut lanes = Lanes::new(&header);
             let at = Time::from_secs(1.0);
             whats.iter().for_each(|what| lanes.apply(&Record { at, what: what.clone() }));
             let (mut window, end) = (TimeWindow::default(), Time::from_secs(2.0));
             window.fit(end);
-            let drawn = timeline(&lanes, &window, &LanePlan::new(3, 800.0, 150.0), end);
+            let drawn = timeline(&lanes, &window, &TimelineLayout::new(3, 800.0, 150.0), end);
             (drawn.quads.len(), drawn.lines.len())
         };
-        let (before, after) = (draw(&[]), draw(&[What::Condition { node: 1, condition }]));
+        let (before, after) = (draw(&[]), draw(&[RecordKind::Condition { node: 1, condition }]));
         (after.0 - before.0, after.1 - before.1)
     }
 

@@ -3,14 +3,14 @@
 use crate::balance::{Message, NodeId, Party};
 use crate::language::{say, word};
 use crate::picture::{Atom, atoms_in};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::text::format::{atoms_words, count, duration, node_name};
 
 /// By what one steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum StepUnit {
     /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a hand.
     Event,
     /// An atom is traced.
@@ -19,7 +19,7 @@ pub enum Step {
     Lap,
 }
 
-impl Step {
+impl StepUnit {
     /// Every step, the smallest last.
     pub const ALL: [Self; 3] = [Self::Lap, Self::Event, Self::Atom];
 
@@ -32,15 +32,17 @@ impl Step {
         }
     }
 
-    fn ends_at(self, what: &What) -> bool {
+    fn ends_at(self, what: &RecordKind) -> bool {
         match (self, what) {
-            (Self::Atom, What::AtomDone { .. }) => true,
-            (Self::Lap, What::Sent { from: Party::Node(from), message, .. }) => message.own_offer(*from).is_some(),
+            (Self::Atom, RecordKind::AtomDone { .. }) => true,
+            (Self::Lap, RecordKind::Sent { from: Party::Node(from), message, .. }) => {
+                message.own_offer(*from).is_some()
+            }
             (
                 Self::Event,
-                What::Sent { message: Message::Results(_), .. } | What::Received { by: Party::Parent, .. },
+                RecordKind::Sent { message: Message::Results(_), .. } | RecordKind::Received { by: Party::Parent, .. },
             ) => false,
-            (Self::Event, What::AtomStarted { .. } | What::AtomDone { .. }) => false,
+            (Self::Event, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. }) => false,
             (Self::Event, _) => true,
             (Self::Atom | Self::Lap, _) => false,
         }
@@ -49,7 +51,7 @@ impl Step {
 
 /// Whoever has seen the first `records` records of `log` and makes a step has then seen so many; `None` if there is no
 /// such step. The first step back from the first event is the beginning.
-pub fn step(log: &RunLog, records: usize, by: Step, forward: bool) -> Option<usize> {
+pub fn step(log: &RunLog, records: usize, by: StepUnit, forward: bool) -> Option<usize> {
     let is_end = |record: &Record| by.ends_at(&record.what);
     let (before, after) = log.records().split_at(records.min(log.records().len()));
     if forward {
@@ -69,12 +71,12 @@ pub struct Landmark {
     /// When it is.
     pub at: Time,
     /// What it is about.
-    pub about: About,
+    pub about: Subject,
 }
 
 /// What something is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum About {
+pub enum Subject {
     /// A machine.
     Node(NodeId),
     /// An atom.
@@ -91,13 +93,19 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
     for (index, record) in records.iter().enumerate() {
         let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
         match &record.what {
-            What::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who => {
+            RecordKind::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. }
+                if from == who =>
+            {
                 let name = node_name(*who);
                 let words = || say!("The first offer: {name} has finished", "A primeira oferta: {name} terminou");
-                offer.get_or_insert_with(|| mark(words(), About::Message(*id)));
+                offer.get_or_insert_with(|| mark(words(), Subject::Message(*id)));
             }
-            What::Sent {
-                id, from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
+            RecordKind::Sent {
+                id,
+                from: Party::Node(from),
+                to: Party::Node(to),
+                message: Message::Transfer(ranges),
+                ..
             } => {
                 let atoms = atoms_in(ranges);
                 let words = || {
@@ -106,32 +114,35 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
                 };
                 transfer.get_or_insert_with(|| {
                     let words = words();
-                    mark(say!("The first transfer: {words}", "A primeira transferência: {words}"), About::Message(*id))
+                    mark(
+                        say!("The first transfer: {words}", "A primeira transferência: {words}"),
+                        Subject::Message(*id),
+                    )
                 });
                 if biggest.as_ref().is_none_or(|(most, _)| atoms > *most) {
                     let words = words();
                     let words = say!("The biggest transfer: {words}", "A maior transferência: {words}");
-                    biggest = Some((atoms, mark(words, About::Message(*id))));
+                    biggest = Some((atoms, mark(words, Subject::Message(*id))));
                 }
             }
-            What::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
+            RecordKind::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
                 let (by, took) = (node_name(*node), duration(*cost));
                 let name = count(atom.saturating_add(1));
                 let words = say!(
                     "The costliest atom: {name}, {took} of {by}'s time",
                     "O átomo mais caro: {name}, {took} do tempo de {by}"
                 );
-                dearest = Some((*cost, mark(words, About::Atom(*atom))));
+                dearest = Some((*cost, mark(words, Subject::Atom(*atom))));
             }
-            What::Retired { node } => {
+            RecordKind::Retired { node } => {
                 let name = node_name(*node);
                 let words = || say!("The first to retire: {name}", "A primeira dispensada: {name}");
-                retired.get_or_insert_with(|| mark(words(), About::Node(*node)));
+                retired.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
-            What::SpeedSet { node, .. } | What::Paused { node } | What::Condition { node, .. } => {
+            RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } | RecordKind::Condition { node, .. } => {
                 let name = node_name(*node);
                 let words = || say!("The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
-                hand.get_or_insert_with(|| mark(words(), About::Node(*node)));
+                hand.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             _ => {}
         }
@@ -147,7 +158,7 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
 /// The records that one sees happen: once the picture is complete, time stands still.
 fn seen(log: &RunLog) -> &[Record] {
     let records = log.records();
-    let end = records.iter().position(|record| record.what == What::Finished);
+    let end = records.iter().position(|record| record.what == RecordKind::Finished);
     &records[..end.map_or(records.len(), |end| end + 1)]
 }
 
@@ -156,10 +167,10 @@ fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
     let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
     for record in records {
         match record.what {
-            What::AtomStarted { node, .. } if usize::from(node) < nodes => {
+            RecordKind::AtomStarted { node, .. } if usize::from(node) < nodes => {
                 started[usize::from(node)] = Some(record.at);
             }
-            What::AtomDone { node, .. } if usize::from(node) < nodes => {
+            RecordKind::AtomDone { node, .. } if usize::from(node) < nodes => {
                 let node = usize::from(node);
                 atoms[node] += 1;
                 busy[node] += started[node].take().map_or(0.0, |since| record.at.since(since).as_secs_f64());
@@ -173,7 +184,7 @@ fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
     let (name, traced) = (node_name(node), atoms_words(atoms[slowest]));
     let words = say!("The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
     let (records, at) = (records.len(), records.last()?.at);
-    (nodes > 1).then_some(Landmark { words, records, at, about: About::Node(node) })
+    (nodes > 1).then_some(Landmark { words, records, at, about: Subject::Node(node) })
 }
 
 #[cfg(test)]
@@ -187,7 +198,7 @@ mod tests {
         #[test]
         fn steps_back_are_the_steps_forward(speeds in prop::collection::vec(0.1..1.0f64, 1..5), atoms in 1..200u32) {
             let log = sample_runs::log(&speeds, atoms);
-            for by in Step::ALL {
+            for by in StepUnit::ALL {
                 let mut places = vec![0];
                 while let Some(next) = step(&log, places[places.len() - 1], by, true) {
                     prop_assert!(by.ends_at(&log.records()[next - 1].what));
@@ -206,26 +217,26 @@ mod tests {
     #[test]
     fn every_atom_is_a_step() {
         let log = sample_runs::log(&[1.0, 0.3], 57);
-        let ends = |by: Step| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
-        assert_eq!(ends(Step::Atom), 57);
-        assert!(ends(Step::Lap) >= 2 && ends(Step::Event) > ends(Step::Lap));
+        let ends = |by: StepUnit| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
+        assert_eq!(ends(StepUnit::Atom), 57);
+        assert!(ends(StepUnit::Lap) >= 2 && ends(StepUnit::Event) > ends(StepUnit::Lap));
     }
 
     #[test]
     fn what_one_asks_for_is_found() {
         let mut log = sample_runs::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
         // There the last atoms keep everybody busy.
-        let retires = |secs, node| Record { at: Time::from_secs(secs), what: What::Retired { node } };
+        let retires = |secs, node| Record { at: Time::from_secs(secs), what: RecordKind::Retired { node } };
         log.add(vec![retires(0.001, 0)]);
         let end = log.end();
         log.add(vec![retires(9e3, 1)]);
         let found = landmarks(&log);
         let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
-        assert!(matches!(says("The first offer: "), Some(About::Message(_))));
-        assert!(matches!(says("The biggest transfer: "), Some(About::Message(_))));
-        assert!(matches!(says("The first to retire: "), Some(About::Node(0))));
-        assert_eq!(says("The slowest machine: 5, "), Some(About::Node(4)));
-        assert!(matches!(says("The costliest atom: "), Some(About::Atom(_))));
+        assert!(matches!(says("The first offer: "), Some(Subject::Message(_))));
+        assert!(matches!(says("The biggest transfer: "), Some(Subject::Message(_))));
+        assert!(matches!(says("The first to retire: "), Some(Subject::Node(0))));
+        assert_eq!(says("The slowest machine: 5, "), Some(Subject::Node(4)));
+        assert!(matches!(says("The costliest atom: "), Some(Subject::Atom(_))));
         assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
         assert!(found.iter().all(|mark| mark.at <= end), "after the end nothing is seen any more: {found:?}");
         assert_eq!(landmarks(&RunLog::new(log.header)), []);

@@ -1,7 +1,7 @@
 //! What stands out in a run's time: where somebody took a hand in it, who retired, and its end.
 
 use crate::balance::{Condition, NodeId};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::narration::event_sentences;
 use crate::view::narration::failure_sentences;
@@ -9,18 +9,18 @@ use crate::view::state::run_state::RunState;
 
 /// Something that stands out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sign {
+pub struct Marker {
     /// When it is.
     pub at: Time,
     /// What it is.
-    pub kind: SignKind,
+    pub kind: MarkerKind,
     /// The same in a sentence.
     pub words: String,
 }
 
 /// What stands out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignKind {
+pub enum MarkerKind {
     /// A machine's speed was changed.
     Speed(NodeId),
     /// A machine was paused, or goes on.
@@ -37,29 +37,29 @@ pub enum SignKind {
 
 /// The signs of a run, by time.
 #[derive(Clone, Debug, Default)]
-pub struct Signs(Vec<Sign>);
+pub struct Markers(Vec<Marker>);
 
-impl Signs {
+impl Markers {
     /// Takes in a record; `state` already knows it. Those of different parties may come interleaved.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
         let (kind, words) = match &record.what {
-            What::SpeedSet { node, speed } => {
+            RecordKind::SpeedSet { node, speed } => {
                 let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
-                (SignKind::Speed(*node), event_sentences::speed(state, *node, before, *speed))
+                (MarkerKind::Speed(*node), event_sentences::speed(state, *node, before, *speed))
             }
-            What::Paused { node } => (SignKind::Pause(*node), event_sentences::paused(state, *node)),
-            What::Resumed { node } => (SignKind::Pause(*node), event_sentences::resumed(state, *node)),
-            What::Condition { node, condition } => {
-                (SignKind::Condition(*node, *condition), failure_sentences::condition(state, *node))
+            RecordKind::Paused { node } => (MarkerKind::Pause(*node), event_sentences::paused(state, *node)),
+            RecordKind::Resumed { node } => (MarkerKind::Pause(*node), event_sentences::resumed(state, *node)),
+            RecordKind::Condition { node, condition } => {
+                (MarkerKind::Condition(*node, *condition), failure_sentences::condition(state, *node))
             }
-            What::LatencySet { latency } => (SignKind::Latency, event_sentences::latency(state, *latency)),
-            What::Retired { node } => (SignKind::Retired(*node), event_sentences::retired(state, &[*node])),
-            What::Finished => (SignKind::Complete, event_sentences::complete().into()),
+            RecordKind::LatencySet { latency } => (MarkerKind::Latency, event_sentences::latency(state, *latency)),
+            RecordKind::Retired { node } => (MarkerKind::Retired(*node), event_sentences::retired(state, &[*node])),
+            RecordKind::Finished => (MarkerKind::Complete, event_sentences::complete().into()),
             _ => return,
         };
-        let sign = Sign { at: record.at, kind, words };
+        let sign = Marker { at: record.at, kind, words };
         // A slider that is dragged says many speeds, of which the last stays.
-        let drags = |last: &Sign| last.kind == kind && matches!(kind, SignKind::Speed(_) | SignKind::Latency);
+        let drags = |last: &Marker| last.kind == kind && matches!(kind, MarkerKind::Speed(_) | MarkerKind::Latency);
         match self.0.last_mut() {
             Some(last) if drags(last) && sign.at.since(last.at) < DRAGGED => *last = sign,
             _ => {
@@ -70,13 +70,13 @@ impl Signs {
     }
 
     /// All, by time.
-    pub fn all(&self) -> &[Sign] {
+    pub fn all(&self) -> &[Marker] {
         &self.0
     }
 
     /// The ones no further from `time` than `reach`, the nearest first.
-    pub fn near(&self, time: Time, reach: std::time::Duration) -> Vec<&Sign> {
-        let away = |sign: &Sign| sign.at.since(time).max(time.since(sign.at));
+    pub fn near(&self, time: Time, reach: std::time::Duration) -> Vec<&Marker> {
+        let away = |sign: &Marker| sign.at.since(time).max(time.since(sign.at));
         let mut near: Vec<_> = self.0.iter().filter(|sign| away(sign) <= reach).collect();
         near.sort_by_key(|sign| away(sign));
         near
@@ -94,26 +94,26 @@ mod tests {
     #[test]
     fn a_dragged_slider_is_one_sign_and_every_retirement_its_own() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
-        let (mut state, mut signs) = (RunState::new(&header), Signs::default());
+        let (mut state, mut signs) = (RunState::new(&header), Markers::default());
         let mut records = sample_runs::records(&header);
         let half = records.len() / 2;
         let at = records[half].at;
         for (i, speed) in [0.9, 0.6, 0.2].into_iter().enumerate() {
-            let what = What::SpeedSet { node: 1, speed };
+            let what = RecordKind::SpeedSet { node: 1, speed };
             records.insert(half + 1 + i, Record { at: Time(at.0 + i as u64), what });
         }
         for record in &records {
             state.apply(record);
             signs.apply(record, &state);
         }
-        let speeds: Vec<_> = signs.all().iter().filter(|sign| sign.kind == SignKind::Speed(1)).collect();
+        let speeds: Vec<_> = signs.all().iter().filter(|sign| sign.kind == MarkerKind::Speed(1)).collect();
         assert_eq!((speeds.len(), speeds[0].at), (1, Time(at.0 + 2)));
         assert!(speeds[0].words.starts_with("Machine 2 now runs at 20 %"), "{}", speeds[0].words);
-        let retired = signs.all().iter().filter(|sign| matches!(sign.kind, SignKind::Retired(_))).count();
+        let retired = signs.all().iter().filter(|sign| matches!(sign.kind, MarkerKind::Retired(_))).count();
         assert_eq!(retired, state.nodes().iter().filter(|node| node.retired).count());
-        assert_eq!(signs.all().last().map(|sign| sign.kind), Some(SignKind::Complete));
+        assert_eq!(signs.all().last().map(|sign| sign.kind), Some(MarkerKind::Complete));
         assert!(signs.all().is_sorted_by_key(|sign| sign.at));
         let near = signs.near(Time(at.0 + 5), std::time::Duration::from_nanos(10));
-        assert!(near.first().is_some_and(|sign| sign.kind == SignKind::Speed(1)));
+        assert!(near.first().is_some_and(|sign| sign.kind == MarkerKind::Speed(1)));
     }
 }

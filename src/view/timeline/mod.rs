@@ -6,12 +6,12 @@ pub mod markers;
 pub mod time_window;
 
 use super::draw::display_list::{Hue, Ink};
-use super::state::lane::{Lane, Stay};
+use super::state::lane::{Lane, LanePhase};
 use super::state::lanes::{Lanes, Load, Trip};
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use conditions::troubles;
-use landmarks::About;
+use landmarks::Subject;
 use time_window::TimeWindow;
 
 /// A rectangle of one colour: left, top, right, bottom.
@@ -25,7 +25,7 @@ pub struct Quad {
 
 /// Where things are in a timeline of some size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LanePlan {
+pub struct TimelineLayout {
     /// All of its width.
     pub width: f32,
     /// The height of what stands above the lanes.
@@ -57,7 +57,7 @@ const APART: f64 = 3.0;
 /// More messages than this in the window hide each other and the lanes.
 const MOST_LINES: usize = 400;
 
-impl LanePlan {
+impl TimelineLayout {
     /// A plan for so many lanes in so much room.
     pub fn new(lanes: usize, width: f32, height: f32) -> Self {
         let (head, foot) = if height > 120.0 { (WORDS + STRIP, 18.0) } else { (0.0, 0.0) };
@@ -98,7 +98,7 @@ impl LanePlan {
 }
 
 /// The timeline of what `window` shows, until `head`, which the run has come to.
-pub fn timeline(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, head: Time) -> Timeline {
+pub fn timeline(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, head: Time) -> Timeline {
     let mut drawn = Timeline::default();
     let mut used = vec![0.0; plan.width.max(0.0) as usize];
     for (node, lane) in (0..).zip(lanes.lanes()) {
@@ -133,7 +133,7 @@ pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
 }
 
 /// What is pointed at: an atom's bar, else a message near the place, else the lane's machine.
-pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, [x, y]: [f32; 2]) -> Option<About> {
+pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, [x, y]: [f32; 2]) -> Option<Subject> {
     let node = plan.node_at(y)?;
     let time = window.at(f64::from(x / plan.width.max(1.0)));
     let lane = lanes.lanes().get(usize::from(node))?;
@@ -146,13 +146,13 @@ pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, [x, y]: 
     let bar = lane.bar_at(time);
     let wide = bar.is_some_and(|bar| plan.x(window, bar.to) - plan.x(window, bar.from) >= APART as f32);
     if !wide && let Some(trip) = trips_in(lanes, window).filter(is_near).max_by_key(|trip| trip.atoms) {
-        return Some(About::Message(trip.id));
+        return Some(Subject::Message(trip.id));
     }
-    bar.map_or(Some(About::Node(node)), |bar| Some(About::Atom(bar.atom)))
+    bar.map_or(Some(Subject::Node(node)), |bar| Some(Subject::Atom(bar.atom)))
 }
 
 /// How many of the machines' time is used, column by column.
-fn usage(used: &[f32], plan: &LanePlan, quads: &mut Vec<Quad>) {
+fn usage(used: &[f32], plan: &TimelineLayout, quads: &mut Vec<Quad>) {
     let (top, bottom) = (WORDS, plan.head - 4.0);
     quads.push(Quad { place: [0.0, top, plan.width, bottom], ink: Hue::Hairline.faint(0.35) });
     for run in runs(used.iter().map(|share| (share / plan.lanes.max(1) as f32 * 16.0).round() as u8)) {
@@ -163,7 +163,7 @@ fn usage(used: &[f32], plan: &LanePlan, quads: &mut Vec<Quad>) {
 }
 
 /// What a machine is about while it traces nothing.
-fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: Time, quads: &mut Vec<Quad>) {
+fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout, head: Time, quads: &mut Vec<Quad>) {
     let middle = plan.middle(node);
     let first = lane.stays().partition_point(|(at, _)| *at <= window.from()).saturating_sub(1);
     for (i, &(from, stay)) in lane.stays().iter().enumerate().skip(first) {
@@ -173,10 +173,10 @@ fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: 
         let to = lane.stays().get(i + 1).map_or(head, |(next, _)| *next);
         let [left, right] = plan.span(window, from, to);
         let (half, ink) = match stay {
-            Stay::Waits | Stay::Works => continue,
-            Stay::Offers => (2.5, Hue::Node(node).faint(0.45)),
-            Stay::Receives => (2.5, Hue::Node(node).faint(0.75)),
-            Stay::Retired | Stay::Asleep => (0.75, Hue::Quiet.faint(0.6)),
+            LanePhase::Waits | LanePhase::Works => continue,
+            LanePhase::Offers => (2.5, Hue::Node(node).faint(0.45)),
+            LanePhase::Receives => (2.5, Hue::Node(node).faint(0.75)),
+            LanePhase::Retired | LanePhase::Asleep => (0.75, Hue::Quiet.faint(0.6)),
         };
         if right > left {
             quads.push(Quad { place: [left, middle - half, right, middle + half], ink });
@@ -189,7 +189,7 @@ fn bars(
     lane: &Lane,
     node: NodeId,
     window: &TimeWindow,
-    plan: &LanePlan,
+    plan: &TimelineLayout,
     head: Time,
     quads: &mut Vec<Quad>,
     used: &mut [f32],
@@ -225,7 +225,7 @@ fn bars(
 }
 
 /// A worker that was made to stand still: the lane is struck out.
-fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head: Time, quads: &mut Vec<Quad>) {
+fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout, head: Time, quads: &mut Vec<Quad>) {
     let middle = plan.middle(node);
     for &(from, to) in lane.pauses() {
         let [left, right] = plan.span(window, from, to.unwrap_or(head));
@@ -236,7 +236,7 @@ fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &LanePlan, head:
 }
 
 /// Offers from neighbour to neighbour, and atoms across.
-fn messages(lanes: &Lanes, window: &TimeWindow, plan: &LanePlan, lines: &mut Vec<([f32; 2], [f32; 2], Ink)>) {
+fn messages(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, lines: &mut Vec<([f32; 2], [f32; 2], Ink)>) {
     let drawn = |load: Load| trips_in(lanes, window).filter(move |trip| trip.load == load);
     let mut draw = |trip: &Trip, alpha: f32| {
         let (Party::Node(from), Party::Node(to)) = (trip.from, trip.to) else { return };
@@ -296,19 +296,19 @@ fn cover(columns: &mut [f32], left: f32, right: f32) {
     columns[last] += right - last as f32;
 }
 
-struct Run {
+struct DiagonalRun {
     start: usize,
     end: usize,
     level: u8,
 }
 
 /// Columns of the same level, one after the other, as one; those of level 0 are left out.
-fn runs(levels: impl Iterator<Item = u8>) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+fn runs(levels: impl Iterator<Item = u8>) -> Vec<DiagonalRun> {
+    let mut runs: Vec<DiagonalRun> = Vec::new();
     for (column, level) in levels.enumerate() {
         match runs.last_mut() {
             Some(run) if run.level == level && run.end == column => run.end += 1,
-            _ => runs.push(Run { start: column, end: column + 1, level }),
+            _ => runs.push(DiagonalRun { start: column, end: column + 1, level }),
         }
     }
     runs.retain(|run| run.level > 0);
@@ -324,7 +324,7 @@ mod tests {
 
     const WIDTH: f32 = 800.0;
 
-    fn drawn(atoms: u32, zoom: f64) -> (Lanes, Timeline, TimeWindow, LanePlan) {
+    fn drawn(atoms: u32, zoom: f64) -> (Lanes, Timeline, TimeWindow, TimelineLayout) {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], atoms);
         let mut lanes = Lanes::new(&header);
         let records = sample_runs::records(&header);
@@ -334,7 +334,7 @@ mod tests {
         window.fit(end);
         window.zoom(0.3, zoom);
         window.fit(end);
-        let plan = LanePlan::new(3, WIDTH, 150.0);
+        let plan = TimelineLayout::new(3, WIDTH, 150.0);
         (lanes.clone(), timeline(&lanes, &window, &plan, end), window, plan)
     }
 
@@ -387,7 +387,7 @@ mod tests {
         let (lanes, _, window, plan) = drawn(600, 0.05);
         let bar = lanes.lanes()[0].bars_in(window.from(), window.to())[2];
         let x = (plan.x(&window, bar.from) + plan.x(&window, bar.to)) / 2.0;
-        assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.middle(0)]), Some(About::Atom(bar.atom)));
+        assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.middle(0)]), Some(Subject::Atom(bar.atom)));
         assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.bottom() + 9.0]), None);
     }
 }

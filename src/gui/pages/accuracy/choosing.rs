@@ -2,16 +2,16 @@
 
 use egui::{Label, RichText, Ui, vec2};
 
-use super::findings::{Choice, Findings};
+use super::findings::{AccuracyFindings, Choice};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, slider};
+use crate::gui::widgets::{Emphasis, button, slider};
 use crate::language::{say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
 use crate::view::{duration, error_words, quality_words, times_words};
 
 /// What was done.
-pub enum Chosen {
+pub enum QualityChoice {
     /// Another point is to be shown.
     Choice(Choice),
     /// This is to be set.
@@ -22,7 +22,13 @@ pub enum Chosen {
 pub const HEIGHT: f32 = 24.0 * GRID;
 
 /// Shows both limits and what is chosen.
-pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usize>, look: Look) -> Option<Chosen> {
+pub fn show(
+    ui: &mut Ui,
+    findings: &AccuracyFindings,
+    choice: Choice,
+    place: Option<usize>,
+    look: Look,
+) -> Option<QualityChoice> {
     let front = findings.front();
     let (Some(fastest), Some(best)) = (front.first(), front.last()) else { return None };
     let chosen = place.and_then(|place| findings.point(place));
@@ -39,13 +45,13 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
     let (words, name) =
         word!(("The fastest within an error of", "Largest error"), ("A mais rápida com erro até", "Maior erro"));
     if let Some(error) = limit(ui, (words, &said, name), error, limits, look) {
-        done = Some(Chosen::Choice(Choice::Error(error)));
+        done = Some(QualityChoice::Choice(Choice::Error(error)));
     }
     let said = duration(std::time::Duration::try_from_secs_f64(time).unwrap_or_default());
     let limits = (fastest.cpu_s, best.cpu_s);
     let (words, name) = word!(("The best within a time of", "Longest time"), ("A melhor em tempo até", "Maior tempo"));
     if let Some(time) = limit(ui, (words, &said, name), time, limits, look) {
-        done = Some(Chosen::Choice(Choice::Time(time)));
+        done = Some(QualityChoice::Choice(Choice::Time(time)));
     }
     ui.add_space(0.5 * GRID);
     let Some((place, point)) = place.zip(chosen) else { return done };
@@ -54,8 +60,8 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
             .wrap(),
     );
     ui.add_space(0.5 * GRID);
-    let is_set = place == Findings::PRESENT;
-    let weight = if is_set { Weight::Quiet } else { Weight::Primary };
+    let is_set = place == AccuracyFindings::PRESENT;
+    let weight = if is_set { Emphasis::Quiet } else { Emphasis::Primary };
     ui.add_enabled_ui(!is_set, |ui| {
         let take = button(ui, None, word!("Take these settings", "Usar estes ajustes"), true, weight);
         let hint = word!(
@@ -63,14 +69,14 @@ pub fn show(ui: &mut Ui, findings: &Findings, choice: Choice, place: Option<usiz
             "Reinicia a execução com esta qualidade; Ctrl Z desfaz"
         );
         if take.on_hover_text(hint).clicked() {
-            done = Some(Chosen::Take(point.quality));
+            done = Some(QualityChoice::Take(point.quality));
         }
     });
     done
 }
 
 /// What is chosen, and what it costs.
-fn sentence(findings: &Findings, place: usize, point: &Point) -> String {
+fn sentence(findings: &AccuracyFindings, place: usize, point: &Point) -> String {
     let (size, quality) = (findings.whole, quality_words(&point.quality));
     let (time, error) = (duration(findings.time(place)), error_words(point.rmse()));
     let (width, height) = (size.width(), size.height());
@@ -78,7 +84,7 @@ fn sentence(findings: &Findings, place: usize, point: &Point) -> String {
         "{time} of one core for {width} × {height} pixels, with an error of {error}",
         "{time} de um núcleo para {width} × {height} pixels, com erro de {error}"
     );
-    let present = findings.point(Findings::PRESENT).filter(|_| place != Findings::PRESENT);
+    let present = findings.point(AccuracyFindings::PRESENT).filter(|_| place != AccuracyFindings::PRESENT);
     match present {
         Some(present) => {
             let times = times_words(point.cpu_s, present.cpu_s);

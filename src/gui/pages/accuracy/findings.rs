@@ -8,11 +8,11 @@ use crate::language::say;
 use crate::picture::{Frame, Quality, Size};
 use crate::scene::Opened;
 use crate::study::accuracy::{Point, Reference, best_within, combinations, fastest_within, front};
-use crate::tracer::Compiled;
+use crate::tracer::SceneStats;
 use crate::view::Tradeoff;
 
 /// What has been found out about one scene so far.
-pub struct Findings {
+pub struct AccuracyFindings {
     /// The job that finds it out.
     pub job: u64,
     opened: Arc<Opened>,
@@ -21,7 +21,7 @@ pub struct Findings {
     /// What is measured; what is set comes first.
     pub qualities: Vec<Quality>,
     /// What the scene needs, and how many rays there are on each level.
-    pub needs: Option<(Compiled, Vec<u64>)>,
+    pub needs: Option<(SceneStats, Vec<u64>)>,
     /// Pictures of the reference that have been begun.
     begun: usize,
     /// What pictures are compared with.
@@ -46,11 +46,11 @@ pub enum Choice {
     Time(f64),
 }
 
-impl Findings {
+impl AccuracyFindings {
     /// The place of what is set.
     pub const PRESENT: usize = 0;
 
-    /// Nothing yet; a job is to be started for [`Findings::qualities`].
+    /// Nothing yet; a job is to be started for [`AccuracyFindings::qualities`].
     pub fn new(opened: &Arc<Opened>, whole: Size, present: Quality) -> Self {
         let mut qualities = combinations();
         qualities.retain(|quality| *quality != present);
@@ -197,9 +197,9 @@ mod tests {
 
     /// Qualities of a picture of 64 × 48 pixels, of which the first took these seconds and have these errors in a quarter
     /// of it.
-    fn findings(points: &[(f64, f64)]) -> Findings {
+    fn findings(points: &[(f64, f64)]) -> AccuracyFindings {
         let opened = Arc::new(Opened::new("csg-primer").unwrap());
-        let mut findings = Findings::new(&opened, size(64, 48), Quality { samples: 7, ..Quality::default() });
+        let mut findings = AccuracyFindings::new(&opened, size(64, 48), Quality { samples: 7, ..Quality::default() });
         let frame = Frame::new(size(32, 24));
         findings.take(Finding::Reference(Reference { picture: frame.clone(), sampled: frame.clone(), floor: 0.001 }));
         for (place, &(cpu_s, rmse)) in points.iter().enumerate() {
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn what_is_set_is_measured_first_and_once() {
         let found = findings(&[]);
-        assert_eq!(found.qualities[Findings::PRESENT].samples, 7);
+        assert_eq!(found.qualities[AccuracyFindings::PRESENT].samples, 7);
         for (place, quality) in found.qualities.iter().enumerate() {
             assert!(!found.qualities[..place].contains(quality), "{quality:?}");
         }
@@ -235,7 +235,7 @@ mod tests {
     #[test]
     fn how_far_it_is_only_grows_and_is_told() {
         let opened = Arc::new(Opened::new("csg-primer").unwrap());
-        let mut found = Findings::new(&opened, size(64, 48), Quality::default());
+        let mut found = AccuracyFindings::new(&opened, size(64, 48), Quality::default());
         found.take(Finding::Begun(2));
         assert_eq!(found.progress(), "What pictures are compared with: 2 of 6");
         let mut found = findings(&[(1.0, 0.1)]);

@@ -10,26 +10,26 @@ use crate::gui::session::{Finding, Phase, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{self, Weight, button};
+use crate::gui::widgets::{self, Emphasis, button};
 use crate::language::{decimal, say, word};
 use crate::view::{measured_lines, needs_lines, needs_warnings, quality_lines, quality_words};
-use choosing::Chosen;
-use findings::{Choice, Findings};
-use pictures::Pictures;
+use choosing::QualityChoice;
+use findings::{AccuracyFindings, Choice};
+use pictures::PointPictures;
 
 /// The page.
 #[derive(Default)]
 pub struct Accuracy {
     open: bool,
-    findings: Option<Findings>,
+    findings: Option<AccuracyFindings>,
     choice: Option<Choice>,
-    pictures: Pictures,
+    pictures: PointPictures,
     /// Whether the run stands still because of this.
     holds_run: bool,
 }
 
 /// What is to be done with the page.
-enum Asked {
+enum AccuracyAction {
     Close,
     Again,
 }
@@ -64,7 +64,7 @@ impl Accuracy {
 
     /// How many points are measured, for tests.
     pub fn points(&self) -> usize {
-        self.findings.as_ref().map_or(0, Findings::count)
+        self.findings.as_ref().map_or(0, AccuracyFindings::count)
     }
 
     /// Shows the page.
@@ -80,8 +80,8 @@ impl Accuracy {
             note(ui, word!("The scene is being read and compiled …", "A cena está sendo lida e compilada …"), look);
         }
         match asked {
-            Some(Asked::Close) => self.close(session),
-            Some(Asked::Again) => self.give_up(session),
+            Some(AccuracyAction::Close) => self.close(session),
+            Some(AccuracyAction::Again) => self.give_up(session),
             None => {}
         }
     }
@@ -90,7 +90,7 @@ impl Accuracy {
     fn keep_up(&mut self, session: &mut Session) -> bool {
         let Some(prepared) = session.prepared().cloned() else { return false };
         if self.findings.as_ref().is_none_or(|findings| !findings.are_of(&prepared)) {
-            let mut findings = Findings::new(&prepared.opened, prepared.size, prepared.quality);
+            let mut findings = AccuracyFindings::new(&prepared.opened, prepared.size, prepared.quality);
             findings.job = session.measure(&prepared, findings.qualities.clone());
             (self.findings, self.choice) = (Some(findings), None);
             if session.stage().phase == Phase::Running && !session.stage().paused {
@@ -114,21 +114,21 @@ impl Accuracy {
     }
 
     /// What the page is about, how far it is, and the way out.
-    fn heading(&self, ui: &mut Ui, session: &Session, look: Look) -> Option<Asked> {
+    fn heading(&self, ui: &mut Ui, session: &Session, look: Look) -> Option<AccuracyAction> {
         let mut asked = None;
         ui.horizontal(|ui| {
             let title = word!("Speed against accuracy", "Velocidade e precisão");
             ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!("Close accuracy", "Fechar precisão");
-                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
-                    asked = Some(Asked::Close);
+                if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
+                    asked = Some(AccuracyAction::Close);
                 }
                 let Some(findings) = self.findings.as_ref().filter(|_| !session.is_recorded()) else { return };
                 let failed = matches!(findings.over, Some(Err(_)));
                 let again = word!("Try again", "Tentar de novo");
-                if failed && button(ui, Some(Icon::Restart), again, true, Weight::Primary).clicked() {
-                    asked = Some(Asked::Again);
+                if failed && button(ui, Some(Icon::Restart), again, true, Emphasis::Primary).clicked() {
+                    asked = Some(AccuracyAction::Again);
                 }
                 if findings.over.is_none() {
                     let bar = ProgressBar::new(findings.share()).desired_width(20.0 * GRID).desired_height(0.75 * GRID);
@@ -147,7 +147,7 @@ impl Accuracy {
         asked
     }
 
-    fn content(&mut self, ui: &mut Ui, session: &mut Session, look: Look) -> Option<Asked> {
+    fn content(&mut self, ui: &mut Ui, session: &mut Session, look: Look) -> Option<AccuracyAction> {
         const GAP: f32 = 3.0 * GRID;
         let height = ui.available_height();
         let mut asked = None;
@@ -173,19 +173,19 @@ impl Accuracy {
     }
 
     /// The chart, and below it how to choose.
-    fn choosing(&mut self, ui: &mut Ui, session: &mut Session, height: f32, look: Look) -> Option<Asked> {
+    fn choosing(&mut self, ui: &mut Ui, session: &mut Session, height: f32, look: Look) -> Option<AccuracyAction> {
         let findings = self.findings.as_ref()?;
-        let choice = self.choice.unwrap_or(Choice::Place(Findings::PRESENT));
+        let choice = self.choice.unwrap_or(Choice::Place(AccuracyFindings::PRESENT));
         let chosen = findings.chosen(choice);
         let size = vec2(ui.available_width(), (height - choosing::HEIGHT).max(45.0 * GRID));
         if let Some(place) = chart(ui, findings, chosen, size, look) {
             self.choice = Some(Choice::Place(place));
         }
         match choosing::show(ui, findings, choice, chosen, look)? {
-            Chosen::Choice(choice) => self.choice = Some(choice),
-            Chosen::Take(quality) => {
+            QualityChoice::Choice(choice) => self.choice = Some(choice),
+            QualityChoice::Take(quality) => {
                 session.change(crate::gui::settings::undo::Gesture::Once, |settings| settings.quality = quality);
-                return Some(Asked::Close);
+                return Some(AccuracyAction::Close);
             }
         }
         None
@@ -194,7 +194,7 @@ impl Accuracy {
     /// The picture of what is chosen, and what the scene needs.
     fn looking(&mut self, ui: &mut Ui, height: f32, look: Look) {
         let Some(findings) = &self.findings else { return };
-        let chosen = findings.chosen(self.choice.unwrap_or(Choice::Place(Findings::PRESENT)));
+        let chosen = findings.chosen(self.choice.unwrap_or(Choice::Place(AccuracyFindings::PRESENT)));
         if let (Some(place), Some(reference)) = (chosen, &findings.reference)
             && let Some(frame) = findings.frames.get(place)
         {
@@ -206,7 +206,13 @@ impl Accuracy {
 }
 
 /// The chart; returns the place of the point that was clicked.
-fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Vec2, look: Look) -> Option<usize> {
+fn chart(
+    ui: &mut Ui,
+    findings: &AccuracyFindings,
+    chosen: Option<usize>,
+    size: egui::Vec2,
+    look: Look,
+) -> Option<usize> {
     let name = word!("Chart of time and error", "Gráfico de tempo e erro");
     /// Whoever points so near to a point means it.
     const NEAR: f32 = 2.0 * GRID;
@@ -249,7 +255,7 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
             clicked = Some(place);
         }
         response.on_hover_ui(|ui| {
-            let is_set = place == Findings::PRESENT;
+            let is_set = place == AccuracyFindings::PRESENT;
             let title =
                 if is_set { word!("What is set now", "O ajuste atual") } else { word!("A quality", "Uma qualidade") };
             let mut lines = quality_lines(&point.quality);
@@ -262,7 +268,7 @@ fn chart(ui: &mut Ui, findings: &Findings, chosen: Option<usize>, size: egui::Ve
 }
 
 /// A quiet column: what the scene at hand needs.
-fn needs(ui: &mut Ui, findings: &Findings, look: Look) {
+fn needs(ui: &mut Ui, findings: &AccuracyFindings, look: Look) {
     const WHAT: f32 = 12.0 * GRID;
     let Some((compiled, levels)) = &findings.needs else { return };
     let title = word!("What this scene needs", "O que esta cena pede");
@@ -293,7 +299,7 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
         "Esta é uma execução gravada. Ao vivo, sua cena pode ser medida, e outros ajustes, testados."
     );
     note(ui, text, look);
-    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Weight::Primary).clicked() {
+    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Emphasis::Primary).clicked() {
         session.make_live();
     }
 }

@@ -11,7 +11,7 @@ use crate::picture::{Frame, srgb8};
 use crate::view::{ERRORS, false_colours, place_of_error, ramp};
 
 /// What is shown of a point, and its textures.
-pub struct Pictures {
+pub struct PointPictures {
     shown: Shown,
     /// Where the reference begins, as a share of the width.
     divider: f32,
@@ -33,7 +33,7 @@ struct Textures {
     difference: TextureHandle,
 }
 
-impl Default for Pictures {
+impl Default for PointPictures {
     fn default() -> Self {
         Self { shown: Shown::Both, divider: 0.5, textures: None }
     }
@@ -42,7 +42,7 @@ impl Default for Pictures {
 /// What stands above and below the picture, in points.
 const AROUND: f32 = 10.0 * GRID;
 
-impl Pictures {
+impl PointPictures {
     /// Shows the picture of a point, no higher than `height` with all that belongs to it; `of` tells it from others.
     pub fn show(&mut self, ui: &mut Ui, of: (u64, usize), picture: &Frame, reference: &Frame, height: f32) {
         let look = Look::of(ui.ctx());

@@ -10,7 +10,7 @@ use crate::balance::{NodeId, Remedy, Strategy};
 use crate::gui::settings::Settings;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, named_button, popup_frame};
+use crate::gui::widgets::{Emphasis, button, named_button, popup_frame};
 use crate::language::{say, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
@@ -26,7 +26,7 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Ch
         None,
         word!("Add a run", "Acrescentar uma execução"),
         Some(word!("Add …", "Acrescentar …")),
-        Weight::Quiet,
+        Emphasis::Quiet,
     );
     let changes = strategies.iter().map(|&strategy| (Change::Strategy(strategy), false)).collect();
     menu(&opener, |ui| row(ui, "", changes, look))
@@ -45,7 +45,7 @@ pub fn changes(
     let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
     let (icon, words) =
         if has_room { (None, Some(word!("Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
-    let opener = named_button(ui, icon, &name, words, Weight::Quiet).on_hover_text(&name);
+    let opener = named_button(ui, icon, &name, words, Emphasis::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
     menu(&opener, |ui| {
         // Which machine: the last, unless somebody has gone on to another.
@@ -63,14 +63,14 @@ pub fn changes(
                 Some(Icon::StepBack),
                 word!("The machine before", "A máquina anterior"),
                 false,
-                Weight::Quiet,
+                Emphasis::Quiet,
             );
             if before.clicked() {
                 node = (node + last) % nodes;
             }
             let number = RichText::new(node_name(node as NodeId).to_string());
             ui.label(number.font(theme::strong(theme::BODY)).color(look.text));
-            if button(ui, Some(Icon::StepOn), word!("The next machine", "A próxima máquina"), false, Weight::Quiet)
+            if button(ui, Some(Icon::StepOn), word!("The next machine", "A próxima máquina"), false, Emphasis::Quiet)
                 .clicked()
             {
                 node = (node + 1) % nodes;

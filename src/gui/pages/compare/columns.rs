@@ -5,17 +5,17 @@ use egui::{
     Align, Color32, Layout, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{Entry, MOST, adding};
+use super::{CompareColumn, MOST, adding};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{say, word};
 use crate::sim::Change;
 use crate::time::Time;
-use crate::view::{Contender, Layer, duration, fraction, percent};
+use crate::view::{ComparedRun, Layer, duration, fraction, percent};
 
 /// What is to be done with a run.
-pub enum Asked {
+pub enum ColumnAction {
     /// Take it away.
     Remove(usize),
     /// The same with one thing changed.
@@ -36,12 +36,12 @@ pub fn letter(place: usize) -> char {
 /// Shows all columns; a click on a picture makes its run one of the `pair` of which is told why they differ.
 pub fn show(
     ui: &mut Ui,
-    entries: &mut [Entry],
+    entries: &mut [CompareColumn],
     now: Time,
     length: Time,
     (pair, below): (&mut [usize; 2], f32),
     look: Look,
-) -> Option<Asked> {
+) -> Option<ColumnAction> {
     let gap = 2.0 * GRID;
     let count = entries.len().max(1) as f32;
     let area = ui.available_rect_before_wrap();
@@ -79,11 +79,11 @@ pub fn show(
 fn heading(
     ui: &mut Ui,
     row: Rect,
-    (place, entry): (usize, &Entry),
+    (place, entry): (usize, &CompareColumn),
     (can_go, is_full, now): (bool, bool, Time),
     is_chosen: bool,
     look: Look,
-) -> Option<Asked> {
+) -> Option<ColumnAction> {
     let mut asked = None;
     let end = entry.contender.as_ref().and_then(|run| run.end());
     let fork_at = (now > Time::ZERO && end.is_none_or(|end| now < end)).then_some(now);
@@ -92,11 +92,11 @@ fn heading(
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         let letter = letter(place);
         let remove = say!("Take {letter} away", "Retirar {letter}");
-        if can_go && button(ui, Some(Icon::Close), &remove, false, Weight::Quiet).clicked() {
-            asked = Some(Asked::Remove(place));
+        if can_go && button(ui, Some(Icon::Close), &remove, false, Emphasis::Quiet).clicked() {
+            asked = Some(ColumnAction::Remove(place));
         }
         if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, fork_at, row.width() > WIDE, look) {
-            asked = Some(Asked::Fork(place, change));
+            asked = Some(ColumnAction::Fork(place, change));
         }
         let left = Layout::left_to_right(Align::Center);
         ui.with_layout(left, |ui| {
@@ -128,7 +128,13 @@ fn name(ui: &mut Ui, name: &str, look: Look) {
 }
 
 /// Its picture, as far as it is.
-fn picture(ui: &mut Ui, frame: Rect, (place, entry): (usize, &mut Entry), is_chosen: bool, look: Look) -> Response {
+fn picture(
+    ui: &mut Ui,
+    frame: Rect,
+    (place, entry): (usize, &mut CompareColumn),
+    is_chosen: bool,
+    look: Look,
+) -> Response {
     let response = ui.interact(frame, ui.scope_id().with(("contender", entry.id)), Sense::click());
     ui.painter().rect_filled(frame, 0.0, look.raised);
     let letter = letter(place);
@@ -162,7 +168,7 @@ fn picture(ui: &mut Ui, frame: Rect, (place, entry): (usize, &mut Entry), is_cho
 }
 
 /// How far it is, on a line that is as long as the longest run; its time once it is over.
-fn bar(ui: &Ui, rect: Rect, contender: Option<&Contender>, now: Time, length: Time, look: Look) {
+fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: Time, look: Look) {
     let Some(contender) = contender else { return };
     let rail = Rect::from_min_size(rect.left_top() + vec2(0.0, GRID), vec2(rect.width(), 6.0));
     let x = |time: Time| rail.left() + rail.width() * (time.secs() / length.secs().max(f64::MIN_POSITIVE)) as f32;

@@ -4,14 +4,14 @@ use egui::{RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::columns::letter;
 use super::growth::{self, Measure};
-use super::{Entry, lanes};
+use super::{CompareColumn, lanes};
 use crate::gui::session::Growth;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{say, word};
 use crate::time::Time;
-use crate::view::{Account, Named, contrast, count, duration, fraction, spent, spent_height, spent_words};
+use crate::view::{NamedBudget, TimeBudget, contrast, count, duration, fraction, spent, spent_height, spent_words};
 
 /// What is shown of all runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl Findings {
     pub fn show(
         &mut self,
         ui: &mut Ui,
-        entries: &mut [Entry],
+        entries: &mut [CompareColumn],
         growth: Option<&Growth>,
         now: Time,
         length: Time,
@@ -97,7 +97,7 @@ impl Findings {
     }
 
     /// Why two of them differ, and the figures of both.
-    fn why(&self, ui: &mut Ui, entries: &[Entry], look: Look) {
+    fn why(&self, ui: &mut Ui, entries: &[CompareColumn], look: Look) {
         let known = |place: usize| {
             let contender = entries.get(place)?.contender.as_ref()?;
             Some((letter(place), contender))
@@ -108,9 +108,10 @@ impl Findings {
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
             let text = match (&one.account, &other.account) {
-                (Some(first), Some(second)) => {
-                    contrast(Named { name: &one.name, account: first }, Named { name: &other.name, account: second })
-                }
+                (Some(first), Some(second)) => contrast(
+                    NamedBudget { name: &one.name, account: first },
+                    NamedBudget { name: &other.name, account: second },
+                ),
                 _ => {
                     let name = if one.account.is_none() { &one.name } else { &other.name };
                     say!(
@@ -127,9 +128,9 @@ impl Findings {
 }
 
 /// A row a figure, a column a run.
-fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
+fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look) {
     /// What it is called, what it is, and how much.
-    type Figure = ([&'static str; 2], fn(&Account) -> String);
+    type Figure = ([&'static str; 2], fn(&TimeBudget) -> String);
     let all: [Figure; 7] = [
         (word!(["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]), |account| {
             duration(account.makespan)
@@ -202,11 +203,11 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&Account>); 2], look: Look) {
 }
 
 /// Bars of what the machines' time was spent on.
-fn where_time_went(ui: &mut Ui, entries: &[Entry], look: Look) {
+fn where_time_went(ui: &mut Ui, entries: &[CompareColumn], look: Look) {
     let names: Vec<String> =
         (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name())).collect();
     let accounts = entries.iter().map(|entry| entry.contender.as_ref()?.account.as_ref());
-    let runs: Vec<(&str, &Account)> =
+    let runs: Vec<(&str, &TimeBudget)> =
         names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
         let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));

@@ -3,15 +3,15 @@
 
 use egui::{RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
-use super::Entry;
+use super::CompareColumn;
 use super::columns::letter;
-use crate::gui::session::{Grown, Growth};
+use crate::gui::session::{Growth, GrowthPoint};
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{decimal, say, word};
 use crate::palette::{DISTINCT, node_colours};
 use crate::study::article_over_ideal;
-use crate::view::{Account, Axis, Chart, Hue, LEAST_HIGH, Series, Sharing, Style, fraction, series_hue};
+use crate::view::{Axis, Hue, LEAST_HIGH, LineChart, Series, Sharing, Style, TimeBudget, fraction, series_hue};
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Measure {
 }
 
 /// Shows the curves, as soon as they are known.
-pub fn show(ui: &mut Ui, growth: Option<&Growth>, entries: &[Entry], measure: Measure, look: Look) {
+pub fn show(ui: &mut Ui, growth: Option<&Growth>, entries: &[CompareColumn], measure: Measure, look: Look) {
     let Some(growth) = growth else {
         let text = word!("Running with one machine to eight …", "Executando com uma a oito máquinas …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
@@ -48,16 +48,16 @@ pub fn show(ui: &mut Ui, growth: Option<&Growth>, entries: &[Entry], measure: Me
     });
 }
 
-fn chart(growth: &Growth, entries: &[Entry], measure: Measure) -> Chart {
+fn chart(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> LineChart {
     let mut series = Vec::new();
     let is_speedup = measure == Measure::Speedup;
     for (i, (strategy, runs)) in growth.of.iter().enumerate() {
-        let value = |run: &Grown| if is_speedup { run.speedup } else { run.efficiency };
+        let value = |run: &GrowthPoint| if is_speedup { run.speedup } else { run.efficiency };
         let name = Sharing::By(*strategy).name();
         let points = runs.iter().map(|run| (run.machines as f64, value(run))).collect();
         series.push(Series { name: name.to_owned(), hue: series_hue(i), points, style: Style::Line });
         // The article has figures of equal machines, and of four with a slow fifth.
-        let article = |run: &Grown| {
+        let article = |run: &GrowthPoint| {
             let over = article_over_ideal(*strategy, run.machines, growth.slow.is_some())?;
             let power = run.speedup / run.efficiency;
             Some((run.machines as f64, if is_speedup { power / over } else { 1.0 / over }))
@@ -83,7 +83,7 @@ fn chart(growth: &Growth, entries: &[Entry], measure: Measure) -> Chart {
     } else {
         word!("ideal time / time", "tempo ideal / tempo")
     };
-    Chart {
+    LineChart {
         title: String::new(),
         note,
         x: Axis { label: machines, ..Axis::default() },
@@ -93,11 +93,11 @@ fn chart(growth: &Growth, entries: &[Entry], measure: Measure) -> Chart {
 }
 
 /// Forks, and what else lies on no curve.
-fn beside(growth: &Growth, entries: &[Entry], measure: Measure) -> Vec<Series> {
+fn beside(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> Vec<Series> {
     /// What differs by less than this is the same.
     const SAME: f64 = 0.005;
-    let dot = |(place, entry): (usize, &Entry)| {
-        let account: &Account = entry.contender.as_ref()?.account.as_ref()?;
+    let dot = |(place, entry): (usize, &CompareColumn)| {
+        let account: &TimeBudget = entry.contender.as_ref()?.account.as_ref()?;
         let header = &entry.trial.header;
         let (machines, speedup) = (header.speeds.len(), growth.alone.div_duration_f64(account.makespan));
         let curve = growth.of.iter().find(|(strategy, _)| *strategy == header.rules.strategy);
@@ -117,7 +117,7 @@ fn beside(growth: &Growth, entries: &[Entry], measure: Measure) -> Vec<Series> {
 }
 
 /// What the points are that are on no curve, and what has none.
-fn note(article: bool, dots: bool, entries: &[Entry]) -> String {
+fn note(article: bool, dots: bool, entries: &[CompareColumn]) -> String {
     let mut told = Vec::new();
     if article {
         told.push(
@@ -127,7 +127,7 @@ fn note(article: bool, dots: bool, entries: &[Entry]) -> String {
     if dots {
         told.push(word!("Letters: the runs above.", "Letras: as execuções acima.").to_owned());
     }
-    let is_endless = |entry: &Entry| entry.contender.as_ref().is_some_and(|run| run.account.is_none());
+    let is_endless = |entry: &CompareColumn| entry.contender.as_ref().is_some_and(|run| run.account.is_none());
     for (place, _) in entries.iter().enumerate().filter(|(_, entry)| is_endless(entry)) {
         let letter = letter(place);
         told.push(say!("{letter} never ends, and is not here.", "{letter} nunca termina, e não está aqui."));

@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::{Compare, Entry, MOST, adding};
+use super::{Compare, CompareColumn, MOST, adding};
 use crate::balance::Strategy;
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::input::rate_menu;
 use crate::gui::session::Session;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::word;
 use crate::view::{fraction, time_words};
 
@@ -25,7 +25,7 @@ impl Compare {
             self.play(ui, look);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!("Close the comparison", "Fechar a comparação");
-                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
+                if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.close(session);
                 }
                 if self.entries.len() < MOST
@@ -86,8 +86,8 @@ impl Compare {
             true => (Icon::Play, word!("Go on", "Continuar")),
             false => (Icon::Pause, word!("Pause", "Pausar")),
         };
-        if button(ui, Some(icon), name, true, Weight::Primary).clicked() {
-            self.obey(Command::Pause);
+        if button(ui, Some(icon), name, true, Emphasis::Primary).clicked() {
+            self.obey(UserCommand::Pause);
         }
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         if let Some(command) = rate_menu::show(ui, self.time.rate()) {
@@ -101,7 +101,7 @@ impl Compare {
     /// The strategies that no run has without other changes.
     fn strategies(&self) -> Vec<Strategy> {
         let plain = |strategy| {
-            let is_it = |entry: &Entry| entry.trial.header.rules.strategy == strategy && !entry.is_fork();
+            let is_it = |entry: &CompareColumn| entry.trial.header.rules.strategy == strategy && !entry.is_fork();
             !self.entries.iter().any(is_it)
         };
         Strategy::ALL.into_iter().filter(|&strategy| plain(strategy)).collect()

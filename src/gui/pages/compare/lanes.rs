@@ -3,7 +3,7 @@
 use egui::text::LayoutJob;
 use egui::{Align2, Painter, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-use super::Entry;
+use super::CompareColumn;
 use super::columns::letter;
 use crate::balance::NodeId;
 use crate::gui::widgets;
@@ -11,7 +11,7 @@ use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::word;
 use crate::time::Time;
-use crate::view::{Contender, LanePlan, TimeWindow, axis, node_name, spent_words, time_words, timeline};
+use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, spent_words, time_words, timeline};
 
 /// Left of the lanes: the run's letter, and its machines' numbers.
 const LETTER: f32 = 2.5 * GRID;
@@ -20,7 +20,7 @@ const NUMBERS: f32 = 2.5 * GRID;
 const AXIS: f32 = 2.25 * GRID;
 
 /// Shows all lanes of all runs; returns the time that somebody drags to.
-pub fn show(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: Look) -> Option<Time> {
+pub fn show(ui: &mut Ui, entries: &mut [CompareColumn], now: Time, length: Time, look: Look) -> Option<Time> {
     let mut sought = None;
     let area = ui.available_rect_before_wrap();
     let is_changed = entries.iter().any(|entry| entry.parts().next().is_some());
@@ -49,12 +49,12 @@ pub fn show(ui: &mut Ui, entries: &mut [Entry], now: Time, length: Time, look: L
 }
 
 /// The lanes of one run; returns the share of the width that somebody drags to.
-fn run(ui: &Ui, strip: Rect, entry: &mut Entry, window: &TimeWindow, look: Look) -> Option<f64> {
+fn run(ui: &Ui, strip: Rect, entry: &mut CompareColumn, window: &TimeWindow, look: Look) -> Option<f64> {
     let parts: Vec<Time> = entry.parts().collect();
     let contender = entry.contender.as_ref()?;
     let lanes = contender.lanes.lanes().len();
     let lane = strip.height() / lanes.max(1) as f32;
-    let plan = LanePlan { width: strip.width(), head: 0.0, foot: 0.0, lane, lanes };
+    let plan = TimelineLayout { width: strip.width(), head: 0.0, foot: 0.0, lane, lanes };
     let key = (strip.size(), window.to());
     if entry.lanes.as_ref().is_none_or(|(size, of, _)| (*size, *of) != key) {
         let drawn = timeline(&contender.lanes, window, &plan, contender.length());
@@ -89,7 +89,7 @@ fn run(ui: &Ui, strip: Rect, entry: &mut Entry, window: &TimeWindow, look: Look)
 }
 
 /// The machines' numbers, as many as there is room for.
-fn numbers(painter: &Painter, strip: Rect, plan: &LanePlan, look: Look) {
+fn numbers(painter: &Painter, strip: Rect, plan: &TimelineLayout, look: Look) {
     let every = (theme::SMALL / plan.lane).ceil().max(1.0) as usize;
     for node in (0..plan.lanes as NodeId).step_by(every) {
         let [top, bottom] = plan.lane(node);
@@ -110,7 +110,7 @@ fn seconds(painter: &Painter, all: Rect, window: &TimeWindow, look: Look) {
     }
 }
 
-fn words(contender: &Contender) -> String {
+fn words(contender: &ComparedRun) -> String {
     contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)]))
 }
 

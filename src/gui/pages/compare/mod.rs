@@ -13,15 +13,17 @@ use std::time::Duration;
 use egui::{RichText, Ui, UiBuilder};
 
 use crate::balance::Strategy;
-use crate::export::{ComparedRun, Comparison};
-use crate::gui::input::keys::Command;
-use crate::gui::session::{Compared, Growth, Known, Phase, Pictured, Session, Subject, Tracing};
+use crate::export::{Comparison, ComparisonEntry};
+use crate::gui::input::keys::UserCommand;
+use crate::gui::session::{
+    CompareResult, ComparisonSubject, Growth, Phase, PictureSource, Session, TracedOnce, TracingProgress,
+};
 use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::word;
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{Contender, Playback, RATES, Timeline, trial_name};
+use crate::view::{ComparedRun, Playback, RATES, Timeline, trial_name};
 use findings::Findings;
 
 /// More runs than these nobody can follow, and fewer are no comparison.
@@ -32,10 +34,10 @@ pub struct Compare {
     open: bool,
     /// Which run was on the stage when it was last asked what is to be compared.
     seen: Option<usize>,
-    subject: Option<Subject>,
-    tracing: Arc<Tracing>,
-    pictured: Option<Arc<Pictured>>,
-    entries: Vec<Entry>,
+    subject: Option<ComparisonSubject>,
+    tracing: Arc<TracingProgress>,
+    pictured: Option<Arc<TracedOnce>>,
+    entries: Vec<CompareColumn>,
     /// The next entry's number.
     next: u64,
     /// What is waited for.
@@ -51,12 +53,12 @@ pub struct Compare {
 }
 
 /// One of the runs.
-struct Entry {
+struct CompareColumn {
     id: u64,
     trial: Trial,
     changes: Vec<Change>,
     /// Until the run is known there is none.
-    contender: Option<Box<Contender>>,
+    contender: Option<Box<ComparedRun>>,
     texture: CanvasTexture,
     lanes: Option<(egui::Vec2, Time, Timeline)>,
 }
@@ -82,7 +84,7 @@ impl Default for Compare {
     }
 }
 
-impl Entry {
+impl CompareColumn {
     fn name(&self) -> String {
         trial_name(self.trial.header.rules.strategy, &self.changes)
     }
@@ -137,11 +139,11 @@ impl Compare {
     /// The runs that are known, for a file; nothing until there is one.
     pub fn comparison(&self) -> Option<Comparison> {
         let header = &self.subject.as_ref()?.trial.header;
-        let run = |entry: &Entry| {
+        let run = |entry: &CompareColumn| {
             let header = &entry.trial.header;
             let (strategy, machines) = (header.rules.strategy, header.speeds.len());
             let account = entry.contender.as_ref()?.account.clone();
-            Some(ComparedRun { strategy, changes: entry.changes.clone(), machines, account })
+            Some(ComparisonEntry { strategy, changes: entry.changes.clone(), machines, account })
         };
         let (title, size) = (header.title().to_owned(), header.size);
         let runs: Vec<_> = self.entries.iter().filter_map(run).collect();
@@ -149,17 +151,17 @@ impl Compare {
     }
 
     /// Takes in what a job has come to.
-    pub fn take(&mut self, job: u64, compared: Compared) {
+    pub fn take(&mut self, job: u64, compared: CompareResult) {
         match compared {
-            Compared::Growth(growth) => {
+            CompareResult::Growth(growth) => {
                 if let Some((_, known)) = self.growth.as_mut().filter(|(asked, _)| *asked == job) {
                     *known = Some(growth);
                 }
             }
             // Another comparison was begun meanwhile.
             _ if self.job != Some(job) => {}
-            Compared::Picture(pictured) => self.pictured = Some(pictured),
-            Compared::Run(id, contender) => {
+            CompareResult::Picture(pictured) => self.pictured = Some(pictured),
+            CompareResult::Run(id, contender) => {
                 if let Some(entry) = self.entries.iter_mut().find(|entry| entry.id == id) {
                     entry.contender = Some(contender);
                     if !self.is_paced {
@@ -168,19 +170,19 @@ impl Compare {
                     }
                 }
             }
-            Compared::Failed(why) => self.trouble = Some(why),
+            CompareResult::Failed(why) => self.trouble = Some(why),
         }
     }
 
     /// Does what a key asks for, if it is meant for this page.
-    pub fn obey(&mut self, command: Command) -> bool {
+    pub fn obey(&mut self, command: UserCommand) -> bool {
         match command {
-            Command::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
-            Command::Pause => self.time.set_stands(!self.time.stands()),
-            Command::Rate(faster) => self.time.change_rate(if faster { 1 } else { -1 }),
-            Command::SetRate(index) => self.time.set_rate(index),
-            Command::Beginning => self.time.seek(Time::ZERO, true),
-            Command::Live => self.time.seek(self.length(), true),
+            UserCommand::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
+            UserCommand::Pause => self.time.set_stands(!self.time.stands()),
+            UserCommand::Rate(faster) => self.time.change_rate(if faster { 1 } else { -1 }),
+            UserCommand::SetRate(index) => self.time.set_rate(index),
+            UserCommand::Beginning => self.time.seek(Time::ZERO, true),
+            UserCommand::Live => self.time.seek(self.length(), true),
             _ => return false,
         }
         true
@@ -266,7 +268,7 @@ impl Compare {
         let trial = changes.iter().fold(subject.trial.clone(), |trial, &change| trial.with(change));
         self.next += 1;
         let (texture, lanes) = (CanvasTexture::default(), None);
-        self.entries.push(Entry { id: self.next, trial, changes, contender: None, texture, lanes });
+        self.entries.push(CompareColumn { id: self.next, trial, changes, contender: None, texture, lanes });
     }
 
     /// Runs what has not been run.
@@ -275,11 +277,11 @@ impl Compare {
         let missing = self.entries.iter().filter(|entry| entry.contender.is_none());
         let missing = missing.map(|entry| (entry.id, entry.name(), entry.trial.clone())).collect();
         let known = match &self.pictured {
-            Some(pictured) => Known::Picture(Arc::clone(pictured)),
+            Some(pictured) => PictureSource::Picture(Arc::clone(pictured)),
             None => {
                 self.tracing.give_up();
                 self.tracing = Arc::default();
-                Known::Nothing(Arc::clone(&self.tracing))
+                PictureSource::Nothing(Arc::clone(&self.tracing))
             }
         };
         self.job = Some(session.compare(subject, known, missing));
@@ -291,9 +293,9 @@ impl Compare {
         }
     }
 
-    fn do_with(&mut self, asked: columns::Asked, session: &mut Session) {
+    fn do_with(&mut self, asked: columns::ColumnAction, session: &mut Session) {
         match asked {
-            columns::Asked::Remove(place) => {
+            columns::ColumnAction::Remove(place) => {
                 self.entries.remove(place);
                 let last = self.entries.len() - 1;
                 self.findings.pair = self.findings.pair.map(|at| if at > place { at - 1 } else { at }.min(last));
@@ -301,7 +303,7 @@ impl Compare {
                     self.findings.pair = [0, last];
                 }
             }
-            columns::Asked::Fork(place, change) => {
+            columns::ColumnAction::Fork(place, change) => {
                 let mut changes = self.entries[place].changes.clone();
                 changes.push(change);
                 self.add(changes);

@@ -1,14 +1,14 @@
 //! A lesson that is being taken: which step, what was answered, and how far time has come.
 
 use super::rate_for;
-use crate::gui::session::{Session, Taught};
-use crate::lesson::{Look, Question, Step};
+use crate::gui::session::{PreparedLesson, Session};
+use crate::lesson::{LowerView, Question, Step};
 use crate::time::Time;
-use crate::view::About;
+use crate::view::Subject;
 
 /// A lesson that is being taken.
-pub struct Course {
-    taught: Taught,
+pub struct LessonProgress {
+    taught: PreparedLesson,
     step: usize,
     /// By step: what was answered.
     answers: Vec<Option<usize>>,
@@ -17,12 +17,12 @@ pub struct Course {
     /// Time goes on until so many records have happened.
     until: Option<usize>,
     /// What stands out from now on.
-    points: Option<Option<About>>,
+    points: Option<Option<Subject>>,
 }
 
-impl Course {
+impl LessonProgress {
     /// Begins with the first step.
-    pub fn begin(taught: Taught, session: &mut Session) -> Self {
+    pub fn begin(taught: PreparedLesson, session: &mut Session) -> Self {
         let answers = vec![None; taught.lesson.steps.len()];
         let mut course = Self { taught, step: 0, answers, run: (String::new(), 0), until: None, points: None };
         course.enter(session);
@@ -30,7 +30,7 @@ impl Course {
     }
 
     /// The lesson, with its runs.
-    pub fn taught(&self) -> &Taught {
+    pub fn taught(&self) -> &PreparedLesson {
         &self.taught
     }
 
@@ -86,7 +86,7 @@ impl Course {
 
     /// Whether this step wants the timeline.
     pub fn wants_timeline(&self) -> bool {
-        self.now().look == Look::Timeline
+        self.now().look == LowerView::Timeline
     }
 
     /// Answers the question; then one sees.
@@ -119,7 +119,7 @@ impl Course {
     }
 
     /// Lets time come to where it is to stand still.
-    pub fn tick(&mut self, session: &mut Session) -> Option<Option<About>> {
+    pub fn tick(&mut self, session: &mut Session) -> Option<Option<Subject>> {
         if let Some(records) = self.until {
             let stage = session.stage_mut();
             // Whoever takes time in his own hand is not hindered.
@@ -151,7 +151,7 @@ impl Course {
         let records = before.and_then(|until| until.of(&stage.log)).map_or(0, |(records, _)| records);
         stage.show_after(records);
         self.until = None;
-        self.points = Some(self.now().machine.map(About::Node));
+        self.points = Some(self.now().machine.map(Subject::Node));
         if !self.waits() {
             self.go(session);
         }
@@ -172,7 +172,7 @@ impl Course {
             stage.show_after(records);
         }
         if self.now().machine.is_none() {
-            self.points = Some(about.filter(|about| matches!(about, About::Node(_))));
+            self.points = Some(about.filter(|about| matches!(about, Subject::Node(_))));
         }
     }
 }

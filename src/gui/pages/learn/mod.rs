@@ -9,17 +9,17 @@ use std::sync::Arc;
 use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::balance::Strategy;
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::panels::save_bar::resolve;
-use crate::gui::session::{Preparing, Purpose, Recorded, Session, Taught};
+use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, path_field};
+use crate::gui::widgets::{Emphasis, button, path_field};
 use crate::language::word;
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
-use crate::view::About;
-use course::Course;
+use crate::view::Subject;
+use course::LessonProgress;
 
 /// The page of lessons, and the lesson that is being taken.
 #[derive(Default)]
@@ -29,8 +29,8 @@ pub struct Learn {
     lessons: Vec<Arc<Lesson>>,
     path: String,
     trouble: Option<String>,
-    preparing: Option<Preparing>,
-    course: Option<Course>,
+    preparing: Option<PreparingLesson>,
+    course: Option<LessonProgress>,
     /// The recorded run that was on the stage before the lesson, if it was one.
     before: Option<Recorded>,
 }
@@ -76,7 +76,7 @@ impl Learn {
 
     /// Whether the step of the lesson wants the timeline.
     pub fn wants_timeline(&self) -> Option<bool> {
-        self.course.as_ref().map(Course::wants_timeline)
+        self.course.as_ref().map(LessonProgress::wants_timeline)
     }
 
     /// The lesson's name and the step's number, for tests.
@@ -123,7 +123,7 @@ impl Learn {
     }
 
     /// Takes in a lesson that was prepared.
-    pub fn take(&mut self, job: u64, taught: Result<Taught, String>, session: &mut Session) {
+    pub fn take(&mut self, job: u64, taught: Result<PreparedLesson, String>, session: &mut Session) {
         if self.preparing.as_ref().is_none_or(|preparing| preparing.job != job) {
             return;
         }
@@ -133,7 +133,7 @@ impl Learn {
                 if self.course.is_none() {
                     self.before = session.recorded();
                 }
-                self.course = Some(Course::begin(taught, session));
+                self.course = Some(LessonProgress::begin(taught, session));
                 self.open = false;
             }
             Err(why) => (self.open, self.trouble) = (true, Some(why)),
@@ -141,14 +141,14 @@ impl Learn {
     }
 
     /// Lets the lesson's time go on; returns what stands out from now on, if that is something else.
-    pub fn tick(&mut self, session: &mut Session) -> Option<Option<About>> {
+    pub fn tick(&mut self, session: &mut Session) -> Option<Option<Subject>> {
         self.course.as_mut()?.tick(session)
     }
 
     /// Does what a key asks for, if it is meant for the lesson.
-    pub fn obey(&mut self, command: Command, session: &mut Session) -> bool {
+    pub fn obey(&mut self, command: UserCommand, session: &mut Session) -> bool {
         if self.open {
-            let Command::Select(number) = command else { return false };
+            let UserCommand::Select(number) = command else { return false };
             if let Some(lesson) = self.lessons.get(usize::from(number)) {
                 self.prepare(Arc::clone(lesson), session);
             }
@@ -156,17 +156,19 @@ impl Learn {
         }
         let Some(course) = &mut self.course else { return false };
         match command {
-            Command::Dolly(true) => course.back(session),
-            Command::Dolly(false) if course.is_over() => self.other_lessons(session),
-            Command::Select(number) if course.waits() => course.answer(number.into(), session),
+            UserCommand::Dolly(true) => course.back(session),
+            UserCommand::Dolly(false) if course.is_over() => self.other_lessons(session),
+            UserCommand::Select(number) if course.waits() => course.answer(number.into(), session),
             // One is asked before one sees.
-            Command::Dolly(false) | Command::Pause | Command::Live | Command::Step(_, true) if course.waits() => {
+            UserCommand::Dolly(false) | UserCommand::Pause | UserCommand::Live | UserCommand::StepUnit(_, true)
+                if course.waits() =>
+            {
                 session.note(word!(
                     "First answer the question: press the number of an answer, or click it",
                     "Responder antes à pergunta: pressionar o número de uma resposta, ou clicar nela"
                 ));
             }
-            Command::Dolly(false) => course.next(session),
+            UserCommand::Dolly(false) => course.next(session),
             _ => return false,
         }
         true
@@ -182,11 +184,11 @@ impl Learn {
     pub fn show_step(&mut self, ui: &mut Ui, session: &mut Session) {
         let Some(course) = &mut self.course else { return };
         match panel::show(ui, course) {
-            Some(panel::Asked::Back) => course.back(session),
-            Some(panel::Asked::Next) if course.is_over() => self.other_lessons(session),
-            Some(panel::Asked::Next) => course.next(session),
-            Some(panel::Asked::Answer(place)) => course.answer(place, session),
-            Some(panel::Asked::Leave) => self.leave(session),
+            Some(panel::LessonAction::Back) => course.back(session),
+            Some(panel::LessonAction::Next) if course.is_over() => self.other_lessons(session),
+            Some(panel::LessonAction::Next) => course.next(session),
+            Some(panel::LessonAction::Answer(place)) => course.answer(place, session),
+            Some(panel::LessonAction::Leave) => self.leave(session),
             None => {}
         }
     }
@@ -198,7 +200,7 @@ impl Learn {
             ui.label(RichText::new(word!("Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!("Close the lessons", "Fechar as lições");
-                if button(ui, Some(Icon::Close), close, false, Weight::Quiet).clicked() {
+                if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.open = false;
                 }
                 if let Some(preparing) = &self.preparing {
@@ -241,14 +243,14 @@ impl Learn {
             let hint = word!("a lesson's file, such as mine.ron", "o arquivo de uma lição, como minha.ron");
             let name = word!("Path of a lesson", "Caminho de uma lição");
             let typed = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
-            let opens = button(ui, None, word!("Open the lesson", "Abrir a lição"), true, Weight::Quiet).clicked();
+            let opens = button(ui, None, word!("Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
             if (typed.entered || opens) && !self.path.trim().is_empty() {
                 match resolve(&self.path, std::env::home_dir()) {
                     Ok(path) => self.start(&path.to_string_lossy(), session),
                     Err(why) => self.trouble = Some(why),
                 }
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
                 session.jobs().choose(Purpose::Learn, directory.join("lesson"));
             }

@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use egui::{Align, Color32, FontId, Label, Layout, RichText, TextStyle, Ui, UiBuilder, Vec2, vec2};
 
-use super::course::Course;
+use super::course::LessonProgress;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, named_button};
+use crate::gui::widgets::{Emphasis, button, named_button};
 use crate::language::{say, word};
 use crate::lesson::Question;
 
 /// What is to be done.
-pub enum Asked {
+pub enum LessonAction {
     /// The step before.
     Back,
     /// The next step.
@@ -30,7 +30,7 @@ const GAP: Vec2 = vec2(GRID, GRID / 2.0);
 
 /// How high the panel is, of this width. Where there is room enough, it has room for what is said once a question is
 /// answered, so that nothing moves then.
-pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
+pub fn height(ui: &Ui, width: f32, course: &LessonProgress) -> f32 {
     let (width, gap) = (width - buttons(ui, course), ui.spacing().item_spacing.y);
     let high = |text: &str, font: FontId| {
         ui.painter().layout(text.to_owned(), font, Color32::PLACEHOLDER, width).size().y + gap
@@ -51,7 +51,7 @@ pub fn height(ui: &Ui, width: f32, course: &Course) -> f32 {
 }
 
 /// How wide the part is in which the buttons stand, and what is before it.
-fn buttons(ui: &Ui, course: &Course) -> f32 {
+fn buttons(ui: &Ui, course: &LessonProgress) -> f32 {
     // Two icons, the way on with its icon, and what is between them.
     2.0 * GRID + 4.0 * GRID + 4.0 * GRID + (6.0 * GRID + wide(ui, next(course))) + 2.0 * ui.spacing().item_spacing.x
 }
@@ -88,22 +88,22 @@ fn marked(answer: &str, is_right: bool) -> String {
 }
 
 /// What the step's claims came to, unless the picture needs the room more.
-fn checked(ui: &Ui, course: &Course) -> Option<String> {
+fn checked(ui: &Ui, course: &LessonProgress) -> Option<String> {
     course.checked().filter(|_| ui.ctx().content_rect().height() > 560.0)
 }
 
 /// What leads on.
-fn next(course: &Course) -> &'static str {
+fn next(course: &LessonProgress) -> &'static str {
     if course.is_over() { word!("Other lessons", "Outras lições") } else { word!("Next", "Avançar") }
 }
 
-fn heading(course: &Course) -> String {
+fn heading(course: &LessonProgress) -> String {
     let (title, number, all) = (course.title(), course.step() + 1, course.steps());
     say!("{title} · step {number} of {all}", "{title} · passo {number} de {all}")
 }
 
 /// Shows the step.
-pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
+pub fn show(ui: &mut Ui, course: &LessonProgress) -> Option<LessonAction> {
     let look = Look::of(ui.ctx());
     let mut asked = None;
     let area = ui.available_rect_before_wrap();
@@ -131,19 +131,19 @@ pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
     ui.scope_builder(UiBuilder::new().max_rect(right), |ui| {
         ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
             let leave = word!("Leave the lesson", "Sair da lição");
-            if button(ui, Some(Icon::Close), leave, false, Weight::Quiet).clicked() {
-                asked = Some(Asked::Leave);
+            if button(ui, Some(Icon::Close), leave, false, Emphasis::Quiet).clicked() {
+                asked = Some(LessonAction::Leave);
             }
             ui.add_enabled_ui(!course.waits(), |ui| {
-                let next = button(ui, Some(Icon::Next), next(course), true, Weight::Primary);
+                let next = button(ui, Some(Icon::Next), next(course), true, Emphasis::Primary);
                 if next.on_hover_text("Page ↓").clicked() {
-                    asked = Some(Asked::Next);
+                    asked = Some(LessonAction::Next);
                 }
             });
             ui.add_enabled_ui(course.step() > 0, |ui| {
-                let back = button(ui, Some(Icon::Back), word!("Back", "Voltar"), false, Weight::Quiet);
+                let back = button(ui, Some(Icon::Back), word!("Back", "Voltar"), false, Emphasis::Quiet);
                 if back.on_hover_text(word!("Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
-                    asked = Some(Asked::Back);
+                    asked = Some(LessonAction::Back);
                 }
             });
         });
@@ -152,19 +152,19 @@ pub fn show(ui: &mut Ui, course: &Course) -> Option<Asked> {
 }
 
 /// The answers; once one is given, which is right.
-fn answers(ui: &mut Ui, course: &Course) -> Option<Asked> {
+fn answers(ui: &mut Ui, course: &LessonProgress) -> Option<LessonAction> {
     let (question, answer) = course.question()?;
     let mut asked = None;
     let mut one = |ui: &mut Ui, place: usize| {
         let words = question.answers[place].spoken();
         let (shown, weight) = match answer {
-            Some(_) if place == question.right => (marked(words, true), Weight::On),
-            Some(given) if place == given => (marked(words, false), Weight::Quiet),
-            _ => (format!("{} {words}", place + 1), Weight::Quiet),
+            Some(_) if place == question.right => (marked(words, true), Emphasis::On),
+            Some(given) if place == given => (marked(words, false), Emphasis::Quiet),
+            _ => (format!("{} {words}", place + 1), Emphasis::Quiet),
         };
         ui.add_enabled_ui(answer.is_none() || place == question.right, |ui| {
             if named_button(ui, None, words, Some(&shown), weight).clicked() {
-                asked = Some(Asked::Answer(place));
+                asked = Some(LessonAction::Answer(place));
             }
         });
     };

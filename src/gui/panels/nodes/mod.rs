@@ -6,7 +6,7 @@ use egui::{Align2, Color32, Rect, Response, ScrollArea, Sense, Stroke, StrokeKin
 
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
-use crate::gui::input::selection::Focus;
+use crate::gui::input::selection::Selection;
 use crate::gui::session::{Phase, Session};
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
@@ -14,37 +14,37 @@ use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{decimal, say, word};
 use crate::palette::text_on;
-use crate::view::{About, Activity, Lit, Row, activity_word, count, fraction, node_name, rows};
-use row_layout::{Grid, HEAD, Places};
+use crate::view::{Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, rows};
+use row_layout::{HEAD, RowGrid, RowLayout};
 
 /// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
-    let grid = Grid::new(nodes, ui.available_width() - 4.0 * GRID);
+    let grid = RowGrid::new(nodes, ui.available_width() - 4.0 * GRID);
     let most = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
     grid.height().min(most.max(HEAD + grid.row))
 }
 
 /// Shows all rows, in as many columns as there is room for. A click on a row selects its node.
-pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
+pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
     let look = Look::of(ui.ctx());
     let rows = rows(session.stage().state(), session.now());
-    let grid = Grid::new(rows.len(), ui.available_width());
+    let grid = RowGrid::new(rows.len(), ui.available_width());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
         for column in 0..grid.columns {
             let corner = area.min + vec2(grid.left(column), 0.0);
-            head(ui, &Places::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()), look);
+            head(ui, &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()), look);
         }
         for (i, row) in rows.iter().enumerate() {
             let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
-            let places = Places::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
+            let places = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
             let is_lit = lit.nodes.contains(&row.node);
             let response = background(ui, &places, row, (focus.node() == Some(row.node), is_lit), look);
             if response.hovered() {
-                focus.hover(About::Node(row.node));
+                focus.hover(Subject::Node(row.node));
             }
             if response.clicked() {
-                focus.toggle(About::Node(row.node));
+                focus.toggle(Subject::Node(row.node));
             }
             facts(ui, &places, row, session, look);
             controls(ui, &places, row.node, session, look);
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Focus, lit: &Lit) {
     });
 }
 
-fn head(ui: &Ui, places: &Places, look: Look) {
+fn head(ui: &Ui, places: &RowLayout, look: Look) {
     let y = places.row.center().y;
     let words = |x: f32, anchor, text: &str| {
         ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
@@ -79,7 +79,7 @@ fn head(ui: &Ui, places: &Places, look: Look) {
 }
 
 /// What lies under a row: its name for those who cannot see it, and what tells that it is selected or stands out.
-fn background(ui: &Ui, places: &Places, row: &Row, (selected, is_lit): (bool, bool), look: Look) -> Response {
+fn background(ui: &Ui, places: &RowLayout, row: &NodeRow, (selected, is_lit): (bool, bool), look: Look) -> Response {
     let name = node_name(row.node);
     let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::click());
     widgets::describe(&response, &say!("Node {name}", "Máquina {name}"), || {
@@ -100,7 +100,7 @@ fn background(ui: &Ui, places: &Places, row: &Row, (selected, is_lit): (bool, bo
     response
 }
 
-fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
+fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Look) {
     let own = session.stage().colours[usize::from(row.node)];
     let (y, colour) = (places.row.center().y, theme::colour(own));
     let painter = ui.painter();
@@ -130,7 +130,7 @@ fn facts(ui: &Ui, places: &Places, row: &Row, session: &Session, look: Look) {
     }
 }
 
-fn controls(ui: &mut Ui, places: &Places, node: NodeId, session: &mut Session, look: Look) {
+fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session, look: Look) {
     let name = node_name(node);
     let enabled = !session.is_recorded();
     let goes_on = enabled && session.stage().phase == Phase::Running;

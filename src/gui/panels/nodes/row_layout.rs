@@ -8,7 +8,7 @@ use crate::gui::widgets::theme::GRID;
 pub const HEAD: f32 = 2.5 * GRID;
 
 /// Rows in columns, filled from top to bottom.
-pub struct Grid {
+pub struct RowGrid {
     /// How many columns there are.
     pub columns: usize,
     /// How many rows a column has.
@@ -19,7 +19,7 @@ pub struct Grid {
     pub row: f32,
 }
 
-impl Grid {
+impl RowGrid {
     const GAP: f32 = 4.0 * GRID;
     /// More rows than this stand closer.
     const MANY: usize = 16;
@@ -29,9 +29,9 @@ impl Grid {
         // Two columns are worth some squeezing, more only where there are many rows.
         let is_dense = rows > Self::MANY;
         let columns =
-            if room < 2.0 * Places::LEAST + Self::GAP { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
+            if room < 2.0 * RowLayout::LEAST + Self::GAP { 1 } else { (((room + Self::GAP) / 632.0) as usize).max(2) };
         let columns =
-            if is_dense { (((room + Self::GAP) / (Places::LEAST + Self::GAP)) as usize).max(1) } else { columns };
+            if is_dense { (((room + Self::GAP) / (RowLayout::LEAST + Self::GAP)) as usize).max(1) } else { columns };
         let lines = rows.div_ceil(columns).max(1);
         let columns = rows.div_ceil(lines).max(1);
         let row = if is_dense { 3.0 } else { 4.0 } * GRID;
@@ -55,7 +55,7 @@ impl Grid {
 }
 
 /// Where the parts of a row go, from left to right. What there is no room for is not there.
-pub struct Places {
+pub struct RowLayout {
     /// All of it.
     pub row: Rect,
     /// The slider of its speed.
@@ -80,7 +80,7 @@ pub struct Places {
     pub is_dense: bool,
 }
 
-impl Places {
+impl RowLayout {
     /// The least width of a row.
     pub const LEAST: f32 = 42.0 * GRID;
 
@@ -134,9 +134,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn nothing_overlaps_in_a_row_of_any_width(width in Places::LEAST..900.0f32) {
+        fn nothing_overlaps_in_a_row_of_any_width(width in RowLayout::LEAST..900.0f32) {
             let row = Rect::from_min_size(pos2(16.0, 100.0), vec2(width, 4.0 * GRID));
-            let places = Places::new(row, false);
+            let places = RowLayout::new(row, false);
             // The numbers take at most six digits' room to the left of their ends.
             let numbers = [places.done, Some(places.left), places.rate, places.idle];
             let ends: Vec<f32> = numbers.into_iter().flatten().collect();

@@ -7,7 +7,7 @@ use crate::runlog::Header;
 
 /// What is saved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
+pub enum SaveKind {
     /// The picture as the tracer made it.
     #[default]
     Render,
@@ -39,7 +39,7 @@ pub enum Kind {
     Rows,
 }
 
-impl Kind {
+impl SaveKind {
     /// Those of a run: pictures, then drawings, then records.
     pub const OF_RUN: [Self; 12] = [
         Self::Render,
@@ -204,14 +204,14 @@ mod tests {
     #[test]
     fn a_name_says_what_is_saved() {
         let header = Settings::default().header("my scene", "", Default::default(), 2);
-        let named = |kind: Kind, done| kind.file_name(&header, done, "3840x2160");
-        assert_eq!(named(Kind::Render, true), "my-scene-640x480.png");
-        assert_eq!(named(Kind::Owners, false), "my-scene-640x480-owners-unfinished.png");
-        assert_eq!(named(Kind::Run, true), "my-scene-640x480-ring-8.anel");
-        assert_eq!(named(Kind::Large, false), "my-scene-3840x2160.png");
-        assert_eq!(named(Kind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
-        assert_eq!(named(Kind::Bars, false), "my-scene-640x480-comparison.svg");
-        for kinds in [&Kind::OF_RUN[..], &Kind::OF_COMPARISON] {
+        let named = |kind: SaveKind, done| kind.file_name(&header, done, "3840x2160");
+        assert_eq!(named(SaveKind::Render, true), "my-scene-640x480.png");
+        assert_eq!(named(SaveKind::Owners, false), "my-scene-640x480-owners-unfinished.png");
+        assert_eq!(named(SaveKind::Run, true), "my-scene-640x480-ring-8.anel");
+        assert_eq!(named(SaveKind::Large, false), "my-scene-3840x2160.png");
+        assert_eq!(named(SaveKind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
+        assert_eq!(named(SaveKind::Bars, false), "my-scene-640x480-comparison.svg");
+        for kinds in [&SaveKind::OF_RUN[..], &SaveKind::OF_COMPARISON] {
             let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
             assert_eq!(names.len(), kinds.len(), "no two are the same");
         }

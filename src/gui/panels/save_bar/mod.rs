@@ -8,19 +8,19 @@ use std::path::{Path, PathBuf};
 use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
 use crate::export::{Comparison, Drawing, Film};
-use crate::gui::input::keys::Command;
+use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{Export, Phase, Purpose, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, number, path_field};
+use crate::gui::widgets::{Emphasis, button, number, path_field};
 use crate::language::{say, word};
 use crate::output::{check_writable, is_same_file};
 use crate::picture::{Quality, Size};
 use crate::view::Layer;
-use kinds::{Kind, LONGEST_SIDE, four_k, is_shape, large};
+use kinds::{LONGEST_SIDE, SaveKind, four_k, is_shape, large};
 
 /// What the bar saves.
-pub enum Subject {
+pub enum SaveSubject {
     /// The run on the stage; its picture is shown with this much (0 to 1) of a layer.
     Run((Layer, f32)),
     /// The compared runs; `None` until one of them is known.
@@ -33,7 +33,7 @@ pub struct SaveBar {
     wants_focus: bool,
     /// The path is being typed.
     focused: bool,
-    kind: Kind,
+    kind: SaveKind,
     path: String,
     /// The name that the bar itself has put there last: it is renewed as long as nobody has changed it.
     suggested: String,
@@ -55,7 +55,7 @@ impl Default for SaveBar {
             open: false,
             wants_focus: false,
             focused: false,
-            kind: Kind::default(),
+            kind: SaveKind::default(),
             path: String::new(),
             suggested: String::new(),
             warned: None,
@@ -76,10 +76,10 @@ impl SaveBar {
 
     /// Opens the bar for the run.
     pub fn open_for_run(&mut self, session: &Session) {
-        self.open_for(Kind::Run, session);
+        self.open_for(SaveKind::Run, session);
     }
 
-    fn open_for(&mut self, kind: Kind, session: &Session) {
+    fn open_for(&mut self, kind: SaveKind, session: &Session) {
         let Self { size, samples, .. } = *self;
         let caption = &session.header().caption;
         let (title, memo) = (caption.title.clone(), caption.memo.clone());
@@ -114,11 +114,11 @@ impl SaveBar {
     }
 
     /// Shows the bar, and returns what else was asked for.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, subject: &Subject) -> Option<Command> {
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, subject: &SaveSubject) -> Option<UserCommand> {
         let look = Look::of(ui.ctx());
         let kinds = match subject {
-            Subject::Run(_) => &Kind::OF_RUN[..],
-            Subject::Comparison(_) => &Kind::OF_COMPARISON[..],
+            SaveSubject::Run(_) => &SaveKind::OF_RUN[..],
+            SaveSubject::Comparison(_) => &SaveKind::OF_COMPARISON[..],
         };
         if !kinds.contains(&self.kind) {
             self.choose(kinds[0]);
@@ -131,8 +131,8 @@ impl SaveBar {
             self.kinds(ui, kinds);
         }
         match self.kind {
-            Kind::Large => self.choose_size(ui, session, look),
-            Kind::Run => self.describe(ui),
+            SaveKind::Large => self.choose_size(ui, session, look),
+            SaveKind::Run => self.describe(ui),
             _ => {}
         }
         self.suggest(session);
@@ -148,20 +148,20 @@ impl SaveBar {
             if field.changed {
                 (self.warned, self.trouble) = (None, None);
             }
-            if button(ui, None, word!("Save", "Salvar"), true, Weight::Primary).clicked() || field.entered {
+            if button(ui, None, word!("Save", "Salvar"), true, Emphasis::Primary).clicked() || field.entered {
                 self.save(session, subject);
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Weight::Quiet).clicked() {
+            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir());
                 session.jobs().choose(Purpose::Save, typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)));
             }
-            let copy = button(ui, None, word!("Copy picture", "Copiar imagem"), true, Weight::Quiet);
+            let copy = button(ui, None, word!("Copy picture", "Copiar imagem"), true, Emphasis::Quiet);
             let hint = word!(
                 "The picture as it is shown into the clipboard (Ctrl C)",
                 "A imagem como está para a área de transferência (Ctrl C)"
             );
             copies = copy.on_hover_text(hint).clicked();
-            if button(ui, Some(Icon::Close), word!("Close save", "Fechar salvar"), false, Weight::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), word!("Close save", "Fechar salvar"), false, Emphasis::Quiet).clicked() {
                 self.open = false;
             }
         });
@@ -169,11 +169,11 @@ impl SaveBar {
             let text = RichText::new(trouble).font(theme::regular(theme::BODY)).color(look.trouble);
             ui.add(Label::new(text).truncate());
         }
-        copies.then_some(Command::Copy)
+        copies.then_some(UserCommand::Copy)
     }
 
     /// All kinds, to be pressed at once.
-    fn kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
+    fn kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind]) {
         let quiet = Look::of(ui.ctx()).quiet;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
@@ -188,7 +188,7 @@ impl SaveBar {
                     ui.add_space(GRID / 2.0);
                     ui.label(RichText::new(kind.format()).font(theme::regular(theme::SMALL)).color(quiet));
                 }
-                let weight = if kind == self.kind { Weight::On } else { Weight::Quiet };
+                let weight = if kind == self.kind { Emphasis::On } else { Emphasis::Quiet };
                 if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
                     self.choose(kind);
                 }
@@ -197,7 +197,7 @@ impl SaveBar {
     }
 
     /// The same where there is no room for them.
-    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[Kind]) {
+    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind]) {
         let mut chosen = self.kind;
         let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name()).width(13.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
@@ -213,7 +213,7 @@ impl SaveBar {
     }
 
     /// Another kind: a name that was typed keeps all but its ending.
-    fn choose(&mut self, kind: Kind) {
+    fn choose(&mut self, kind: SaveKind) {
         (self.warned, self.trouble, self.wants_focus) = (None, None, true);
         if self.path != self.suggested && !self.path.trim().is_empty() {
             self.path = Path::new(&self.path).with_extension(kind.ending()).display().to_string();
@@ -229,7 +229,7 @@ impl SaveBar {
         let twice = own.map(|side| 2 * side);
         ui.horizontal(|ui| {
             for (name, other) in [(word!("Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))] {
-                let weight = if size == other { Weight::On } else { Weight::Quiet };
+                let weight = if size == other { Emphasis::On } else { Emphasis::Quiet };
                 let [width, height] = other;
                 let hint = format!("{width} × {height}");
                 if button(ui, None, name, true, weight).on_hover_text(hint).clicked() {
@@ -267,7 +267,7 @@ impl SaveBar {
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
-    fn save(&mut self, session: &mut Session, subject: &Subject) {
+    fn save(&mut self, session: &mut Session, subject: &SaveSubject) {
         let path = match resolve(&self.path, std::env::home_dir()) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
@@ -298,35 +298,35 @@ impl SaveBar {
         }
         // Open for the next one: a notice says what becomes of this one.
         match (self.kind, subject) {
-            (Kind::Bars | Kind::Rows, Subject::Comparison(Some(runs))) => {
-                let export = if self.kind == Kind::Bars { Export::Bars } else { Export::Rows };
+            (SaveKind::Bars | SaveKind::Rows, SaveSubject::Comparison(Some(runs))) => {
+                let export = if self.kind == SaveKind::Bars { Export::Bars } else { Export::Rows };
                 session.export(path, export(runs.clone()));
             }
-            (_, Subject::Comparison(_)) => {
+            (_, SaveSubject::Comparison(_)) => {
                 session.trouble(word!("No run is known yet", "Nenhuma execução é conhecida ainda"));
             }
-            (kind, &Subject::Run(shown)) => self.save_run_as(kind, session, path, shown, size),
+            (kind, &SaveSubject::Run(shown)) => self.save_run_as(kind, session, path, shown, size),
         }
     }
 
-    fn save_run_as(&self, kind: Kind, session: &mut Session, path: PathBuf, shown: (Layer, f32), size: Size) {
+    fn save_run_as(&self, kind: SaveKind, session: &mut Session, path: PathBuf, shown: (Layer, f32), size: Size) {
         match kind {
-            Kind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
-            Kind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
-            Kind::Costs => session.save_picture(path, (Layer::Costs, 1.0)),
-            Kind::Arrival => session.save_picture(path, (Layer::Arrival, 1.0)),
-            Kind::Blend => session.save_picture(path, shown),
-            Kind::Run => session.save_run(path, &self.title, &self.memo),
-            Kind::Large => {
+            SaveKind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
+            SaveKind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
+            SaveKind::Costs => session.save_picture(path, (Layer::Costs, 1.0)),
+            SaveKind::Arrival => session.save_picture(path, (Layer::Arrival, 1.0)),
+            SaveKind::Blend => session.save_picture(path, shown),
+            SaveKind::Run => session.save_run(path, &self.title, &self.memo),
+            SaveKind::Large => {
                 let quality = Quality { samples: self.samples, ..session.header().quality };
                 session.export(path, Export::Picture(size, quality));
             }
-            Kind::Ring => session.export(path, Export::Drawing(Drawing::Ring(session.now()))),
-            Kind::Timeline => session.export(path, Export::Drawing(Drawing::Timeline)),
-            Kind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
-            Kind::Table => session.export(path, Export::Table),
-            Kind::Chrome => session.export(path, Export::Chrome),
-            Kind::Bars | Kind::Rows => {}
+            SaveKind::Ring => session.export(path, Export::Drawing(Drawing::Ring(session.now()))),
+            SaveKind::Timeline => session.export(path, Export::Drawing(Drawing::Timeline)),
+            SaveKind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
+            SaveKind::Table => session.export(path, Export::Table),
+            SaveKind::Chrome => session.export(path, Export::Chrome),
+            SaveKind::Bars | SaveKind::Rows => {}
         }
     }
 

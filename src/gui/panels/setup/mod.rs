@@ -6,11 +6,11 @@ use egui::{ComboBox, Label, Popup, PopupCloseBehavior, RichText, ScrollArea, Ui,
 
 use crate::gui::session::Session;
 use crate::gui::settings::Settings;
-use crate::gui::settings::pace::Tempo;
-use crate::gui::settings::speed_preset::Preset;
+use crate::gui::settings::pace::Pace;
+use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, button, choice, number, popup_frame, slider};
+use crate::gui::widgets::{Emphasis, button, choice, number, popup_frame, slider};
 use crate::language::{comma, decimal, say, word};
 use crate::picture::{Quality, Size};
 use crate::view::count;
@@ -59,7 +59,7 @@ impl SetupPanel {
             heading(ui, word!("Starts the run anew", "Reinicia a execução"), look);
             anew(ui, &mut draft, look);
             ui.add_space(GRID);
-            if button(ui, None, word!("Back to the demonstration", "Voltar à demonstração"), true, Weight::Quiet)
+            if button(ui, None, word!("Back to the demonstration", "Voltar à demonstração"), true, Emphasis::Quiet)
                 .on_hover_text(word!("Everything here as it was at first", "Tudo aqui como era no começo"))
                 .clicked()
             {
@@ -87,7 +87,7 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
          ser mudado."
     );
     ui.add(Label::new(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet)).wrap());
-    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Weight::Primary).clicked() {
+    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Emphasis::Primary).clicked() {
         session.make_live();
     }
 }
@@ -97,10 +97,10 @@ const VALUE: f32 = 12.0 * GRID;
 
 fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
     let width = ui.available_width();
-    let on = Preset::ALL.into_iter().find(|preset| draft.has_preset(*preset));
+    let on = SpeedPreset::ALL.into_iter().find(|preset| draft.has_preset(*preset));
     egui::Grid::new("presets").spacing([GRID / 2.0, GRID / 2.0]).show(ui, |ui| {
-        for (i, preset) in Preset::ALL.into_iter().enumerate() {
-            let weight = if on == Some(preset) { Weight::On } else { Weight::Quiet };
+        for (i, preset) in SpeedPreset::ALL.into_iter().enumerate() {
+            let weight = if on == Some(preset) { Emphasis::On } else { Emphasis::Quiet };
             if button(ui, None, preset.name(), true, weight).on_hover_text(preset.hint()).clicked() {
                 draft.set_preset(preset);
             }
@@ -113,7 +113,7 @@ fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look) {
         let before = draft.seed;
         number(ui, &mut draft.seed, 0..=999_999, "", VALUE, word!("Seed", "Semente"));
         if draft.seed != before {
-            draft.set_preset(Preset::Random);
+            draft.set_preset(SpeedPreset::Random);
         }
     });
     line(ui, word!("Latency of a hop", "Latência de um salto"), look, |ui| {
@@ -177,7 +177,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look) {
         let suffix = format!(" × {samples}");
         number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, name);
         let hint = word!("What else makes a picture good or fast", "O que mais torna uma imagem boa ou rápida");
-        let more = button(ui, None, word!("Quality…", "Mais…"), true, Weight::Quiet).on_hover_text(hint);
+        let more = button(ui, None, word!("Quality…", "Mais…"), true, Emphasis::Quiet).on_hover_text(hint);
         let popup = Popup::from_toggle_button_response(&more).frame(popup_frame(ui.ctx()).inner_margin(1.5 * GRID));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
             ui.set_width(44.0 * GRID);
@@ -237,21 +237,21 @@ fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f
 
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look) {
     high_line(ui, word!("Pace", "Andamento"), look, |ui| {
-        let seconds = if let Tempo::Lasts(seconds) = draft.tempo { seconds } else { 20 };
+        let seconds = if let Pace::Lasts(seconds) = draft.tempo { seconds } else { 20 };
         let full = word!(
             "As fast as this computer can: a machine at 100 % never waits",
             "O mais rápido que este computador pode: uma máquina a 100 % nunca espera"
         );
         let slowly = word!("So that everybody can follow", "Para que todos possam acompanhar");
         let all = [
-            (Tempo::Full, word!("Full speed", "Total"), full),
-            (Tempo::Lasts(seconds), word!("Slowly", "Devagar"), slowly),
+            (Pace::Full, word!("Full speed", "Total"), full),
+            (Pace::Lasts(seconds), word!("Slowly", "Devagar"), slowly),
         ];
         if let Some(tempo) = choice(ui, draft.tempo, &all) {
             draft.tempo = tempo;
         }
     });
-    if let Tempo::Lasts(seconds) = &mut draft.tempo {
+    if let Pace::Lasts(seconds) = &mut draft.tempo {
         line(ui, word!("Shared well, about", "Bem dividida, uns"), look, |ui| {
             let name = word!("Seconds of the run", "Segundos da execução");
             number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, name).on_hover_text(word!(

@@ -7,7 +7,7 @@ use super::{VALUE, high_line, line, small};
 use crate::balance::{Remedy, Strategy};
 use crate::gui::settings::Settings;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Weight, choice, named_button, number, popup_frame};
+use crate::gui::widgets::{Emphasis, choice, named_button, number, popup_frame};
 use crate::language::{say, word};
 use crate::runlog::Driver;
 use crate::view::{Sharing, remedies_words, remedy_hint, remedy_name};
@@ -131,7 +131,7 @@ fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look) {
     line(ui, word!("Remedies", "Remédios"), look, |ui| {
         let words = remedies_words(draft.remedies);
         let name = say!("Remedies: {words}", "Remédios: {words}");
-        let opener = named_button(ui, None, &name, Some(&words), Weight::Quiet);
+        let opener = named_button(ui, None, &name, Some(&words), Emphasis::Quiet);
         let popup = Popup::from_toggle_button_response(&opener).frame(popup_frame(ui.ctx()));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
             ui.set_width(54.0 * GRID);

@@ -10,29 +10,29 @@ use super::failure_sentences;
 use crate::balance::{Message, NodeId, Party};
 use crate::language::{say, word};
 use crate::picture::atoms_in;
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, counted, fraction, node_name};
-use recovery::Mishap;
+use recovery::Recovery;
 
 /// The last events, the newest last.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Events {
+pub(crate) struct EventLog {
     told: VecDeque<Told>,
 }
 
 #[derive(Clone, Debug)]
 struct Told {
     at: Time,
-    event: Event,
+    event: RunEvent,
     sentence: String,
 }
 
 /// What events are told by, as far as a later one may join an earlier one.
 #[derive(Clone, Debug, PartialEq)]
-enum Event {
+enum RunEvent {
     Bands,
     Offer(NodeId),
     Transfer,
@@ -59,7 +59,7 @@ enum Event {
     Paused,
     Latency,
     Condition,
-    Mishap(Mishap),
+    Recovery(Recovery),
     End,
 }
 
@@ -70,91 +70,98 @@ const SMALL: u32 = 5;
 /// Events that are alike and no further apart than this are one.
 const TOGETHER: Duration = Duration::from_secs(3);
 
-impl Events {
+impl EventLog {
     /// Takes in a record; `state` already knows it.
     pub(crate) fn apply(&mut self, record: &Record, state: &RunState) {
         let at = record.at;
         match &record.what {
-            What::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
-                if !self.has(&Event::Bands) {
-                    self.tell(at, Event::Bands, event_sentences::bands(state, band));
+            RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
+                if !self.has(&RunEvent::Bands) {
+                    self.tell(at, RunEvent::Bands, event_sentences::bands(state, band));
                 }
             }
-            What::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some() => {
+            RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some() => {
                 let (who, done) = (from, message.own_offer(*from).unwrap_or_default());
                 // Later offers are told by what comes of them.
                 if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
                     let whole = node.given.atoms == 0;
-                    self.tell(at, Event::Offer(*who), event_sentences::offer(state, *who, whole, done));
+                    self.tell(at, RunEvent::Offer(*who), event_sentences::offer(state, *who, whole, done));
                 }
             }
-            What::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), .. } => {
+            RecordKind::Sent {
+                from: Party::Node(from),
+                to: Party::Node(to),
+                message: Message::Transfer(ranges),
+                ..
+            } => {
                 self.transfer(at, *from, *to, atoms_in(ranges), state);
             }
-            What::Sent { message: Message::Part(part), .. } if !part.is_empty() => {
+            RecordKind::Sent { message: Message::Part(part), .. } if !part.is_empty() => {
                 // A part for each node is one more round.
                 let parts = state.handed_out.count;
                 if parts.is_multiple_of(state.nodes().len() as u32) {
-                    self.told.retain(|told| told.event != Event::Parts);
+                    self.told.retain(|told| told.event != RunEvent::Parts);
                     let parts = counted(parts, word!("part", "parte"));
                     let sentence = say!("The parent has handed out {parts} so far", "O pai já distribuiu {parts}");
-                    self.tell(at, Event::Parts, sentence);
+                    self.tell(at, RunEvent::Parts, sentence);
                 }
             }
-            What::Received { by: Party::Parent, .. } => {
+            RecordKind::Received { by: Party::Parent, .. } => {
                 if let Some(waiting) = jam(state, at).filter(|&waiting| !self.had_as_many(at, waiting)) {
-                    self.take(at, |event| matches!(event, Event::Jam(_)));
-                    self.tell(at, Event::Jam(waiting), event_sentences::jam(state, waiting));
+                    self.take(at, |event| matches!(event, RunEvent::Jam(_)));
+                    self.tell(at, RunEvent::Jam(waiting), event_sentences::jam(state, waiting));
                 }
             }
-            What::AtomDone { node, .. } if is_done(state, *node) => {
+            RecordKind::AtomDone { node, .. } if is_done(state, *node) => {
                 let nodes = self.together(at, *node, |event| match event {
-                    Event::Done(nodes) => Some(nodes),
+                    RunEvent::Done(nodes) => Some(nodes),
                     _ => None,
                 });
                 let sentence = event_sentences::done(&nodes);
-                self.tell(at, Event::Done(nodes), sentence);
+                self.tell(at, RunEvent::Done(nodes), sentence);
             }
-            What::Estimating => self.tell(at, Event::Estimating, event_sentences::estimating().into()),
-            What::SpeedSet { node, speed } => {
+            RecordKind::Estimating => self.tell(at, RunEvent::Estimating, event_sentences::estimating().into()),
+            RecordKind::SpeedSet { node, speed } => {
                 let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
-                let same = |event: &Event| matches!(event, Event::Speed { node: other, .. } if other == node);
+                let same = |event: &RunEvent| matches!(event, RunEvent::Speed { node: other, .. } if other == node);
                 let before = match self.take(at, same) {
-                    Some(Event::Speed { before, .. }) => before,
+                    Some(RunEvent::Speed { before, .. }) => before,
                     _ => machine.speed_before,
                 };
                 let sentence = event_sentences::speed(state, *node, before, *speed);
-                self.tell(at, Event::Speed { node: *node, before }, sentence);
+                self.tell(at, RunEvent::Speed { node: *node, before }, sentence);
             }
-            What::Paused { node } => self.tell(at, Event::Paused, event_sentences::paused(state, *node)),
-            What::Resumed { node } => self.tell(at, Event::Paused, event_sentences::resumed(state, *node)),
-            What::LatencySet { latency } => {
-                self.take(at, |event| *event == Event::Latency);
-                self.tell(at, Event::Latency, event_sentences::latency(state, *latency));
+            RecordKind::Paused { node } => self.tell(at, RunEvent::Paused, event_sentences::paused(state, *node)),
+            RecordKind::Resumed { node } => self.tell(at, RunEvent::Paused, event_sentences::resumed(state, *node)),
+            RecordKind::LatencySet { latency } => {
+                self.take(at, |event| *event == RunEvent::Latency);
+                self.tell(at, RunEvent::Latency, event_sentences::latency(state, *latency));
             }
-            What::Retired { node } => {
+            RecordKind::Retired { node } => {
                 let nodes = self.together(at, *node, |event| match event {
-                    Event::Retired(nodes) => Some(nodes),
+                    RunEvent::Retired(nodes) => Some(nodes),
                     _ => None,
                 });
                 let sentence = event_sentences::retired(state, &nodes);
-                self.tell(at, Event::Retired(nodes), sentence);
+                self.tell(at, RunEvent::Retired(nodes), sentence);
             }
-            What::Finished => self.tell(at, Event::End, event_sentences::complete().into()),
-            What::Condition { node, .. } => self.tell(at, Event::Condition, failure_sentences::condition(state, *node)),
-            What::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
-            What::Delayed { from, to, until } => {
-                self.tell(at, Event::Condition, failure_sentences::delayed((*from, *to), until.since(at)));
+            RecordKind::Finished => self.tell(at, RunEvent::End, event_sentences::complete().into()),
+            RecordKind::Condition { node, .. } => {
+                self.tell(at, RunEvent::Condition, failure_sentences::condition(state, *node))
             }
-            What::Sent { .. }
-            | What::Link { .. }
-            | What::Lost { .. }
-            | What::AtomFailed { .. }
-            | What::GivenUp { .. }
-            | What::Received { .. }
-            | What::AtomStarted { .. }
-            | What::AtomDone { .. }
-            | What::Estimated { .. } => {}
+            RecordKind::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
+            RecordKind::Delayed { from, to, until } => {
+                self.tell(at, RunEvent::Condition, failure_sentences::delayed((*from, *to), until.since(at)));
+            }
+            RecordKind::Sent { .. }
+            | RecordKind::Link { .. }
+            | RecordKind::Lost { .. }
+            | RecordKind::AtomFailed { .. }
+            | RecordKind::GivenUp { .. }
+            | RecordKind::Received { .. }
+            | RecordKind::AtomStarted { .. }
+            | RecordKind::AtomDone { .. }
+            | RecordKind::Estimated { .. } => {}
         }
     }
 
@@ -166,12 +173,12 @@ impl Events {
     /// What somebody did to the run last.
     pub(crate) fn latest_by_hand(&self) -> Option<&str> {
         let by_hand = |told: &&Told| {
-            matches!(told.event, Event::Speed { .. } | Event::Paused | Event::Latency | Event::Condition)
+            matches!(told.event, RunEvent::Speed { .. } | RunEvent::Paused | RunEvent::Latency | RunEvent::Condition)
         };
         self.told.iter().rev().find(by_hand).map(|told| &*told.sentence)
     }
 
-    fn has(&self, event: &Event) -> bool {
+    fn has(&self, event: &RunEvent) -> bool {
         self.told.iter().any(|told| told.event == *event)
     }
 
@@ -179,13 +186,13 @@ impl Events {
     fn had_as_many(&self, now: Time, waiting: usize) -> bool {
         self.told
             .iter()
-            .any(|told| matches!(told.event, Event::Jam(most) if most >= waiting) && now <= told.at + TOGETHER)
+            .any(|told| matches!(told.event, RunEvent::Jam(most) if most >= waiting) && now <= told.at + TOGETHER)
     }
 
     fn transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
         let is_theft = state.sharing == Sharing::Stealing;
         if atoms > SMALL && is_theft {
-            return self.tell(at, Event::Transfer, event_sentences::theft(to, from, atoms));
+            return self.tell(at, RunEvent::Transfer, event_sentences::theft(to, from, atoms));
         }
         if atoms > SMALL {
             let giver = node_name(from);
@@ -200,11 +207,11 @@ impl Events {
                 "{giver} gave {atoms} to {to}, which had finished",
                 "{giver} deu {atoms} a {to}, que tinha terminado"
             );
-            return self.tell(at, Event::Transfer, sentence);
+            return self.tell(at, RunEvent::Transfer, sentence);
         }
-        let same = |event: &Event| matches!(event, Event::Trickle { from: other, .. } if *other == from);
+        let same = |event: &RunEvent| matches!(event, RunEvent::Trickle { from: other, .. } if *other == from);
         let (mut receivers, mut transfers, mut all) = match self.take(at, same) {
-            Some(Event::Trickle { to, transfers, atoms, .. }) => (to, transfers, atoms),
+            Some(RunEvent::Trickle { to, transfers, atoms, .. }) => (to, transfers, atoms),
             _ => (Vec::new(), 0, 0),
         };
         (transfers, all) = (transfers + 1, all + atoms);
@@ -212,11 +219,11 @@ impl Events {
             receivers.insert(place, to);
         }
         let sentence = event_sentences::trickle((from, &receivers), (transfers, all), is_theft);
-        self.tell(at, Event::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
+        self.tell(at, RunEvent::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
     }
 
     /// The nodes of the latest event of a kind, if `node` comes soon after them, and `node`.
-    fn together(&mut self, at: Time, node: NodeId, of: impl Fn(Event) -> Option<Vec<NodeId>>) -> Vec<NodeId> {
+    fn together(&mut self, at: Time, node: NodeId, of: impl Fn(RunEvent) -> Option<Vec<NodeId>>) -> Vec<NodeId> {
         let before = self.take(at, |event| of(event.clone()).is_some());
         let mut nodes = before.and_then(of).unwrap_or_default();
         if let Err(place) = nodes.binary_search(&node) {
@@ -226,13 +233,13 @@ impl Events {
     }
 
     /// Takes out the latest event of a kind, if it is so fresh that what comes now belongs to it.
-    fn take(&mut self, now: Time, kind: impl Fn(&Event) -> bool) -> Option<Event> {
+    fn take(&mut self, now: Time, kind: impl Fn(&RunEvent) -> bool) -> Option<RunEvent> {
         let place = self.told.iter().rposition(|told| kind(&told.event) && now <= told.at + TOGETHER)?;
         self.told.remove(place).map(|told| told.event)
     }
 
     /// Records of different parties may come a little out of order: events do not.
-    fn tell(&mut self, at: Time, event: Event, sentence: String) {
+    fn tell(&mut self, at: Time, event: RunEvent, sentence: String) {
         let place = self.told.iter().rposition(|told| told.at <= at).map_or(0, |before| before + 1);
         self.told.insert(place, Told { at, event, sentence });
         if self.told.len() > KEPT {
@@ -264,13 +271,14 @@ mod tests {
     use super::*;
     use crate::view::tests::sample_runs;
 
-    fn sentences(events: &Events) -> Vec<&str> {
+    fn sentences(events: &EventLog) -> Vec<&str> {
         events.iter().map(|(_, sentence)| sentence).collect()
     }
 
     /// The events of these records, at their times in ms.
-    fn told(nodes: usize, records: impl IntoIterator<Item = (u64, What)>) -> Events {
-        let (mut state, mut events) = (RunState::new(&sample_runs::header(&vec![1.0; nodes], 900)), Events::default());
+    fn told(nodes: usize, records: impl IntoIterator<Item = (u64, RecordKind)>) -> EventLog {
+        let (mut state, mut events) =
+            (RunState::new(&sample_runs::header(&vec![1.0; nodes], 900)), EventLog::default());
         for (ms, what) in records {
             let record = Record { at: Time(ms * 1_000_000), what };
             state.apply(&record);
@@ -279,10 +287,10 @@ mod tests {
         events
     }
 
-    fn transfer(from: NodeId, to: NodeId, atoms: u32) -> What {
+    fn transfer(from: NodeId, to: NodeId, atoms: u32) -> RecordKind {
         let (from, to) = (Party::Node(from), Party::Node(to));
         let message = Message::Transfer(std::iter::once(0..atoms).collect());
-        What::Sent { id: 0, from, to, message, bytes: 0, arrives: Time::ZERO }
+        RecordKind::Sent { id: 0, from, to, message, bytes: 0, arrives: Time::ZERO }
     }
 
     proptest! {
@@ -291,7 +299,7 @@ mod tests {
             speeds in prop::collection::vec(0.02..1.0f64, 1..9), atoms in 1..400u32,
         ) {
             let header = sample_runs::header(&speeds, atoms);
-            let (mut state, mut events) = (RunState::new(&header), Events::default());
+            let (mut state, mut events) = (RunState::new(&header), EventLog::default());
             for record in sample_runs::records(&header) {
                 state.apply(&record);
                 events.apply(&record, &state);
@@ -304,7 +312,7 @@ mod tests {
             prop_assert!(sentences(&events).contains(&event_sentences::complete()));
             // Every node offers at last, and says so once.
             for node in 0..speeds.len() as NodeId {
-                let offers = events.told.iter().filter(|told| told.event == Event::Offer(node)).count();
+                let offers = events.told.iter().filter(|told| told.event == RunEvent::Offer(node)).count();
                 prop_assert!(offers == 1 || events.told.len() == KEPT);
             }
         }
@@ -313,7 +321,7 @@ mod tests {
     #[test]
     fn the_list_tells_who_is_slow_and_what_moved_where() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 600);
-        let (mut state, mut events) = (RunState::new(&header), Events::default());
+        let (mut state, mut events) = (RunState::new(&header), EventLog::default());
         for record in sample_runs::records(&header) {
             state.apply(&record);
             events.apply(&record, &state);
@@ -346,13 +354,13 @@ mod tests {
 
     #[test]
     fn machines_that_retire_together_are_one_event() {
-        let events = told(4, [2, 0, 3].map(|node| (10 * u64::from(node), What::Retired { node })));
+        let events = told(4, [2, 0, 3].map(|node| (10 * u64::from(node), RecordKind::Retired { node })));
         assert_eq!(sentences(&events), ["1, 3 and 4 retire: their offers came back, nobody needs their help"]);
     }
 
     #[test]
     fn a_dragged_slider_is_one_event() {
-        let speed = |node, percent: u64| What::SpeedSet { node, speed: percent as f64 / 100.0 };
+        let speed = |node, percent: u64| RecordKind::SpeedSet { node, speed: percent as f64 / 100.0 };
         let ms = Duration::from_millis;
         let events = told(
             3,
@@ -360,12 +368,12 @@ mod tests {
                 (0, speed(1, 80)),
                 (100, transfer(0, 2, 50)),
                 (200, speed(1, 30)),
-                (300, What::LatencySet { latency: ms(90) }),
-                (400, What::LatencySet { latency: ms(200) }),
+                (300, RecordKind::LatencySet { latency: ms(90) }),
+                (400, RecordKind::LatencySet { latency: ms(200) }),
                 (500, speed(2, 60)),
                 (6000, speed(1, 40)),
-                (6100, What::Paused { node: 2 }),
-                (6200, What::Resumed { node: 2 }),
+                (6100, RecordKind::Paused { node: 2 }),
+                (6200, RecordKind::Resumed { node: 2 }),
             ],
         );
         assert_eq!(

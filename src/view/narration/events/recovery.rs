@@ -1,6 +1,6 @@
 //! What a ring that adapts does about what is lost, late or needed: one event, however many messages it takes.
 
-use super::{Event, Events};
+use super::{EventLog, RunEvent};
 use crate::balance::{Message, NodeId, Party};
 use crate::picture::atoms_in;
 use crate::time::Time;
@@ -9,7 +9,7 @@ use crate::view::state::run_state::RunState;
 
 /// What is done about it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Mishap {
+pub(super) enum Recovery {
     /// The ring closes round machines, or opens for them.
     Ring,
     /// Atoms are given out again.
@@ -20,7 +20,7 @@ pub(super) enum Mishap {
     Wakes { from: NodeId, to: Vec<NodeId> },
 }
 
-impl Events {
+impl EventLog {
     /// Takes in a message to a node that may mend something.
     pub(super) fn mend(&mut self, at: Time, (from, to): (Party, NodeId), message: &Message, state: &RunState) {
         match (from, message) {
@@ -28,43 +28,44 @@ impl Events {
                 // All that are there are told the same.
                 let sentence = failure_sentences::ring_changed(state, at);
                 if let Some(sentence) = sentence {
-                    self.tell(at, Event::Mishap(Mishap::Ring), sentence);
+                    self.tell(at, RunEvent::Recovery(Recovery::Ring), sentence);
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
-                let before = self.take_mishap(at, |event| matches!(event, Mishap::GivenOut { .. }));
+                let before = self.take_mishap(at, |event| matches!(event, Recovery::GivenOut { .. }));
                 let (to, atoms) = match before {
-                    Some(Mishap::GivenOut { to: others, atoms }) => (with(others, to), atoms + atoms_in(ranges)),
+                    Some(Recovery::GivenOut { to: others, atoms }) => (with(others, to), atoms + atoms_in(ranges)),
                     _ => (vec![to], atoms_in(ranges)),
                 };
                 let sentence = failure_sentences::given_out(&to, atoms);
-                self.tell(at, Event::Mishap(Mishap::GivenOut { to, atoms }), sentence);
+                self.tell(at, RunEvent::Recovery(Recovery::GivenOut { to, atoms }), sentence);
             }
             (Party::Node(from), Message::Again(ranges)) => {
-                let is_same = |event: &Mishap| matches!(event, Mishap::Copies { from: other, .. } if *other == from);
+                let is_same =
+                    |event: &Recovery| matches!(event, Recovery::Copies { from: other, .. } if *other == from);
                 let (to, atoms) = match self.take_mishap(at, is_same) {
-                    Some(Mishap::Copies { to: others, atoms, .. }) => (with(others, to), atoms + atoms_in(ranges)),
+                    Some(Recovery::Copies { to: others, atoms, .. }) => (with(others, to), atoms + atoms_in(ranges)),
                     _ => (vec![to], atoms_in(ranges)),
                 };
                 let sentence = failure_sentences::copies(from, &to, atoms);
-                self.tell(at, Event::Mishap(Mishap::Copies { from, to, atoms }), sentence);
+                self.tell(at, RunEvent::Recovery(Recovery::Copies { from, to, atoms }), sentence);
             }
             (Party::Node(from), Message::Wake) => {
-                let is_same = |event: &Mishap| matches!(event, Mishap::Wakes { from: other, .. } if *other == from);
+                let is_same = |event: &Recovery| matches!(event, Recovery::Wakes { from: other, .. } if *other == from);
                 let to = match self.take_mishap(at, is_same) {
-                    Some(Mishap::Wakes { to: others, .. }) => with(others, to),
+                    Some(Recovery::Wakes { to: others, .. }) => with(others, to),
                     _ => vec![to],
                 };
                 let sentence = failure_sentences::wakes(from, &to);
-                self.tell(at, Event::Mishap(Mishap::Wakes { from, to }), sentence);
+                self.tell(at, RunEvent::Recovery(Recovery::Wakes { from, to }), sentence);
             }
             _ => {}
         }
     }
 
-    fn take_mishap(&mut self, now: Time, is_it: impl Fn(&Mishap) -> bool) -> Option<Mishap> {
-        match self.take(now, |event| matches!(event, Event::Mishap(mishap) if is_it(mishap))) {
-            Some(Event::Mishap(mishap)) => Some(mishap),
+    fn take_mishap(&mut self, now: Time, is_it: impl Fn(&Recovery) -> bool) -> Option<Recovery> {
+        match self.take(now, |event| matches!(event, RunEvent::Recovery(mishap) if is_it(mishap))) {
+            Some(RunEvent::Recovery(mishap)) => Some(mishap),
             _ => None,
         }
     }

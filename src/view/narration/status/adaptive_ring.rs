@@ -6,7 +6,7 @@ use super::{Machine, computing, only, under_way};
 use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{say, word};
 use crate::view::narration::event_sentences;
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, names, node_name};
@@ -82,7 +82,7 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>]) -> String {
     if let Some(words) = hangs(state) {
         return words;
     }
-    let lost = state.places().iter().filter(|place| **place == Place::Lost).count() as u32;
+    let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
     let with_failed = |(_, node): &&Machine<'_>| node.condition != Condition::Well;
     let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
     if lost + kept > 0 && state.has(Remedy::Leases) {
@@ -113,7 +113,7 @@ mod tests {
     use super::super::standing;
     use super::*;
     use crate::balance::{Message, Party, Remedies, Strategy};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
@@ -129,11 +129,11 @@ mod tests {
         let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
         for ((id, node), &left) in (0..).zip(0..).zip(left) {
             let (to, message) = (Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
-            apply(What::Sent { id, from: Party::Parent, to, message, bytes: 0, arrives: Time::ZERO });
-            apply(What::Received { id, by: to });
+            apply(RecordKind::Sent { id, from: Party::Parent, to, message, bytes: 0, arrives: Time::ZERO });
+            apply(RecordKind::Received { id, by: to });
         }
-        asleep.iter().for_each(|&node| apply(What::Retired { node }));
-        conditions.iter().for_each(|&(node, condition)| apply(What::Condition { node, condition }));
+        asleep.iter().for_each(|&node| apply(RecordKind::Retired { node }));
+        conditions.iter().for_each(|&(node, condition)| apply(RecordKind::Condition { node, condition }));
         standing(&state)
     }
 

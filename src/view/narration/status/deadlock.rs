@@ -2,7 +2,7 @@
 
 use crate::balance::{Condition, NodeId, Party, Remedy, Strategy};
 use crate::language::{say, word};
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
@@ -40,7 +40,7 @@ pub(crate) fn hung(state: &RunState) -> Option<String> {
 pub(crate) fn why(state: &RunState) -> Option<String> {
     let failed = |(node, of): (NodeId, &NodeState)| (!of.spare && of.condition != Condition::Well).then_some(node);
     let failed: Vec<NodeId> = (0..).zip(state.nodes()).filter_map(failed).collect();
-    let lost = state.places().iter().filter(|place| **place == Place::Lost).count() as u32;
+    let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
     let who = names(&failed);
     match *failed {
         [] if lost == 0 => None,

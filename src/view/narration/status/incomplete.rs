@@ -27,7 +27,7 @@ pub fn unfinished_words(state: &RunState) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
@@ -36,11 +36,11 @@ mod tests {
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 900);
         let mut state = RunState::new(&header);
         let records = sample_runs::records(&header);
-        let until = records.iter().rposition(|record| matches!(record.what, What::AtomDone { .. }));
+        let until = records.iter().rposition(|record| matches!(record.what, RecordKind::AtomDone { .. }));
         records[..until.expect("atoms")].iter().for_each(|record| state.apply(record));
         assert_eq!(unfinished_words(&state), "The record ends here, with 99 % of the picture", "somebody computes");
         let at = Time::from_secs(9e3);
-        (0..3).for_each(|node| state.apply(&Record { at, what: What::Paused { node } }));
+        (0..3).for_each(|node| state.apply(&Record { at, what: RecordKind::Paused { node } }));
         let told = unfinished_words(&state);
         assert!(told.ends_with(" is paused and keeps the atom in its pipe"), "{told}");
     }

@@ -240,7 +240,7 @@ fn retired(state: &RunState) -> Vec<NodeId> {
 mod tests {
     use super::*;
     use crate::balance::{Message, Party};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
@@ -255,11 +255,11 @@ mod tests {
         for ((id, node), &(left, speed)) in (0..).zip(0..).zip(machines) {
             let (to, message) = (Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
             let (from, at) = (Party::Parent, Time::ZERO);
-            apply(What::Sent { id, from, to, message, bytes: 0, arrives: at });
-            apply(What::Received { id, by: to });
-            apply(if speed == PAUSED { What::Paused { node } } else { What::SpeedSet { node, speed } });
+            apply(RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at });
+            apply(RecordKind::Received { id, by: to });
+            apply(if speed == PAUSED { RecordKind::Paused { node } } else { RecordKind::SpeedSet { node, speed } });
         }
-        retired.iter().for_each(|&node| apply(What::Retired { node }));
+        retired.iter().for_each(|&node| apply(RecordKind::Retired { node }));
         state
     }
 

@@ -152,7 +152,7 @@ fn some_wait(some: &[NodeId]) -> String {
 mod tests {
     use super::*;
     use crate::balance::{Message, Party, Strategy};
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::runlog::{Driver, Header};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
@@ -170,17 +170,17 @@ mod tests {
         let mut state = RunState::new(&header);
         let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
         let mut send = |id, from, to, message| {
-            apply(What::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO });
-            apply(What::Received { id, by: to });
+            apply(RecordKind::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO });
+            apply(RecordKind::Received { id, by: to });
         };
         for ((id, node), &(left, _)) in (0..).zip(0..).zip(machines) {
             send(id, Party::Parent, Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
         }
         (90..).zip(asking).for_each(|(id, &node)| send(id, Party::Node(node), Party::Parent, Message::Request));
         for (node, &(_, speed)) in (0..).zip(machines) {
-            apply(What::SpeedSet { node, speed });
+            apply(RecordKind::SpeedSet { node, speed });
         }
-        retired.iter().for_each(|&node| apply(What::Retired { node }));
+        retired.iter().for_each(|&node| apply(RecordKind::Retired { node }));
         without_ring(&state)
     }
 

@@ -6,7 +6,7 @@ use super::RunState;
 use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::Atom;
 use crate::time::Time;
-use crate::view::state::atom_state::Place;
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::flight::{Cargo, Flight};
 
 impl RunState {
@@ -35,7 +35,7 @@ impl RunState {
         let Party::Node(from) = flight.from else { return };
         match &flight.cargo {
             Cargo::Transfer(ranges) => {
-                let with_it = |place: &Place| matches!(place, Place::With { node, .. } if *node == from);
+                let with_it = |place: &AtomState| matches!(place, AtomState::With { node, .. } if *node == from);
                 self.lose(ranges.iter().cloned().flatten(), with_it);
             }
             Cargo::Results(ranges) => {
@@ -79,7 +79,7 @@ impl RunState {
 
     /// How many of these atoms a node does not have yet.
     pub(super) fn new_to(&self, node: NodeId, atoms: impl Iterator<Item = Atom>) -> u32 {
-        let has = |place: &Place| matches!(place, Place::With { node: with, .. } if *with == node);
+        let has = |place: &AtomState| matches!(place, AtomState::With { node: with, .. } if *with == node);
         atoms.filter(|&atom| !self.places.get(atom as usize).is_some_and(has)).count() as u32
     }
 
@@ -87,7 +87,7 @@ impl RunState {
     pub(super) fn count_late(&mut self, atom: Atom, by: NodeId, at: Time) {
         let order = self.done();
         self.orders[atom as usize] = order;
-        self.places[atom as usize] = Place::traced(by, std::time::Duration::ZERO, at);
+        self.places[atom as usize] = AtomState::traced(by, std::time::Duration::ZERO, at);
         self.places[atom as usize].place();
         if let Some(node) = self.node(by) {
             node.done += 1;
@@ -110,12 +110,12 @@ impl RunState {
     }
 
     /// Those of these atoms that stand so are lost. Returns how many.
-    fn lose(&mut self, atoms: impl Iterator<Item = Atom>, stands: impl Fn(&Place) -> bool) -> u32 {
+    fn lose(&mut self, atoms: impl Iterator<Item = Atom>, stands: impl Fn(&AtomState) -> bool) -> u32 {
         let mut lost = 0;
         for atom in atoms {
             let Some(place) = self.places.get_mut(atom as usize).filter(|place| stands(place)) else { continue };
-            let before = std::mem::replace(place, Place::Lost);
-            if let Place::Traced { by, cost, .. } = before {
+            let before = std::mem::replace(place, AtomState::Lost);
+            if let AtomState::Traced { by, cost, .. } = before {
                 self.cost -= f64::from(cost);
                 if let Some(owner) = self.nodes.get_mut(usize::from(by)) {
                     owner.done = owner.done.saturating_sub(1);
@@ -132,7 +132,7 @@ impl RunState {
 mod tests {
     use super::*;
     use crate::balance::Strategy;
-    use crate::record::{Record, What};
+    use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
     use crate::scenario::Command;
     use crate::sim::Sim;
@@ -161,11 +161,11 @@ mod tests {
             assert!(state.done() <= 900);
             let traced = state.places().iter().filter(|place| place.owner().is_some()).count();
             assert_eq!(traced as u32, state.done(), "{record:?}");
-            if let What::Condition { condition: Condition::Off, .. } = record.what {
+            if let RecordKind::Condition { condition: Condition::Off, .. } = record.what {
                 let node = &state.nodes()[1];
                 assert_eq!((node.left(), node.atom, node.retired), (0, None, false));
                 assert!(node.took > 50, "{}", node.took);
-                were_lost = state.places().iter().filter(|place| **place == Place::Lost).count();
+                were_lost = state.places().iter().filter(|place| **place == AtomState::Lost).count();
             }
         }
         assert!(were_lost > 50, "{were_lost}");
@@ -180,7 +180,7 @@ mod tests {
         let mut state = RunState::new(&header);
         records.iter().for_each(|record| state.apply(record));
         assert!(state.finished().is_none());
-        let lost = state.places().iter().filter(|place| **place == Place::Lost).count() as u32;
+        let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
         assert!(lost > 50 && state.done() + lost <= 900, "{lost} {}", state.done());
     }
 
@@ -190,7 +190,7 @@ mod tests {
         let mut state = RunState::new(&header);
         records.iter().take(200).for_each(|record| state.apply(record));
         assert_eq!(state.nodes().iter().map(|node| node.spare).collect::<Vec<_>>(), [false, false, false, true]);
-        let what = What::Condition { node: 3, condition: Condition::Well };
+        let what = RecordKind::Condition { node: 3, condition: Condition::Well };
         state.apply(&Record { at: state.head(), what });
         assert!(!state.nodes()[3].spare && state.nodes()[3].condition == Condition::Well);
         assert_eq!(state.gone, [3], "until the parent hears of it");

@@ -7,14 +7,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::time::Duration;
 
-use super::atom_state::Place;
+use super::atom_state::AtomState;
 use super::flight::Flight;
 use super::flights::Flights;
 use super::node_state::{NodeState, Parcels};
 use super::scheduler::Sharing;
 use crate::balance::{NodeId, Party, Remedies, Remedy};
 use crate::picture::{Atom, Division};
-use crate::record::{Record, What};
+use crate::record::{Record, RecordKind};
 use crate::runlog::{Driver, Header};
 use crate::time::Time;
 
@@ -25,7 +25,7 @@ use crate::time::Time;
 pub struct RunState {
     pub(crate) nodes: Vec<NodeState>,
     /// By atom.
-    places: Vec<Place>,
+    places: Vec<AtomState>,
     /// By atom: how many were traced before it.
     orders: Vec<u32>,
     /// Seconds of CPU time that all traced atoms took.
@@ -75,7 +75,7 @@ impl RunState {
         let spares: Vec<_> = (0..header.speeds.len() as NodeId).filter(|&node| header.is_spare(node)).collect();
         Self {
             nodes: (0..).zip(&header.speeds).map(|(id, &speed)| NodeState::new(speed, header.is_spare(id))).collect(),
-            places: vec![Place::Nowhere; header.division.atoms() as usize],
+            places: vec![AtomState::Nowhere; header.division.atoms() as usize],
             orders: vec![0; header.division.atoms() as usize],
             cost: 0.0,
             flights: Flights::default(),
@@ -105,14 +105,14 @@ impl RunState {
         let at = record.at;
         self.head = self.head.max(at);
         match &record.what {
-            What::Sent { id, from, to, message, arrives, .. } => {
+            RecordKind::Sent { id, from, to, message, arrives, .. } => {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
                 }
                 self.said(*from, message, at);
                 self.sent(*id, Flight::new(*id, (*from, *to), message, at, *arrives));
             }
-            What::Received { id, by } => {
+            RecordKind::Received { id, by } => {
                 if *by == Party::Parent {
                     (self.arrived.messages, self.parent_head) = (self.arrived.messages + 1, self.parent_head.max(at));
                 }
@@ -121,31 +121,31 @@ impl RunState {
                     None => _ = self.early.insert(*id),
                 }
             }
-            What::AtomStarted { node, atom } => {
+            RecordKind::AtomStarted { node, atom } => {
                 if let Some(state) = self.node(*node) {
                     // Whoever slept has been given something.
                     (state.atom, state.retired) = (Some(*atom), false);
                     self.touched.push(*atom..*atom + 1);
                 }
             }
-            What::AtomDone { node, atom, cost } => self.atom_done(*node, *atom, *cost, at),
-            What::SpeedSet { node, speed } => _ = self.node(*node).map(|state| state.set_speed(*speed, at)),
-            What::Paused { node } => _ = self.node(*node).map(|state| state.set_paused(true, at)),
-            What::Resumed { node } => _ = self.node(*node).map(|state| state.set_paused(false, at)),
-            What::LatencySet { latency } => self.latency = *latency,
-            What::Retired { node } => {
+            RecordKind::AtomDone { node, atom, cost } => self.atom_done(*node, *atom, *cost, at),
+            RecordKind::SpeedSet { node, speed } => _ = self.node(*node).map(|state| state.set_speed(*speed, at)),
+            RecordKind::Paused { node } => _ = self.node(*node).map(|state| state.set_paused(true, at)),
+            RecordKind::Resumed { node } => _ = self.node(*node).map(|state| state.set_paused(false, at)),
+            RecordKind::LatencySet { latency } => self.latency = *latency,
+            RecordKind::Retired { node } => {
                 if let Some(state) = self.node(*node) {
                     (state.retired, state.offer_out) = (true, false);
                 }
             }
-            What::Condition { node, condition } => self.condition_set(*node, *condition, at),
-            What::Lost { id } => self.lost(*id, at),
-            What::AtomFailed { node, .. } => _ = self.node(*node).map(NodeState::atom_failed),
-            What::Delayed { from, to, until } => self.delayed((*from, *to), at, *until),
-            What::Link { .. } | What::GivenUp { .. } => {}
-            What::Estimating => self.is_estimating = true,
-            What::Estimated { .. } => self.is_estimating = false,
-            What::Finished => self.finished = Some(at),
+            RecordKind::Condition { node, condition } => self.condition_set(*node, *condition, at),
+            RecordKind::Lost { id } => self.lost(*id, at),
+            RecordKind::AtomFailed { node, .. } => _ = self.node(*node).map(NodeState::atom_failed),
+            RecordKind::Delayed { from, to, until } => self.delayed((*from, *to), at, *until),
+            RecordKind::Link { .. } | RecordKind::GivenUp { .. } => {}
+            RecordKind::Estimating => self.is_estimating = true,
+            RecordKind::Estimated { .. } => self.is_estimating = false,
+            RecordKind::Finished => self.finished = Some(at),
         }
     }
 
@@ -155,7 +155,7 @@ impl RunState {
     }
 
     /// Where each atom stands.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[AtomState] {
         &self.places
     }
 
@@ -251,7 +251,7 @@ impl RunState {
             // Of an atom that is traced twice the first result counts.
             let counts = place.owner().is_none();
             // The parent may have told of it before its worker.
-            if let Place::Traced { by, cost: known, .. } = place
+            if let AtomState::Traced { by, cost: known, .. } = place
                 && *by == node
                 && *known == 0.0
             {
@@ -261,7 +261,7 @@ impl RunState {
             if counts {
                 self.orders[atom as usize] = order;
                 self.cost += cost.as_secs_f64();
-                *place = Place::traced(node, cost, at);
+                *place = AtomState::traced(node, cost, at);
             }
             if self.early_atoms.remove(&atom) {
                 place.place();
@@ -293,19 +293,22 @@ mod tests {
     /// Who wrote a record down.
     fn party(record: &Record) -> Party {
         match &record.what {
-            What::Sent { from, .. } => *from,
-            What::Received { by, .. } => *by,
-            What::AtomStarted { node, .. }
-            | What::AtomDone { node, .. }
-            | What::SpeedSet { node, .. }
-            | What::Paused { node }
-            | What::Resumed { node }
-            | What::Condition { node, .. }
-            | What::AtomFailed { node, .. }
-            | What::Retired { node } => Party::Node(*node),
-            What::Delayed { to, .. } => *to,
-            What::Link { .. } | What::Lost { .. } | What::GivenUp { .. } => Party::Parent,
-            What::LatencySet { .. } | What::Estimating | What::Estimated { .. } | What::Finished => Party::Parent,
+            RecordKind::Sent { from, .. } => *from,
+            RecordKind::Received { by, .. } => *by,
+            RecordKind::AtomStarted { node, .. }
+            | RecordKind::AtomDone { node, .. }
+            | RecordKind::SpeedSet { node, .. }
+            | RecordKind::Paused { node }
+            | RecordKind::Resumed { node }
+            | RecordKind::Condition { node, .. }
+            | RecordKind::AtomFailed { node, .. }
+            | RecordKind::Retired { node } => Party::Node(*node),
+            RecordKind::Delayed { to, .. } => *to,
+            RecordKind::Link { .. } | RecordKind::Lost { .. } | RecordKind::GivenUp { .. } => Party::Parent,
+            RecordKind::LatencySet { .. }
+            | RecordKind::Estimating
+            | RecordKind::Estimated { .. }
+            | RecordKind::Finished => Party::Parent,
         }
     }
 
@@ -364,9 +367,9 @@ mod tests {
             (state.nodes[1].paused, state.nodes[1].speed, state.latency())
         };
         let (before, after) = (Duration::from_millis(40), Duration::from_millis(200));
-        assert_eq!(apply(What::Paused { node: 1 }), (true, 0.5, before));
-        assert_eq!(apply(What::LatencySet { latency: after }), (true, 0.5, after));
-        assert_eq!(apply(What::Resumed { node: 1 }), (false, 0.5, after));
+        assert_eq!(apply(RecordKind::Paused { node: 1 }), (true, 0.5, before));
+        assert_eq!(apply(RecordKind::LatencySet { latency: after }), (true, 0.5, after));
+        assert_eq!(apply(RecordKind::Resumed { node: 1 }), (false, 0.5, after));
     }
 
     #[test]
@@ -374,10 +377,10 @@ mod tests {
         let mut state = RunState::new(&sample_runs::header(&[1.0], 2));
         let offer = Message::offer(9, 0);
         let (from, to, at) = (Party::Node(9), Party::Node(8), Time::ZERO);
-        state.apply(&Record { at, what: What::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
-        state.apply(&Record { at, what: What::Received { id: 0, by: to } });
-        state.apply(&Record { at, what: What::AtomDone { node: 9, atom: 77, cost: Duration::ZERO } });
-        state.apply(&Record { at, what: What::Paused { node: 9 } });
+        state.apply(&Record { at, what: RecordKind::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
+        state.apply(&Record { at, what: RecordKind::Received { id: 0, by: to } });
+        state.apply(&Record { at, what: RecordKind::AtomDone { node: 9, atom: 77, cost: Duration::ZERO } });
+        state.apply(&Record { at, what: RecordKind::Paused { node: 9 } });
         assert!(state.flights().is_empty());
         assert_eq!(state.done(), 0);
     }
