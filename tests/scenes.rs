@@ -95,7 +95,7 @@ fn solids_that_transmit_do_not_overlap() {
         tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
             if path.kind == RayKind::Refracted && path.to.is_finite() {
                 let middle = path.ray.at(path.to / 2.0);
-                let around = glasses.iter().filter(|solid| solid.holds(middle)).count();
+                let around = glasses.iter().filter(|solid| solid.contains(middle)).count();
                 assert!(around < 2, "{name}: {around} around {middle}");
             }
         });

@@ -51,7 +51,7 @@ pub struct QuadricCoefficients {
 
 impl Primitive {
     /// Whether `p`, in the primitive's own coordinates, is in it or on its boundary.
-    pub fn holds(&self, p: DVec3) -> bool {
+    pub fn contains(&self, p: DVec3) -> bool {
         let across = p.x * p.x + p.z * p.z;
         match self {
             Self::Sphere => p.length_squared() <= 1.0,

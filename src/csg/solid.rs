@@ -26,15 +26,15 @@ pub enum Solid {
 
 impl Solid {
     /// Whether `point` is in the solid; for points on its boundary the answer may be either.
-    pub fn holds(&self, point: DVec3) -> bool {
+    pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Placed { primitive, scene_from_own, .. } => {
-                primitive.holds(scene_from_own.inverse().transform_point3(point))
+                primitive.contains(scene_from_own.inverse().transform_point3(point))
             }
-            Self::Union(solids) => solids.iter().any(|solid| solid.holds(point)),
-            Self::Intersection(solids) => !solids.is_empty() && solids.iter().all(|solid| solid.holds(point)),
+            Self::Union(solids) => solids.iter().any(|solid| solid.contains(point)),
+            Self::Intersection(solids) => !solids.is_empty() && solids.iter().all(|solid| solid.contains(point)),
             Self::Difference(solids) => match solids.split_first() {
-                Some((first, others)) => first.holds(point) && !others.iter().any(|solid| solid.holds(point)),
+                Some((first, others)) => first.contains(point) && !others.iter().any(|solid| solid.contains(point)),
                 None => false,
             },
         }

@@ -6,7 +6,7 @@ use super::coincidence::{coincide, without_slivers};
 use super::merge::{Operation, merge};
 use super::span::Span;
 use super::{Crossing, Leaf, Passes, Surface};
-use crate::geometry::{Aabb, Ray, greater, lesser};
+use crate::geometry::{Aabb, Ray, fast_max, fast_min};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
 #[derive(Debug, Default)]
@@ -287,10 +287,10 @@ impl Tree {
                 // Nothing outside the first operand's spans can matter any more.
                 let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
                 if enter.t.is_finite() {
-                    window[0] = greater(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
+                    window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
                 }
                 if leave.t.is_finite() {
-                    window[1] = lesser(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
+                    window[1] = fast_min(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
                 }
             }
         }

@@ -146,7 +146,7 @@ impl Endpoint {
 
     /// Something becomes of the party's machine: notes it down, and what has arrived there and is lost with it. Whether
     /// anything has changed; nothing does once the run is over.
-    pub fn put(&mut self, condition: Condition) -> bool {
+    pub fn set_condition(&mut self, condition: Condition) -> bool {
         let Party::Node(node) = self.me else { return false };
         // What is off cannot hang.
         let is_void = condition == self.condition || (self.condition, condition) == (Condition::Off, Condition::Hung);

@@ -161,10 +161,10 @@ mod tests {
         let mut pair = Pair::new();
         pair.hearer.set_timer(Time(150));
         [100, 200].into_iter().for_each(|at| pair.send(at));
-        assert!(pair.hearer.put(Condition::Hung) && !pair.hearer.put(Condition::Hung));
+        assert!(pair.hearer.set_condition(Condition::Hung) && !pair.hearer.set_condition(Condition::Hung));
         assert_eq!(pair.hear(300), "");
         pair.send(400);
-        assert!(pair.hearer.put(Condition::Well));
+        assert!(pair.hearer.set_condition(Condition::Well));
         assert_eq!(pair.hear(500), "mmtmRRR");
     }
 
@@ -172,14 +172,14 @@ mod tests {
     fn who_is_off_never_hears_not_even_of_what_was_there() {
         let mut pair = Pair::new();
         pair.hearer.set_timer(Time(150));
-        pair.hearer.put(Condition::Hung);
+        pair.hearer.set_condition(Condition::Hung);
         pair.send(100);
         assert_eq!(pair.hear(110), "");
-        pair.hearer.put(Condition::Off);
+        pair.hearer.set_condition(Condition::Off);
         assert_eq!(pair.hear(120), "L");
         pair.send(200);
         assert_eq!(pair.hear(300), "L");
-        pair.hearer.put(Condition::Well);
+        pair.hearer.set_condition(Condition::Well);
         pair.send(400);
         assert_eq!(pair.hear(500), "mR");
     }
@@ -194,10 +194,10 @@ mod tests {
         pair.shared.losses.cut_link(ONE, TWO, false);
         assert_eq!(pair.hear(300), "", "it would not have arrived yet");
         assert_eq!(pair.hear(400), "L", "though the link is whole again");
-        pair.hearer.put(Condition::CutOff);
+        pair.hearer.set_condition(Condition::CutOff);
         pair.send(500);
         assert_eq!(pair.hear(600), "L");
-        pair.hearer.put(Condition::Well);
+        pair.hearer.set_condition(Condition::Well);
         pair.send(700);
         assert_eq!(pair.hear(800), "mR");
     }
@@ -220,12 +220,12 @@ mod tests {
     fn whoever_cannot_hear_of_the_end_ends_with_the_run() {
         let ends = |condition: Condition, link: Option<(Party, Party)>| {
             let mut pair = Pair::new();
-            pair.hearer.put(condition);
+            pair.hearer.set_condition(condition);
             link.into_iter().for_each(|(one, other)| _ = pair.shared.losses.cut_link(one, other, true));
             let before = pair.hearer.step(|_| {}).is_err();
             pair.shared.finish();
             // It is too late for that.
-            pair.hearer.put(Condition::Well);
+            pair.hearer.set_condition(Condition::Well);
             (before, pair.hearer.step(|_| {}).is_err())
         };
         assert_eq!(ends(Condition::Well, None), (false, false));

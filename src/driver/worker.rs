@@ -194,13 +194,13 @@ impl Worker {
         while let Some(incoming) = self.port.next(horizon(self)) {
             match incoming {
                 Incoming::Event(event, _) => duties.event(event, self),
-                Incoming::Command(command) => self.obey(command, duties),
+                Incoming::Command(command) => self.handle_command(command, duties),
                 Incoming::WorkerOrder(order) => duties.order(order, self),
             }
         }
     }
 
-    fn obey(&mut self, command: Command, duties: &mut impl WorkerHandler) {
+    fn handle_command(&mut self, command: Command, duties: &mut impl WorkerHandler) {
         let (node, at) = (self.id, self.port.time());
         let what = match command {
             Command::Speed { speed, .. } => {
@@ -213,7 +213,7 @@ impl Worker {
                 self.stand_still(at);
                 if paused { RecordKind::Paused { node } } else { RecordKind::Resumed { node } }
             }
-            Command::Condition { condition, .. } => return self.put(condition, duties),
+            Command::Condition { condition, .. } => return self.set_condition(condition, duties),
             Command::Delay { from, .. } => return self.port.delayed(from),
             Command::Link { .. } | Command::Latency(_) => {
                 unreachable!("the parent notes down what is done to the network")
@@ -224,9 +224,9 @@ impl Worker {
     }
 
     /// Something becomes of the machine.
-    fn put(&mut self, condition: Condition, duties: &mut impl WorkerHandler) {
+    fn set_condition(&mut self, condition: Condition, duties: &mut impl WorkerHandler) {
         let (before, at) = (self.port.condition(), self.port.time());
-        if !self.port.put(condition) {
+        if !self.port.set_condition(condition) {
             return;
         }
         self.stand_still(at);

@@ -28,15 +28,15 @@ impl Ray {
     /// `direction` must have length 1.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         const LARGEST: f64 = 1e300;
-        let inverse = direction.map(|component| lesser(greater(1.0 / component, -LARGEST), LARGEST));
+        let inverse = direction.map(|component| fast_min(fast_max(1.0 / component, -LARGEST), LARGEST));
         let size = origin.abs();
-        Self { origin, direction, inverse, scale: greater(greater(size.x, size.y), size.z) }
+        Self { origin, direction, inverse, scale: fast_max(fast_max(size.x, size.y), size.z) }
     }
 
     /// The ray that goes on from the point at distance `t` of this one.
     pub fn onward(&self, t: f64, direction: DVec3) -> Self {
         let mut ray = Self::new(self.at(t), direction);
-        ray.scale = greater(greater(ray.scale, self.scale), t);
+        ray.scale = fast_max(fast_max(ray.scale, self.scale), t);
         ray
     }
 
@@ -123,21 +123,21 @@ impl Aabb {
     pub fn stay(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
         let a = (self.min - ray.origin) * ray.inverse;
         let b = (self.max - ray.origin) * ray.inverse;
-        let near = greater(greater(lesser(a.x, b.x), lesser(a.y, b.y)), greater(lesser(a.z, b.z), from));
-        let far = lesser(lesser(greater(a.x, b.x), greater(a.y, b.y)), lesser(greater(a.z, b.z), to));
+        let near = fast_max(fast_max(fast_min(a.x, b.x), fast_min(a.y, b.y)), fast_max(fast_min(a.z, b.z), from));
+        let far = fast_min(fast_min(fast_max(a.x, b.x), fast_max(a.y, b.y)), fast_min(fast_max(a.z, b.z), to));
         (near <= far).then_some([near, far])
     }
 }
 
 /// `f64::min` without its care for NaN: one instruction.
 #[inline(always)]
-pub fn lesser(a: f64, b: f64) -> f64 {
+pub fn fast_min(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
 /// `f64::max` without its care for NaN: one instruction.
 #[inline(always)]
-pub fn greater(a: f64, b: f64) -> f64 {
+pub fn fast_max(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 

@@ -47,7 +47,7 @@ impl Sim {
     }
 
     /// Something becomes of a node's machine.
-    pub(super) fn put(&mut self, node: NodeId, condition: Condition, tell: RecordSink<'_>) {
+    pub(super) fn set_condition(&mut self, node: NodeId, condition: Condition, tell: RecordSink<'_>) {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
         let nodes = self.nodes.len() as NodeId;
         let party = &mut self.nodes[index];

@@ -183,7 +183,7 @@ impl Sim {
                 self.note(if paused { RecordKind::Paused { node } } else { RecordKind::Resumed { node } }, tell);
                 self.go_on(node, tell);
             }
-            Command::Condition { node, condition } => self.put(node, condition, tell),
+            Command::Condition { node, condition } => self.set_condition(node, condition, tell),
             Command::Link { one, other, cut } => {
                 if !self.finished && self.faults.cut_link(one, other, cut) {
                     self.note(RecordKind::Link { one, other, cut }, tell);

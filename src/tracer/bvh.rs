@@ -1,6 +1,6 @@
 //! A hierarchy of bounding boxes over solids.
 
-use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, greater, lesser, split};
+use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, fast_max, fast_min, split};
 
 /// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
 #[derive(Debug, Default)]
@@ -137,8 +137,8 @@ impl Node {
             let distance = |places: [f64; 2]| places.map(|place| (place - origin) * inverse);
             let (a, b) = (distance(self.min[axis]), distance(self.max[axis]));
             for side in 0..2 {
-                near[side] = greater(lesser(a[side], b[side]), near[side]);
-                far[side] = lesser(greater(a[side], b[side]), far[side]);
+                near[side] = fast_max(fast_min(a[side], b[side]), near[side]);
+                far[side] = fast_min(fast_max(a[side], b[side]), far[side]);
             }
         }
         [0, 1].map(|side| if near[side] <= far[side] { near[side] } else { f64::INFINITY })

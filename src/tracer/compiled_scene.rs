@@ -79,7 +79,7 @@ impl CompiledScene {
             }
             let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
             let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
-            if let Some(material) = transmitting.filter(|_| solid.holds(scene.camera.eye)) {
+            if let Some(material) = transmitting.filter(|_| solid.contains(scene.camera.eye)) {
                 eye_media.push(Medium { root, ior: material.ior });
             }
         }
@@ -110,7 +110,7 @@ impl CompiledScene {
 /// each of them has closer bounds.
 fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
     match solid {
-        Solid::Union(solids) if is_opaque(solid, scene) && !solid.holds(scene.camera.eye) => {
+        Solid::Union(solids) if is_opaque(solid, scene) && !solid.contains(scene.camera.eye) => {
             solids.iter().for_each(|solid| split(solid, scene, parts));
         }
         _ => parts.push(solid),

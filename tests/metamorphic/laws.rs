@@ -72,15 +72,15 @@ proptest! {
             let middle = (before + t) / 2.0;
             // A point this near to a face may be on either side of it.
             if t - before > 1e-6 {
-                prop_assert_eq!(solid.holds(ray.at(middle)), !enters, "at {}", middle);
+                prop_assert_eq!(solid.contains(ray.at(middle)), !enters, "at {}", middle);
             }
             before = t;
         }
         let alternate = crossings.windows(2).all(|pair| pair[0].1 != pair[1].1 && pair[0].0 <= pair[1].0);
         prop_assert!(alternate, "{:?}", crossings);
         // From the last crossing on nothing changes.
-        let inside = crossings.last().map_or_else(|| solid.holds(ray.origin), |(_, enters)| *enters);
-        prop_assert_eq!(solid.holds(ray.at(before + 1.0)), inside);
+        let inside = crossings.last().map_or_else(|| solid.contains(ray.origin), |(_, enters)| *enters);
+        prop_assert_eq!(solid.contains(ray.at(before + 1.0)), inside);
     }
 
     #[test]

@@ -13,12 +13,12 @@ use crate::time::Time;
 
 impl AdaptiveNode {
     /// Takes another's offer if that is worth it, else passes it on; or keeps it, if its node sleeps.
-    pub(super) fn weigh(&mut self, now: Time, offer: Offer, actions: &mut Vec<Action>) {
+    pub(super) fn answer_offer(&mut self, now: Time, offer: Offer, actions: &mut Vec<Action>) {
         let woken = self.sleepers.remove(offer.who);
         let helper = Helper { speed: offer.help.speed(), done: offer.done };
         if offer.help.left.is_none() {
             self.sleepers.add(offer.who, helper);
-            self.call_for_help(now, actions);
+            self.wake_sleepers(now, actions);
             return;
         }
         let expected = self.expected(now);
@@ -39,7 +39,7 @@ impl AdaptiveNode {
     }
 
     /// Wakes those who sleep, as many as there is something for.
-    pub(super) fn call_for_help(&mut self, now: Time, actions: &mut Vec<Action>) {
+    pub(super) fn wake_sleepers(&mut self, now: Time, actions: &mut Vec<Action>) {
         while let Some((node, helper)) = self.sleepers.fastest().filter(|_| self.refused != Some(self.work.traced())) {
             let expected = self.expected(now);
             if self.share_for(now, helper, expected) == 0

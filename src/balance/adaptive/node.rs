@@ -127,11 +127,11 @@ impl AdaptiveNode {
             Event::Timer => {
                 self.timer = None;
                 self.refused = None;
-                self.call_for_help(now, actions);
+                self.wake_sleepers(now, actions);
             }
             Event::Estimated(_) => unreachable!("a node is never handed an estimate"),
         }
-        self.see_to_what_is_due(now, actions);
+        self.run_due_timers(now, actions);
     }
 
     /// An atom has left the pipe: the node goes on, or offers help.
@@ -143,7 +143,7 @@ impl AdaptiveNode {
             if self.has(Remedy::Copies) && self.work.waiting() == 0 && takes_long {
                 self.work.send_results(actions);
             }
-            self.call_for_help(now, actions);
+            self.wake_sleepers(now, actions);
             return;
         }
         match self.state {
@@ -173,14 +173,14 @@ impl AdaptiveNode {
                 if self.work.is_idle() {
                     self.offer(now, None, actions);
                 }
-                early.into_iter().for_each(|offer| self.weigh(now, offer, actions));
+                early.into_iter().for_each(|offer| self.answer_offer(now, offer, actions));
             }
             Message::Transfer(ranges) | Message::Again(ranges) => {
                 if !matches!(self.state, State::Waiting { .. }) {
                     self.state = State::Busy;
                 }
                 self.add(now, ranges, actions);
-                self.call_for_help(now, actions);
+                self.wake_sleepers(now, actions);
             }
             Message::Offer { who, help: Some(help), .. } if who == self.id => {
                 // One that was given up, and came back after all, says nothing any more.
@@ -193,7 +193,7 @@ impl AdaptiveNode {
                 self.note_hop(now, &offer);
                 match &mut self.state {
                     State::Waiting { early } => early.push(offer),
-                    _ => self.weigh(now, offer, actions),
+                    _ => self.answer_offer(now, offer, actions),
                 }
             }
             // Whoever has atoms, or an offer under way, does not sleep.

@@ -73,7 +73,7 @@ impl AdaptiveNode {
         let pause = self.lease();
         self.state = State::Asleep { again: now + pause, pause };
         actions.push(Action::Retire);
-        self.say_that_it_sleeps(now, actions);
+        self.announce_sleep(now, actions);
         // The parent may know of atoms that nobody has: not before a lease, and one that has just heard of this node is left in
         // peace for a little.
         if now.since(Time::ZERO) >= pause {
@@ -82,7 +82,7 @@ impl AdaptiveNode {
     }
 
     /// Leaves an offer with all who would be asked, for when they come to need help.
-    pub(super) fn say_that_it_sleeps(&self, now: Time, actions: &mut Vec<Action>) {
+    pub(super) fn announce_sleep(&self, now: Time, actions: &mut Vec<Action>) {
         if self.has(Remedy::Wake) {
             let mut told = Vec::new();
             for stop in 0..self.ring.stops() {
@@ -103,7 +103,7 @@ impl AdaptiveNode {
         match self.state {
             State::Offering { .. } => self.offer(now, None, actions),
             // Whoever has come back does not know that this node sleeps.
-            State::Asleep { .. } => self.say_that_it_sleeps(now, actions),
+            State::Asleep { .. } => self.announce_sleep(now, actions),
             State::Waiting { .. } | State::Busy | State::Unneeded => {}
         }
     }

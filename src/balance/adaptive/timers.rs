@@ -18,7 +18,7 @@ impl AdaptiveNode {
     }
 
     /// Does what is due, and sets the timer for what will be.
-    pub(super) fn see_to_what_is_due(&mut self, now: Time, actions: &mut Vec<Action>) {
+    pub(super) fn run_due_timers(&mut self, now: Time, actions: &mut Vec<Action>) {
         let is_due = |at: Option<Time>| at.is_some_and(|at| at <= now);
         if is_due(self.work.due()) {
             self.work.send_results(actions);
@@ -31,7 +31,7 @@ impl AdaptiveNode {
                 }
                 State::Asleep { again, pause } if again <= now => {
                     self.state = State::Asleep { again: now + pause * 2, pause: pause * 2 };
-                    self.say_that_it_sleeps(now, actions);
+                    self.announce_sleep(now, actions);
                 }
                 _ => {}
             }

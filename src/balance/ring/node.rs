@@ -74,7 +74,7 @@ impl RingNode {
                 if self.work.is_idle() {
                     self.offer(actions);
                 }
-                early.into_iter().for_each(|offer| self.weigh(offer, actions));
+                early.into_iter().for_each(|offer| self.answer_offer(offer, actions));
             }
             Message::Transfer(ranges) => {
                 assert!(matches!(self.state, State::Offering), "node {} was sent atoms it did not ask for", self.id);
@@ -90,7 +90,7 @@ impl RingNode {
                 let offer = Offer { who, done };
                 match &mut self.state {
                     State::Waiting { early } => early.push(offer),
-                    _ => self.weigh(offer, actions),
+                    _ => self.answer_offer(offer, actions),
                 }
             }
             Message::Shutdown => actions.push(Action::Finish),
@@ -99,7 +99,7 @@ impl RingNode {
     }
 
     /// Takes another's offer if that is worth it, else passes it on.
-    fn weigh(&mut self, offer: Offer, actions: &mut Vec<Action>) {
+    fn answer_offer(&mut self, offer: Offer, actions: &mut Vec<Action>) {
         let count = share(self.work.waiting(), self.work.traced(), offer.done, self.part);
         if count > 0 {
             let message = Message::Transfer(self.work.give(count));

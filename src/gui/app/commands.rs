@@ -11,22 +11,22 @@ use crate::time::Time;
 use crate::view::{StepUnit, Subject, node_name};
 
 impl App {
-    pub(super) fn obey(&mut self, command: UserCommand, ctx: &Context) {
+    pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
         // A clicker knows forward and back.
         if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
             let forward = if back { UserCommand::Beginning } else { UserCommand::Pause };
-            return self.obey(forward, ctx);
+            return self.handle_command(forward, ctx);
         }
-        if self.compare.is_open() && !self.gallery.is_open() && self.compare.obey(command) {
+        if self.compare.is_open() && !self.gallery.is_open() && self.compare.handle_command(command) {
             return;
         }
         let covers_lessons = self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open();
-        if !covers_lessons && self.learn.obey(command, &mut self.session) {
+        if !covers_lessons && self.learn.handle_command(command, &mut self.session) {
             return;
         }
         if let (true, UserCommand::Select(number)) = (self.time.is_finding(), command) {
             if let Some(jump) = self.time.choose(number.into()) {
-                self.obey(jump, ctx);
+                self.handle_command(jump, ctx);
             }
             return;
         }

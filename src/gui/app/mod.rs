@@ -221,7 +221,7 @@ impl App {
             let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time::HEIGHT + 8.0);
             let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
             if let Some(command) = time.show(ui, row).inner {
-                self.obey(command, ui.ctx());
+                self.handle_command(command, ui.ctx());
             }
         }
         self.heroes(ui);
@@ -240,7 +240,7 @@ impl App {
             };
             let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
             if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
-                self.obey(command, ui.ctx());
+                self.handle_command(command, ui.ctx());
             }
         }
         if self.save_bar.is_open() {
@@ -250,7 +250,7 @@ impl App {
             };
             let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, &subject);
             if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
-                self.obey(command, ui.ctx());
+                self.handle_command(command, ui.ctx());
             }
         }
     }
@@ -348,7 +348,7 @@ impl eframe::App for App {
         // Whoever is about to type a path means letters, wherever the focus is just then.
         let types = types || self.save_bar.is_open() || self.gallery.is_open();
         for command in keys::pressed(ui.ctx(), types) {
-            self.obey(command, ui.ctx());
+            self.handle_command(command, ui.ctx());
         }
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);

@@ -65,6 +65,6 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
     let possible = possible.into_iter().map(|(condition, words)| (condition, words.to_owned()));
     let title = say!("Machine {name}", "Máquina {name}");
     if let Some(condition) = deeds(ui, &title, possible, (session.can_fail(), hint), look) {
-        session.put(node, condition);
+        session.set_condition(node, condition);
     }
 }

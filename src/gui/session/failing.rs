@@ -28,10 +28,10 @@ impl Session {
     }
 
     /// Something becomes of a machine.
-    pub fn put(&mut self, node: NodeId, condition: Condition) {
+    pub fn set_condition(&mut self, node: NodeId, condition: Condition) {
         if self.can_fail() {
             self.return_to_present();
-            self.stage.performer.put(node, condition);
+            self.stage.performer.set_condition(node, condition);
         }
     }
 
@@ -46,7 +46,7 @@ impl Session {
     /// A machine becomes so, or well again if it is so already.
     pub fn toggle_condition(&mut self, node: NodeId, condition: Condition) {
         let is_so = self.condition(node) == condition || self.is_spare(node);
-        self.put(node, if is_so { Condition::Well } else { condition });
+        self.set_condition(node, if is_so { Condition::Well } else { condition });
     }
 
     fn machine(&self, node: NodeId) -> Option<&NodeState> {

@@ -70,7 +70,7 @@ impl RunSource {
     }
 
     /// Something becomes of a node's machine.
-    pub fn put(&self, node: NodeId, condition: Condition) {
+    pub fn set_condition(&self, node: NodeId, condition: Condition) {
         if let Self::Live(run) = self {
             run.command(Command::Condition { node, condition });
         }

@@ -163,7 +163,7 @@ impl Truth {
     }
 
     /// Whether the point at distance `t` is inside.
-    pub fn holds(&self, t: f64) -> bool {
+    pub fn contains(&self, t: f64) -> bool {
         let t = Exact::from(t);
         let is_round = ((&self.a * &t + &self.b * Exact::from(2.0)) * &t + &self.c).is_negative();
         is_round
@@ -183,7 +183,7 @@ impl Truth {
     pub fn is_missed_within(&self, places: &[f64], tolerance: f64) -> bool {
         let is_wrong = |(index, t): (usize, &f64)| {
             let enters = index % 2 == 0;
-            self.holds(t - tolerance) == enters || self.holds(t + tolerance) != enters
+            self.contains(t - tolerance) == enters || self.contains(t + tolerance) != enters
         };
         self.is_missed_by(places) || places.iter().enumerate().any(is_wrong)
     }

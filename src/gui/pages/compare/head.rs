@@ -87,11 +87,11 @@ impl Compare {
             false => (Icon::Pause, word!("Pause", "Pausar")),
         };
         if button(ui, Some(icon), name, true, Emphasis::Primary).clicked() {
-            self.obey(UserCommand::Pause);
+            self.handle_command(UserCommand::Pause);
         }
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         if let Some(command) = rate_menu::show(ui, self.time.rate()) {
-            self.obey(command);
+            self.handle_command(command);
         }
         ui.add_space(GRID);
         let shown = time_words(self.time.now(), 1.0);

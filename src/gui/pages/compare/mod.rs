@@ -175,7 +175,7 @@ impl Compare {
     }
 
     /// Does what a key asks for, if it is meant for this page.
-    pub fn obey(&mut self, command: UserCommand) -> bool {
+    pub fn handle_command(&mut self, command: UserCommand) -> bool {
         match command {
             UserCommand::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
             UserCommand::Pause => self.time.set_stands(!self.time.stands()),

@@ -146,7 +146,7 @@ impl Learn {
     }
 
     /// Does what a key asks for, if it is meant for the lesson.
-    pub fn obey(&mut self, command: UserCommand, session: &mut Session) -> bool {
+    pub fn handle_command(&mut self, command: UserCommand, session: &mut Session) -> bool {
         if self.open {
             let UserCommand::Select(number) = command else { return false };
             if let Some(lesson) = self.lessons.get(usize::from(number)) {
