@@ -1,8 +1,6 @@
 //! The language of what people read: English or Portuguese. Both stand beside each other where a sentence is made, so that
 //! none can be missing, and the compiler checks the places of both.
 
-use std::cell::Cell;
-
 use serde::{Deserialize, Serialize};
 
 /// A language that the program speaks.
@@ -15,22 +13,7 @@ pub enum Language {
     Portuguese,
 }
 
-thread_local! {
-    static SPOKEN: Cell<Language> = const { Cell::new(Language::English) };
-}
-
 impl Language {
-    /// The language that this thread speaks: English, until [`Language::speak`] says otherwise. Files, reports and the
-    /// command line are written by threads that speak English.
-    pub fn spoken() -> Self {
-        SPOKEN.get()
-    }
-
-    /// From now on this thread speaks it.
-    pub fn speak(self) {
-        SPOKEN.set(self);
-    }
-
     /// The language of a locale: `pt_BR.UTF-8` is Portuguese, and whatever we do not know English.
     pub fn of_locale(locale: &str) -> Self {
         let first = locale.split(['_', '-', '.', '@']).next().unwrap_or_default();
@@ -62,20 +45,20 @@ impl Language {
     }
 }
 
-/// A sentence in the language that is spoken, with places as in `format!`: `say!("{n} left", "restam {n}")`.
+/// Formats a sentence in a language, with places as in `format!`: `say!(language, "{n} left", "restam {n}")`.
 macro_rules! say {
-    ($english:literal, $portuguese:literal $(,)?) => {
-        match $crate::language::Language::spoken() {
+    ($language:expr, $english:literal, $portuguese:literal $(,)?) => {
+        match $language {
             $crate::language::Language::English => format!($english),
             $crate::language::Language::Portuguese => format!($portuguese),
         }
     };
 }
 
-/// Words without places in the language that is spoken: `word!("idle", "ociosa")`.
+/// Chooses between two texts without places: `word!(language, "idle", "ociosa")`.
 macro_rules! word {
-    ($english:expr, $portuguese:expr $(,)?) => {
-        match $crate::language::Language::spoken() {
+    ($language:expr, $english:expr, $portuguese:expr $(,)?) => {
+        match $language {
             $crate::language::Language::English => $english,
             $crate::language::Language::Portuguese => $portuguese,
         }
@@ -85,13 +68,13 @@ macro_rules! word {
 pub(crate) use {say, word};
 
 /// A number with so many digits after the point, or after the comma.
-pub fn decimal(number: f64, digits: usize) -> String {
-    comma(format!("{number:.digits$}"))
+pub fn decimal(language: Language, number: f64, digits: usize) -> String {
+    comma(language, format!("{number:.digits$}"))
 }
 
 /// A number that is written with a point, as the language that is spoken writes it.
-pub fn comma(number: String) -> String {
-    match Language::spoken() {
+pub fn comma(language: Language, number: String) -> String {
+    match language {
         Language::English => number,
         Language::Portuguese => number.replace('.', ","),
     }
@@ -102,12 +85,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn english_is_spoken_until_somebody_says_otherwise() {
+    fn each_language_has_its_own_text_and_decimal_mark() {
         let left = 3;
-        let said = || (say!("{left} left", "restam {left}"), word!("idle", "ociosa"), decimal(1.25, 1));
-        assert_eq!(said(), ("3 left".to_owned(), "idle", "1.2".to_owned()));
-        Language::Portuguese.speak();
-        assert_eq!(said(), ("restam 3".to_owned(), "ociosa", "1,2".to_owned()));
+        let said = |language| {
+            (
+                say!(language, "{left} left", "restam {left}"),
+                word!(language, "idle", "ociosa"),
+                decimal(language, 1.25, 1),
+            )
+        };
+        assert_eq!(said(Language::English), ("3 left".to_owned(), "idle", "1.2".to_owned()));
+        assert_eq!(said(Language::Portuguese), ("restam 3".to_owned(), "ociosa", "1,2".to_owned()));
     }
 
     #[test]

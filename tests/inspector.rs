@@ -1,6 +1,7 @@
 //! What the inspector tells of a pixel is what made it.
 
 use anel::csg::{Operation, SolidKind, SpanDiagram};
+use anel::language::Language;
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
 use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
@@ -99,6 +100,7 @@ fn assert_made_of_its_operands(figure: &SpanDiagram, name: &str) {
 
 #[test]
 fn the_command_tells_a_pixel_in_words_and_as_one_object() {
+    let language = Language::English;
     let tell = |rest: &[&str]| {
         let arguments = [&["inspect", "glass", "--pixel", "31,22", "--size", "64x48", "--samples", "2"], rest].concat();
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_anel")).args(arguments).output();
@@ -109,7 +111,7 @@ fn the_command_tells_a_pixel_in_words_and_as_one_object() {
     let (scene, size) = (Scene::parse(BUILT_IN[2].1).expect("glass"), Size::new(64, 48).expect("a small picture"));
     let tracer = Tracer::new(&scene, size, Quality { samples: 2, ..Quality::default() });
     let inspected = Inspected::new(&tracer, &scene, [31, 22]).expect("a pixel of the picture");
-    assert_eq!(tell(&[]).trim_end(), inspected.text().trim_end());
+    assert_eq!(tell(&[]).trim_end(), inspected.text(language).trim_end());
 
     let text = tell(&["--json"]);
     assert_eq!(text.trim_end().lines().count(), 1);
@@ -119,7 +121,7 @@ fn the_command_tells_a_pixel_in_words_and_as_one_object() {
     let rays: usize = samples.iter().map(|sample| sample["rays"].as_array().expect("a list").len()).sum();
     let counted = ["primary", "reflected", "refracted"].map(|kind| object["rays"][kind].as_u64().expect("a number"));
     assert_eq!((samples.len(), rays as u64), (4, counted.iter().sum()));
-    assert_eq!(object["terms"].as_array().map(Vec::len), Some(inspected.terms().len()));
+    assert_eq!(object["terms"].as_array().map(Vec::len), Some(inspected.terms(language).len()));
     assert_eq!(object["spans"].as_array().map(Vec::len), Some(inspected.figures.len()));
 }
 

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::args::InspectArgs;
 use super::{Failure, open, print};
 use crate::csg::{SolidKind, SpanDiagram};
+use crate::language::Language;
 use crate::picture::srgb8;
 use crate::scene::Scene;
 use crate::tracer::{Explained, Intersection, RayKind, RayNotes, Tracer};
@@ -24,7 +25,7 @@ pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     if args.json {
         print(&json(&inspected, &tracer, &opened.scene).to_string())
     } else {
-        print(inspected.text().trim_end())
+        print(inspected.text(Language::English).trim_end())
     }
 }
 
@@ -37,7 +38,7 @@ fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
         let colour = term.colour.to_array();
         json!({ "formula": term.formula, "meaning": term.meaning, "colour": colour, "part_of_pixel": term.part })
     };
-    let terms: Vec<_> = inspected.terms().into_iter().map(term).collect();
+    let terms: Vec<_> = inspected.terms(Language::English).into_iter().map(term).collect();
     let spans: Vec<_> = inspected.figures.iter().map(|(root, figure)| solid_json(*root, figure, scene)).collect();
     json!({
         "width": tracer.size().width(),

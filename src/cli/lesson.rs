@@ -1,6 +1,7 @@
 //! `anel lesson`: what a lesson says, and whether what it claims is true of its runs.
 
 use super::{Failure, print, progress};
+use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
 
 /// Plays a lesson's runs in virtual time and prints its steps and claims; without one, lists the built-in lessons.
@@ -8,7 +9,11 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
     let Some(argument) = argument else {
         for (name, _) in BUILT_IN {
             let lesson = Lesson::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
-            print(&format!("{name:14} {}: {}", lesson.title.spoken(), lesson.about.spoken()))?;
+            print(&format!(
+                "{name:14} {}: {}",
+                lesson.title.in_language(Language::English),
+                lesson.about.in_language(Language::English)
+            ))?;
         }
         return Ok(());
     };
@@ -26,7 +31,7 @@ pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
         let at = run.zip(step.until).and_then(|((_, run), until)| Some((run, until.of(&run.log)?.0)));
         let at = at.and_then(|(run, records)| Some(run.log.records().get(records.checked_sub(1)?)?.at));
         let at = at.map_or_else(String::new, |at| format!(" to {:.2} s", at.secs()));
-        print(&format!("{number}. [{}{at}] {}", step.run, step.say.spoken()))?;
+        print(&format!("{number}. [{}{at}] {}", step.run, step.say.in_language(Language::English)))?;
     }
     let told = lesson.check(&performed);
     for (claim, holds) in &told {

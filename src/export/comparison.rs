@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::drawing::write_drawing;
 use super::to_svg;
 use crate::balance::Strategy;
+use crate::language::Language;
 use crate::picture::Size;
 use crate::sim::Change;
 use crate::view::{PrintedDrawing, TimeBudget, trial_name};
@@ -77,14 +78,14 @@ impl Comparison {
         let runs: Vec<(&str, &TimeBudget)> =
             names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
         let title = format!("{}, {}, in virtual time", self.title, self.size);
-        let PrintedDrawing { marks, size } = PrintedDrawing::comparison(&title, &runs);
+        let PrintedDrawing { marks, size } = PrintedDrawing::comparison(&title, &runs, Language::English);
         write_drawing(to, &to_svg(&marks, size, 1), is_png)
     }
 }
 
 impl ComparisonEntry {
     fn name(&self) -> String {
-        trial_name(self.strategy, &self.changes)
+        trial_name(self.strategy, &self.changes, Language::English)
     }
 
     fn row(&self) -> ComparisonRow {

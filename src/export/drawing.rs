@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{Raster, to_hatched_svg};
+use crate::language::Language;
 use crate::picture::encode_png;
 use crate::runlog::RunLog;
 use crate::time::Time;
@@ -22,8 +23,8 @@ impl Drawing {
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
         let PrintedDrawing { marks, size } = match self {
-            Self::Ring(at) => PrintedDrawing::ring(log, at),
-            Self::Timeline => PrintedDrawing::timeline(log),
+            Self::Ring(at) => PrintedDrawing::ring(log, at, Language::English),
+            Self::Timeline => PrintedDrawing::timeline(log, Language::English),
         };
         to_hatched_svg(&marks, size, nodes)
     }

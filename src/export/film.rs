@@ -8,6 +8,7 @@ use image::imageops::{FilterType, overlay, resize};
 
 use super::animation::Animation;
 use super::{Raster, to_svg};
+use crate::language::Language;
 use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
@@ -180,15 +181,18 @@ impl<'a> FilmFrames<'a> {
         let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
-        self.drawn(&ring(&self.moment.state, &overlay, at, [width as f32, height as f32]), [width, height])
+        self.drawn(
+            &ring(&self.moment.state, &overlay, at, [width as f32, height as f32], Language::English),
+            [width, height],
+        )
     }
 
     /// Time and sentence; drawn only where they are others than before.
     fn say(&mut self, at: Time, is_last: bool) -> Result<(), String> {
-        let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0));
+        let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0), Language::English);
         let sentence = match self.outcome.filter(|_| is_last) {
             Some(_) => format!("Complete after {time}"),
-            None => self.moment.narrator.sentence(&self.moment.state, at),
+            None => self.moment.narrator.sentence(&self.moment.state, at, Language::English),
         };
         let both = format!("{time} {sentence}");
         if self.words.0 == both {

@@ -1,58 +1,63 @@
 //! What claims came to, for whoever takes the lesson.
 
 use super::{Claim, ClaimFigure, Step};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::view::{count, fraction};
 
 impl Step {
     /// What its claims came to, of which these are the values; nothing if it claims nothing.
-    pub fn checked_words(&self, values: &[Option<f64>]) -> Option<String> {
-        let told: Vec<_> =
-            self.holds.iter().zip(values).filter_map(|(claim, value)| claim.words(&self.run, (*value)?)).collect();
+    pub fn checked_words(&self, values: &[Option<f64>], language: Language) -> Option<String> {
+        let told: Vec<_> = self
+            .holds
+            .iter()
+            .zip(values)
+            .filter_map(|(claim, value)| claim.words(&self.run, (*value)?, language))
+            .collect();
         let told = told.join(" · ");
-        (!told.is_empty()).then(|| say!("Checked on these runs: {told}", "Conferido nestas execuções: {told}"))
+        (!told.is_empty())
+            .then(|| say!(language, "Checked on these runs: {told}", "Conferido nestas execuções: {told}"))
     }
 }
 
 impl Claim {
     /// Its value in words; `run` is what the step shows. `None` if there is nothing to be told that one does not see.
-    fn words(&self, run: &str, value: f64) -> Option<String> {
-        let (name, of) = (self.figure.name()?, self.of.as_deref().unwrap_or(run));
+    fn words(&self, run: &str, value: f64, language: Language) -> Option<String> {
+        let (name, of) = (self.figure.name(language)?, self.of.as_deref().unwrap_or(run));
         Some(match (&self.over, &self.of) {
-            (Some(over), _) => format!("{name}, {of} ÷ {over}: {}", decimal(value, 2)),
-            (None, Some(of)) => format!("{name}, {of}: {}", self.figure.shown(value)),
-            (None, None) => format!("{name}: {}", self.figure.shown(value)),
+            (Some(over), _) => format!("{name}, {of} ÷ {over}: {}", decimal(language, value, 2)),
+            (None, Some(of)) => format!("{name}, {of}: {}", self.figure.shown(value, language)),
+            (None, None) => format!("{name}: {}", self.figure.shown(value, language)),
         })
     }
 }
 
 impl ClaimFigure {
-    fn name(self) -> Option<&'static str> {
+    fn name(self, language: Language) -> Option<&'static str> {
         Some(match self {
-            Self::Seconds => word!("time", "tempo"),
-            Self::Efficiency => word!("efficiency", "eficiência"),
-            Self::Waiting => word!("waiting for others", "espera pelas outras"),
-            Self::Asking => word!("waiting between atoms", "espera entre átomos"),
-            Self::Starting => word!("waiting for the first atom", "espera pelo primeiro átomo"),
-            Self::Alone => word!("one machine alone", "uma máquina sozinha"),
-            Self::Last => word!("last machine", "última máquina"),
-            Self::Offers => word!("offers", "ofertas"),
-            Self::Hops => word!("offers passed on", "ofertas passadas adiante"),
-            Self::Transfers => word!("transfers", "transferências"),
-            Self::Moved => word!("atoms moved", "átomos transferidos"),
-            Self::Largest => word!("atoms in the largest transfer", "átomos na maior transferência"),
-            Self::Messages => word!("messages", "mensagens"),
-            Self::Atoms => word!("atoms", "átomos"),
-            Self::Dearest => word!("dearest atom over the mean", "átomo mais caro sobre a média"),
+            Self::Seconds => word!(language, "time", "tempo"),
+            Self::Efficiency => word!(language, "efficiency", "eficiência"),
+            Self::Waiting => word!(language, "waiting for others", "espera pelas outras"),
+            Self::Asking => word!(language, "waiting between atoms", "espera entre átomos"),
+            Self::Starting => word!(language, "waiting for the first atom", "espera pelo primeiro átomo"),
+            Self::Alone => word!(language, "one machine alone", "uma máquina sozinha"),
+            Self::Last => word!(language, "last machine", "última máquina"),
+            Self::Offers => word!(language, "offers", "ofertas"),
+            Self::Hops => word!(language, "offers passed on", "ofertas passadas adiante"),
+            Self::Transfers => word!(language, "transfers", "transferências"),
+            Self::Moved => word!(language, "atoms moved", "átomos transferidos"),
+            Self::Largest => word!(language, "atoms in the largest transfer", "átomos na maior transferência"),
+            Self::Messages => word!(language, "messages", "mensagens"),
+            Self::Atoms => word!(language, "atoms", "átomos"),
+            Self::Dearest => word!(language, "dearest atom over the mean", "átomo mais caro sobre a média"),
             Self::Ends => return None,
         })
     }
 
-    fn shown(self, value: f64) -> String {
+    fn shown(self, value: f64, language: Language) -> String {
         match self {
-            Self::Seconds => format!("{} s", decimal(value, 1)),
+            Self::Seconds => format!("{} s", decimal(language, value, 1)),
             Self::Efficiency | Self::Waiting | Self::Asking | Self::Starting | Self::Alone => fraction(value),
-            Self::Dearest => decimal(value, 1),
+            Self::Dearest => decimal(language, value, 1),
             // Counts of what happens in a run that can be shown.
             _ => count(value as u32),
         }
@@ -70,16 +75,11 @@ mod tests {
                     run: \"ring\", holds: [(figure: Seconds, over: \"bands\", at_most: 0.6), (figure: Efficiency, \
                     of: \"bands\", at_least: 0.1), (figure: Ends, at_least: 1), (figure: Offers, at_least: 1)])])";
         let lesson = Lesson::parse("mine", text).expect("a lesson");
-        let told = || lesson.steps[0].checked_words(&[Some(0.517), Some(0.5), Some(1.0), None]);
-        let told_in = |language: Language| {
-            language.speak();
-            told()
-        };
+        let told_in = |language| lesson.steps[0].checked_words(&[Some(0.517), Some(0.5), Some(1.0), None], language);
         let english = "Checked on these runs: time, ring ÷ bands: 0.52 · efficiency, bands: 50 %";
         assert_eq!(told_in(Language::English).as_deref(), Some(english));
         let portuguese = "Conferido nestas execuções: tempo, ring ÷ bands: 0,52 · eficiência, bands: 50 %";
         assert_eq!(told_in(Language::Portuguese).as_deref(), Some(portuguese));
-        Language::English.speak();
-        assert_eq!(lesson.steps[0].checked_words(&[None; 4]), None);
+        assert_eq!(lesson.steps[0].checked_words(&[None; 4], Language::English), None);
     }
 }

@@ -15,9 +15,9 @@ pub struct Words {
 }
 
 impl Words {
-    /// The text in the language that is spoken.
-    pub fn spoken(&self) -> &str {
-        match Language::spoken() {
+    /// The text in a language.
+    pub fn in_language(&self, language: Language) -> &str {
+        match language {
             Language::English => &self.english,
             Language::Portuguese => &self.portuguese,
         }

@@ -6,6 +6,7 @@ use super::fixture::STRATEGIES;
 use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
 use super::{ProgressSink, Study};
 use crate::balance::Strategy;
+use crate::language::Language;
 use crate::scene::Opened;
 use crate::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue};
 
@@ -22,11 +23,11 @@ pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
         let kind = if weak { "weak" } else { "strong" };
         for network in NETWORKS {
             let chart = efficiency(&rows, weak, network);
-            study.add_chart(&format!("{kind}-{}", file_name(network)), &chart.marks(CHART_SIZE));
+            study.add_chart(&format!("{kind}-{}", file_name(network)), &chart.marks(CHART_SIZE, Language::English));
         }
-        study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE));
+        study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE, Language::English));
     }
-    study.add_chart("ring", &decay(&rows).marks(CHART_SIZE));
+    study.add_chart("ring", &decay(&rows).marks(CHART_SIZE, Language::English));
     study.add_report(report(&rows, &scene.name));
     Ok(study)
 }

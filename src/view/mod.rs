@@ -28,6 +28,7 @@ pub use charts::time_budget_chart::{part_names, spent, spent_height, spent_words
 pub use charts::tradeoff::{Drawn, Tradeoff};
 pub use draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use inspect::{ChosenRay, Inspected, RaySpot, RayTree, SpanPlot, Term, Terms};
+pub use narration::happening::Happening;
 pub use narration::narrator::Narrator;
 pub use narration::record_sentences::{record_words, share_words};
 pub use narration::status::incomplete::unfinished_words;

@@ -12,6 +12,7 @@ use super::state::lanes::Lanes;
 use super::text::format::{duration, fraction, node_name, time_words};
 use super::timeline::time_window::TimeWindow;
 use super::timeline::{TimelineLayout, axis, timeline};
+use crate::language::Language;
 use crate::runlog::RunLog;
 use crate::sentence::shown;
 use crate::time::Time;
@@ -40,7 +41,7 @@ const LEFT: f32 = 96.0;
 impl PrintedDrawing {
     /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
     /// After the end it is as at the end.
-    pub fn ring(log: &RunLog, at: Time) -> Self {
+    pub fn ring(log: &RunLog, at: Time, language: Language) -> Self {
         /// Longer than the last message is drawn: at the end all is at rest.
         const LINGER: Duration = Duration::from_secs(5);
         let at = at.min(log.end());
@@ -52,22 +53,23 @@ impl PrintedDrawing {
         let drawn_at = if is_over { at + LINGER } else { at };
         let [width, height] = RING;
         let mut marks = Vec::new();
-        let top = heading(log, outcome.as_ref(), width, &mut marks);
+        let top = heading(log, outcome.as_ref(), width, &mut marks, language);
         let overlay = RingOverlay { outcome, ..RingOverlay::default() };
         let room = [width - 2.0 * MARGIN, height - top - 2.5 * MARGIN];
-        marks.extend(ring(state, &overlay, drawn_at, room).into_iter().map(|mark| mark.moved([MARGIN, top])));
-        let sentence = format!("At {}: {}", time_words(at, grain(log)), moment.narrator.sentence(state, at));
+        marks.extend(ring(state, &overlay, drawn_at, room, language).into_iter().map(|mark| mark.moved([MARGIN, top])));
+        let sentence =
+            format!("At {}: {}", time_words(at, grain(log), language), moment.narrator.sentence(state, at, language));
         let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);
         marks.push(label([width / 2.0, height - MARGIN], Anchor::Centre, sentence, size, Hue::Text));
         Self { marks, size: RING }
     }
 
     /// The timeline of all of a run: a lane a machine, with its number and its speed at the beginning.
-    pub fn timeline(log: &RunLog) -> Self {
+    pub fn timeline(log: &RunLog, language: Language) -> Self {
         let lanes = Lanes::of(log);
         let nodes = log.header.speeds.len();
         let mut marks = Vec::new();
-        let top = heading(log, Summary::of(log).as_ref(), WIDTH, &mut marks);
+        let top = heading(log, Summary::of(log).as_ref(), WIDTH, &mut marks, language);
         let lane = (640.0 / nodes as f32).clamp(4.0, 26.0);
         // Enough for the strip above the lanes and the axis below.
         let room = (58.0 + lane * nodes as f32).max(121.0);
@@ -93,7 +95,7 @@ impl PrintedDrawing {
             Mark::Line { points, width: 1.0, ink }
         }));
         heads(log, &plan, &mut drawn);
-        times(log, &window, &plan, &mut drawn);
+        times(log, &window, &plan, &mut drawn, language);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([LEFT, top])));
         let foot = top + plan.bottom() + plan.foot + 18.0;
         let legend = "Bars: atoms traced. Dark lines: atoms to another machine. Pale lines: offers from neighbour to \
@@ -105,13 +107,13 @@ impl PrintedDrawing {
 
 impl PrintedDrawing {
     /// Where the time of several runs went.
-    pub fn comparison(title: &str, runs: &[(&str, &TimeBudget)]) -> Self {
+    pub fn comparison(title: &str, runs: &[(&str, &TimeBudget)], language: Language) -> Self {
         const TOP: f32 = MARGIN + 36.0;
         let room = WIDTH - 2.0 * MARGIN;
         let title = shown(title, LONGEST);
         let size = fitting(&title, 1.5 * TextSize::BODY, room);
         let mut marks = vec![label([MARGIN, MARGIN + 6.0], Anchor::Left, title, size, Hue::Text)];
-        marks.extend(spent(runs, room).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
+        marks.extend(spent(runs, room, language).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
         Self { marks, size: [WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
     }
 }
@@ -131,7 +133,7 @@ fn heads(log: &RunLog, plan: &TimelineLayout, marks: &mut Vec<Mark>) {
 }
 
 /// The axis below the lanes.
-fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut Vec<Mark>) {
+fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut Vec<Mark>, language: Language) {
     let ink = Hue::Quiet.full();
     let y = plan.bottom() + 2.0;
     marks.push(Mark::Line { points: vec![[0.0, y], [plan.width, y]], width: 1.0, ink });
@@ -139,7 +141,7 @@ fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut V
     for time in times {
         let x = plan.width * window.share(time) as f32;
         marks.push(Mark::Line { points: vec![[x, y], [x, y + 5.0]], width: 1.0, ink });
-        let words = time_words(time, rate.min(grain(log)));
+        let words = time_words(time, rate.min(grain(log)), language);
         let half = TextSize::Small(1.0).width(words.chars().count()) / 2.0;
         let x = x.clamp(half.min(0.0), plan.width - half);
         let anchor = if x < half { Anchor::Left } else { Anchor::Centre };
@@ -148,7 +150,7 @@ fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut V
 }
 
 /// What the run is called, what it was, and what is said of it; returns where it ends.
-fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<Mark>) -> f32 {
+fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<Mark>, language: Language) -> f32 {
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };
@@ -157,7 +159,7 @@ fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<
         what = format!("{}, {what}", header.scene);
     }
     if let Some(outcome) = outcome {
-        what += &format!("; {}, efficiency {}", duration(outcome.makespan), fraction(outcome.efficiency));
+        what += &format!("; {}, efficiency {}", duration(outcome.makespan, language), fraction(outcome.efficiency));
     }
     let caption = &header.caption;
     let lines = [(&what, Hue::Text), (&caption.memo, Hue::Quiet), (&caption.machine, Hue::Quiet)];
@@ -209,9 +211,10 @@ mod tests {
         fn nothing_lies_beside_the_sheet(
             speeds in prop::collection::vec(0.05..1.0f64, 1..40), atoms in 1..400u32, at in 0.0..20.0f64, title in ".{0,300}",
         ) {
+        let language = Language::English;
             let mut log = sample_runs::log(&speeds, atoms);
             log.header.caption.title = title;
-            for paper in [PrintedDrawing::ring(&log, Time::from_secs(at)), PrintedDrawing::timeline(&log)] {
+            for paper in [PrintedDrawing::ring(&log, Time::from_secs(at), language), PrintedDrawing::timeline(&log, language)] {
                 let [width, height] = paper.size;
                 let inside = |[x, y]: Point| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
                 for mark in &paper.marks {
@@ -232,23 +235,30 @@ mod tests {
 
     #[test]
     fn a_sheet_says_what_it_is_of() {
+        let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
         let caption = Metadata { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
         let mut named = RunLog::new(Header { caption, ..log.header.clone() });
         named.add(log.records().to_vec());
-        for paper in [PrintedDrawing::ring(&named, Time::from_secs(1.0)), PrintedDrawing::timeline(&named)] {
+        for paper in
+            [PrintedDrawing::ring(&named, Time::from_secs(1.0), language), PrintedDrawing::timeline(&named, language)]
+        {
             let texts = texts(&paper);
             for said in ["A slow third", "for a talk", "some CPU", "3", "10 %"] {
                 assert!(texts.iter().any(|text| text.contains(said)), "{said}: {texts:?}");
             }
         }
-        assert!(texts(&PrintedDrawing::timeline(&log)).contains(&"sample"), "without a title it is the scene");
+        assert!(
+            texts(&PrintedDrawing::timeline(&log, language)).contains(&"sample"),
+            "without a title it is the scene"
+        );
     }
 
     #[test]
     fn the_ring_shows_its_moment() {
+        let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
-        let at = |secs| texts(&PrintedDrawing::ring(&log, Time::from_secs(secs))).join("\n");
+        let at = |secs| texts(&PrintedDrawing::ring(&log, Time::from_secs(secs), language)).join("\n");
         assert!(at(0.0).contains("0 %") && at(0.0).contains("At 0.0"), "{}", at(0.0));
         assert!(at(1e6).contains("efficiency") && !at(1.0).contains("start to finish"), "{}", at(1e6));
     }

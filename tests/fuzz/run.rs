@@ -7,6 +7,7 @@ use std::sync::Arc;
 use anel::balance::{NodeId, Strategy};
 use anel::driver::{Retrace, Update};
 use anel::gui::Settings;
+use anel::language::Language;
 use anel::picture::{Colour, Frame};
 use anel::runlog::{Header, Metrics, RunLog};
 use anel::sim::Sim;
@@ -25,6 +26,7 @@ const LARGE: u32 = 10_000;
 
 /// Loads a run and does everything to it. Returns whether it could be loaded.
 pub fn show(file: &Path) -> bool {
+    let language = Language::English;
     let log = match RunLog::load(file) {
         Ok(log) => log,
         Err(error) => {
@@ -33,10 +35,10 @@ pub fn show(file: &Path) -> bool {
         }
     };
     let outcome = tally(&log);
-    view(&log, outcome);
-    go_through(&log);
+    view(&log, outcome, language);
+    go_through(&log, language);
     if log.header.division.atoms() <= LARGE {
-        simulate(&log);
+        simulate(&log, language);
         retrace(log);
     }
     true
@@ -54,18 +56,18 @@ fn tally(log: &RunLog) -> Option<Summary> {
 }
 
 /// All words and drawings, in the middle and at the end.
-fn view(log: &RunLog, outcome: Option<Summary>) {
+fn view(log: &RunLog, outcome: Option<Summary>, language: Language) {
     let (mut state, mut narrator) = (RunState::new(&log.header), Narrator::default());
     let middle = log.records().len() / 2;
     for (index, record) in log.records().iter().enumerate() {
         state.apply(record);
         narrator.apply(record, &state);
         if index == middle {
-            draw(&state, &narrator, None, record.at);
+            draw(&state, &narrator, None, record.at, language);
         }
     }
-    draw(&state, &narrator, outcome, state.head());
-    draw(&state, &narrator, outcome, Time(u64::MAX));
+    draw(&state, &narrator, outcome, state.head(), language);
+    draw(&state, &narrator, outcome, Time(u64::MAX), language);
     if log.header.size.pixels() <= LARGE {
         let frame = Frame::new(log.header.size);
         let colours = vec![[200; 3]; log.header.speeds.len()];
@@ -75,7 +77,7 @@ fn view(log: &RunLog, outcome: Option<Summary>) {
 }
 
 /// Goes to and fro in its time, looks at its timeline from near and far, and asks for what there is to know.
-fn go_through(log: &RunLog) {
+fn go_through(log: &RunLog, language: Language) {
     let known = RunView::of(log);
     let (mut past, mut moment) = (SnapshotCache::default(), Snapshot::new(&log.header));
     let records = log.records().len();
@@ -89,13 +91,13 @@ fn go_through(log: &RunLog) {
                 assert!(to.is_none_or(|to| to <= records && (to > there) == forward));
                 said += &to
                     .and_then(|to| to.checked_sub(1))
-                    .map_or(String::new(), |last| record_words(&log.records()[last], &moment.state));
+                    .map_or(String::new(), |last| record_words(&log.records()[last], &moment.state, language));
             }
         }
     }
-    for mark in landmarks(log) {
-        let dossier = Details::of(mark.about, log, &known.lanes, &mut past);
-        said += &format!("{:?}{:?}", dossier.words(&moment.state, mark.at, 0.1), dossier.lit(&moment.state));
+    for mark in landmarks(log, language) {
+        let dossier = Details::of(mark.about, log, &known.lanes, &mut past, language);
+        said += &format!("{:?}{:?}", dossier.words(&moment.state, mark.at, 0.1, language), dossier.lit(&moment.state));
     }
     let end = log.records().last().map_or(Time::ZERO, |last| last.at);
     said += &format!("{:?}", known.lanes.usage(end));
@@ -106,7 +108,7 @@ fn go_through(log: &RunLog) {
         let drawn = timeline(&known.lanes, &window, &plan, end);
         assert!(drawn.quads.iter().all(|quad| quad.place.iter().all(|side| side.is_finite())));
         let (times, rate) = axis(&window, 300.0);
-        said += &times.into_iter().map(|time| time_words(time, rate)).collect::<String>();
+        said += &times.into_iter().map(|time| time_words(time, rate, language)).collect::<String>();
         for y in [0.0, 60.0, 150.0] {
             said += &format!("{:?}", timeline_at(&known.lanes, &window, &plan, [120.0, y]));
         }
@@ -116,20 +118,31 @@ fn go_through(log: &RunLog) {
     assert!(!said.contains("NaN") && !said.contains("inf"), "{said}");
 }
 
-fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Time) {
-    let marks = ring(state, &RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() }, now, [400.0, 300.0]);
+fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Time, language: Language) {
+    let marks = ring(
+        state,
+        &RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() },
+        now,
+        [400.0, 300.0],
+        language,
+    );
     let mut said = format!("{marks:?}");
     for node in 0..state.nodes().len().min(40) as NodeId {
-        said += &format!("{:?}", node_words(state, node, now));
+        said += &format!("{:?}", node_words(state, node, now, language));
     }
     for atom in 0..state.atoms().min(40) {
-        said += &atom_words(state, atom, now);
+        said += &atom_words(state, atom, now, language);
     }
-    state.flights().iter().take(40).for_each(|flight| said += &flight_words(flight));
-    said += &format!("{:?}{:?}{:?}", parent_words(state, now), small_print(state), parts_words(state));
-    said += &narrator.sentence(state, now);
-    narrator.earlier(state, now).for_each(|(_, sentence)| said += sentence);
-    said += &outcome.map(|outcome| result_words(state, &outcome)).unwrap_or_default();
+    state.flights().iter().take(40).for_each(|flight| said += &flight_words(flight, language));
+    said += &format!(
+        "{:?}{:?}{:?}",
+        parent_words(state, now, language),
+        small_print(state, language),
+        parts_words(state, language)
+    );
+    said += &narrator.sentence(state, now, language);
+    narrator.earlier(state, now).for_each(|(_, event)| said += &event.sentence(language));
+    said += &outcome.map(|outcome| result_words(state, &outcome, language)).unwrap_or_default();
     assert!(!said.contains("NaN") && !said.contains("inf,"), "{said}");
     assert_eq!(rows(state, now).len(), state.nodes().len());
     assert_eq!(shares(state).len(), state.nodes().len());
@@ -137,7 +150,7 @@ fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Ti
 
 /// As `anel render --costs` does: a run in virtual time with what the atoms cost in this one. And as the window does that
 /// makes it live.
-fn simulate(log: &RunLog) {
+fn simulate(log: &RunLog, language: Language) {
     let speeds = vec![1.0, 0.5];
     let plain = Header::plain(log.header.size, log.header.division.atom_pixels(), Strategy::StaticEstimate, speeds);
     if let Ok(mut sim) = Sim::measured(&plain, log) {
@@ -146,7 +159,7 @@ fn simulate(log: &RunLog) {
         assert!(records > log.header.division.atoms());
     }
     let settings = Settings::of(&log.header, Settings::default().tempo);
-    if let Err(why) = settings.check() {
+    if let Err(why) = settings.check(language) {
         assert_sentence(&why);
     }
 }

@@ -1,6 +1,7 @@
 //! Machines that fail, and are well again: by the menu of a row, of the ring, and by keys; and spare ones that join.
 
 use anel::balance::{Condition, Remedy, Strategy};
+use anel::language::Language;
 use anel::record::RecordKind;
 use anel::view::message_at;
 use egui::Key;
@@ -38,7 +39,8 @@ fn press_right(window: &mut Window, at: egui::Pos2) {
 }
 
 fn is_seen(window: &Window, words: &str) -> bool {
-    session(window).stage().narrator().events().any(|(_, told)| told.contains(words))
+    let language = session(window).language();
+    session(window).stage().narrator().events().any(|(_, event)| event.sentence(language).contains(words))
 }
 
 #[test]
@@ -97,6 +99,7 @@ fn keys_make_the_selected_machine_fail_and_well_again() {
 
 #[test]
 fn other_rings_can_be_broken_too_and_say_that_they_hang() {
+    let language = Language::English;
     let mut window = open(SIZE);
     press(&mut window, "Set up");
     press(&mut window, "Virtual");
@@ -109,20 +112,21 @@ fn other_rings_can_be_broken_too_and_say_that_they_hang() {
     }
     until(&mut window, "the run to hang", |window| {
         let (stage, now) = (session(window).stage(), session(window).now());
-        stage.narrator().sentence(stage.state(), now)
+        stage.narrator().sentence(stage.state(), now, language)
             == "The run hangs, since 1 is off: the article's ring has no remedy, the adaptive ring has"
     });
 }
 
 #[test]
 fn a_message_is_held_up_by_its_menu() {
+    let language = Language::English;
     let mut window = open_adaptive();
     let ring = window.get_by_label("The ring").rect();
     let message = |window: &Window| {
         let (stage, now) = (session(window).stage(), session(window).now());
         let points =
             (0..60 * 60).map(|i| [(i % 60) as f32 / 60.0 * ring.width(), (i / 60) as f32 / 60.0 * ring.height()]);
-        let found = points.map(|at| (at, message_at(stage.state(), now, ring.size().into(), at)));
+        let found = points.map(|at| (at, message_at(stage.state(), now, ring.size().into(), at, language)));
         found.filter_map(|(at, flight)| flight.map(|flight| (at, flight.from, flight.to))).next()
     };
     until(&mut window, "a message", |window| message(window).is_some());

@@ -1,5 +1,6 @@
 //! A pixel is inspected: a click shows what is known of it, arrows go on, rays are chosen, Esc closes.
 
+use anel::language::Language;
 use anel::view::Inspected;
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -37,6 +38,7 @@ fn said(window: &Window, name: &str) -> String {
 
 #[test]
 fn a_click_shows_the_pixel_arrows_go_on_and_esc_closes() {
+    let language = Language::English;
     let mut window = open(SIZE);
     assert!(window.query_by_label("The ring").is_some());
     click(&mut window, [0.5, 0.5]);
@@ -45,10 +47,10 @@ fn a_click_shows_the_pixel_arrows_go_on_and_esc_closes() {
     assert!(x.abs_diff(size.width() / 2) <= 1 && y.abs_diff(size.height() / 2) <= 1, "{x} {y}");
     assert!(window.query_by_label("The ring").is_none(), "it is in the ring's place");
     assert!(window.query_by_label(&format!("Pixel {x}, {y}")).is_some());
-    let rays = inspected(&window).sentences().swap_remove(0);
+    let rays = inspected(&window).sentences(language).swap_remove(0);
     assert!(rays.starts_with("This pixel took "));
     assert!(window.query_by_label(&rays).is_some(), "{rays}");
-    assert_eq!(said(&window, "Terms of the equation"), inspected(&window).term_words());
+    assert_eq!(said(&window, "Terms of the equation"), inspected(&window).term_words(language));
 
     for (arrow, place) in [
         (Key::ArrowRight, [x + 1, y]),
@@ -82,6 +84,7 @@ fn arrows_end_at_the_edge_of_the_picture_and_the_button_closes() {
 
 #[test]
 fn a_chosen_ray_has_other_terms_and_all_can_be_copied() {
+    let language = Language::English;
     let mut window = open_with(SIZE, "glass");
     // Where the picture shows glass, a tree has several rays.
     let places = [[0.5, 0.5], [0.4, 0.6], [0.6, 0.6], [0.3, 0.5], [0.7, 0.5], [0.5, 0.7]];
@@ -91,7 +94,7 @@ fn a_chosen_ray_has_other_terms_and_all_can_be_copied() {
     });
     assert!(found, "no pixel has several rays");
     let (before, spans) = (said(&window, "Terms of the equation"), said(&window, "Spans along the ray"));
-    let rays = inspected(&window).ray_tree(400.0).spots;
+    let rays = inspected(&window).ray_tree(400.0, language).spots;
     let other = rays.iter().find(|spot| spot.ray == 2).expect("a third ray");
     press(&mut window, &other.name);
     known(&mut window);
@@ -103,11 +106,12 @@ fn a_chosen_ray_has_other_terms_and_all_can_be_copied() {
         egui::OutputCommand::CopyText(text) => Some(text.clone()),
         _ => None,
     });
-    assert_eq!(copied, Some(inspected(&window).text()));
+    assert_eq!(copied, Some(inspected(&window).text(language)));
 }
 
 #[test]
 fn a_recorded_run_is_inspected_too_and_a_drag_inspects_nothing() {
+    let language = Language::English;
     let directory = TempDir::new().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let window = open(SIZE);
@@ -125,8 +129,8 @@ fn a_recorded_run_is_inspected_too_and_a_drag_inspects_nothing() {
     click(&mut window, [0.3, 0.7]);
     assert!(window.query_by_label("Tree of rays").is_some());
     // From the beginning, and with the same pixel.
-    let before = inspected(&window).text();
+    let before = inspected(&window).text(language);
     key(&mut window, Key::R);
     known(&mut window);
-    assert_eq!(inspected(&window).text(), before);
+    assert_eq!(inspected(&window).text(language), before);
 }

@@ -230,15 +230,16 @@ impl Walk {
     /// Every step, before a question is answered and after.
     fn take_lesson(&mut self, name: &str) {
         let lesson = Lesson::open(name).expect("a built-in lesson");
+        let language = session(&self.window).language();
         key(&mut self.window, Key::N);
         // It may stand further down the list.
-        self.window.get_by_label(lesson.title.spoken()).click_accesskit();
+        self.window.get_by_label(lesson.title.in_language(language)).click_accesskit();
         self.until("the lesson", |window| window.state().lesson() == Some((name, 0)));
         for (place, step) in lesson.steps.iter().enumerate() {
             let page = format!("{name}, step {}", place + 1);
             self.look(&page, Hidden::Nothing);
             if let Some(question) = &step.ask {
-                press(&mut self.window, question.answers[0].spoken());
+                press(&mut self.window, question.answers[0].in_language(language));
                 self.look(&format!("{page}, answered"), Hidden::Nothing);
             }
             // Whoever is in a hurry comes to the end of the step first.

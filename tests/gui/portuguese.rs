@@ -187,7 +187,9 @@ fn a_run_is_told_anew_when_the_language_changes() {
     shift_l(&mut window);
     window.get_by_label("Result");
     window.get_by_role_and_label(Role::Button, "Restart");
-    let events: Vec<_> = session(&window).stage().narrator().events().map(|(_, words)| words.to_owned()).collect();
+    let language = session(&window).language();
+    let events = session(&window).stage().narrator().events();
+    let events: Vec<_> = events.map(|(_, event)| event.sentence(language)).collect();
     assert!(events.iter().any(|event| event == "The picture is complete"), "{events:?}");
     assert!(events.iter().all(|event| !event.contains("máquina")), "{events:?}");
 }

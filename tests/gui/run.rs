@@ -60,7 +60,7 @@ fn a_finished_run_says_what_came_of_it_and_begins_anew() {
     press(&mut window, "Full speed");
     until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
     window.run_steps(2);
-    let outcome = session(&window).stage().result().expect("an outcome").outcome;
+    let outcome = session(&window).stage().result().expect("an outcome");
     let said = window.get_by_label("Result").value().unwrap_or_default();
     assert!(said.contains(&format!("efficiency {:.0} %", 100.0 * outcome.efficiency)), "{said}");
     // There is nothing to pause any more: it is shown again from its beginning.

@@ -2,6 +2,7 @@
 
 use anel::balance::{Message, Party};
 use anel::gui::Phase;
+use anel::language::Language;
 use anel::record::RecordKind;
 use anel::time::Time;
 use anel::view::{Snapshot, Subject};
@@ -39,7 +40,7 @@ fn shift(window: &mut Window, key: Key) {
 }
 
 /// All that is shown of the run, apart from its picture.
-fn seen(window: &Window) -> String {
+fn seen(window: &Window, language: Language) -> String {
     let stage = session(window).stage();
     let (state, at) = (stage.state(), stage.state().head());
     format!(
@@ -47,7 +48,7 @@ fn seen(window: &Window) -> String {
         stage.records_shown(),
         state.nodes(),
         state.places(),
-        stage.narrator().sentence(state, at)
+        stage.narrator().sentence(state, at, language)
     )
 }
 
@@ -90,18 +91,23 @@ fn a_hand_on_a_machine_brings_one_back_to_the_present() {
 
 #[test]
 fn going_to_a_time_and_playing_up_to_it_show_the_same() {
+    let language = Language::English;
     let mut window = finished();
     scrub(&mut window, 0.2);
     // As far as it is played by itself.
     until(&mut window, "some time", |window| session(window).stage().state().done() > 3_000);
     key(&mut window, Key::Space);
-    let (records, played) = (session(&window).stage().records_shown(), seen(&window));
+    let (records, played) = (session(&window).stage().records_shown(), seen(&window, language));
     let log = &session(&window).stage().log;
     let mut told = Snapshot::new(&log.header);
     log.records()[..records].iter().for_each(|record| told.apply(record));
     let state = &told.state;
-    let expected =
-        format!("{records} {:?} {:?} {}", state.nodes(), state.places(), told.narrator.sentence(state, state.head()));
+    let expected = format!(
+        "{records} {:?} {:?} {}",
+        state.nodes(),
+        state.places(),
+        told.narrator.sentence(state, state.head(), language)
+    );
     assert_eq!(played, expected);
     let now = session(&window).now();
     key(&mut window, Key::End);
@@ -109,7 +115,7 @@ fn going_to_a_time_and_playing_up_to_it_show_the_same() {
     assert_eq!((session(&window).now().0, done(&window)), (0, 0));
     window.state_mut().seek(now);
     window.step();
-    assert_eq!(seen(&window), played);
+    assert_eq!(seen(&window, language), played);
 }
 
 #[test]

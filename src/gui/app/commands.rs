@@ -12,6 +12,7 @@ use crate::view::{StepUnit, Subject, node_name};
 
 impl App {
     pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
+        let language = self.session.language();
         // A clicker knows forward and back.
         if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
             let forward = if back { UserCommand::Beginning } else { UserCommand::Pause };
@@ -58,7 +59,11 @@ impl App {
             }
             UserCommand::Copy => {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
-                session.note(word!("The picture is in the clipboard", "A imagem está na área de transferência"));
+                session.note(word!(
+                    language,
+                    "The picture is in the clipboard",
+                    "A imagem está na área de transferência"
+                ));
             }
             UserCommand::Save => self.save_bar.toggle(session),
             UserCommand::SaveRun => self.save_bar.open_for_run(session),
@@ -95,7 +100,7 @@ impl App {
             }
             UserCommand::Select(node) => {
                 let name = node_name(node);
-                session.note(say!("There is no machine {name}", "Não há máquina {name}"));
+                session.note(say!(language, "There is no machine {name}", "Não há máquina {name}"));
             }
             UserCommand::Faster | UserCommand::Slower | UserCommand::PauseNode | UserCommand::Put(_) => {
                 self.obey_for_node(command)
@@ -117,9 +122,8 @@ impl App {
                 ctx.set_theme(if ctx.theme() == Theme::Dark { Theme::Light } else { Theme::Dark });
             }
             UserCommand::Language => {
-                self.language = self.language.other();
-                self.language.speak();
-                // They are told anew.
+                session.set_language(session.language().other());
+                // Their texts are in the other language.
                 (self.hovered, self.selected) = (None, None);
             }
             UserCommand::FullScreen => {
@@ -156,8 +160,10 @@ impl App {
     }
 
     fn obey_for_node(&mut self, command: UserCommand) {
+        let language = self.session.language();
         let Some(node) = self.focus.node() else {
             return self.session.note(word!(
+                language,
                 "First select a machine: press its number, or click it",
                 "Selecionar antes uma máquina: pressionar seu número, ou clicar nela"
             ));

@@ -60,7 +60,6 @@ pub struct App {
     /// Where words about the run stand, if they do in this frame.
     words: Option<Rect>,
     begun: usize,
-    language: Language,
     /// Large, in strong colours, and nothing but what is looked at.
     projector: bool,
 }
@@ -87,13 +86,14 @@ impl App {
         let remembered: Remembered =
             storage.and_then(|storage| eframe::get_value(storage, REMEMBERED)).unwrap_or_default();
         let language = remembered.language.unwrap_or(launch.language);
-        language.speak();
         theme::install(ctx);
         test_positions::install(ctx);
         zoom::install(ctx);
         Look::set_strong(ctx, remembered.projector);
-        let settings = if remembered.settings.check().is_ok() { remembered.settings } else { Settings::default() };
+        let settings =
+            if remembered.settings.check(language).is_ok() { remembered.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
+        session.set_language(language);
         session.set_recent(remembered.recent);
         match (launch.opening, &remembered.scene) {
             (Some(opening), _) => session.show(opening),
@@ -121,7 +121,6 @@ impl App {
             lit: Highlight::default(),
             words: None,
             begun: 0,
-            language,
             projector: remembered.projector,
         }
     }
@@ -162,6 +161,7 @@ impl App {
     }
 
     fn take_dropped(&mut self, ctx: &Context) {
+        let language = self.session.language();
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         let Some(first) = dropped.first().map(|file| file.path().to_owned()) else { return };
         self.gallery.close();
@@ -170,6 +170,7 @@ impl App {
             let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let many = dropped.len();
             self.session.note(say!(
+                language,
                 "{many} files were dropped; {name} is opened",
                 "{many} arquivos foram soltos; {name} é aberto"
             ));
@@ -177,6 +178,7 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut Ui) {
+        let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
         self.words = None;
         self.bars(ui);
@@ -204,7 +206,7 @@ impl App {
         if self.shows_timeline || !self.projector {
             self.machines(ui);
         }
-        let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID);
+        let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
         let height = lesson.unwrap_or_else(|| narration::height(ui));
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
         let words = words.show(ui, |ui| {
@@ -276,6 +278,7 @@ impl App {
 
     /// Finds what stands out in this frame.
     fn light(&mut self) {
+        let language = self.session.language();
         let nodes = self.session.header().speeds.len();
         if self.begun != self.session.runs_begun() {
             self.begun = self.session.runs_begun();
@@ -291,7 +294,7 @@ impl App {
             // What is not over yet is looked up again.
             let is_known = |dossier: &Details| Some(dossier.about) == about && dossier.is_complete();
             if !dossier.as_ref().is_some_and(is_known) {
-                *dossier = about.map(|about| stage.dossier(about));
+                *dossier = about.map(|about| stage.dossier(about, language));
             }
         }
         let lit = self.hovered.as_ref().or(self.selected.as_ref());
@@ -317,10 +320,11 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
+        let language = self.session.language();
         self.take_dropped(ctx);
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
-                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen),
+                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen, language),
                 JobResult::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
                 JobResult::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 JobResult::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
@@ -342,7 +346,7 @@ impl eframe::App for App {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.language.speak();
+        let language = self.session.language();
         zoom::keys(ui.ctx());
         let types = ui.ctx().text_edit_focused();
         // Whoever is about to type a path means letters, wherever the focus is just then.
@@ -353,11 +357,11 @@ impl eframe::App for App {
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);
         self.notices(ui.ctx());
-        if self.help && help::show(ui.ctx()) {
+        if self.help && help::show(ui.ctx(), language) {
             self.help = false;
         }
         if !ui.input(|input| input.raw.hovered_files.is_empty()) {
-            notice::drop_here(ui);
+            notice::drop_here(ui, language);
         }
     }
 
@@ -373,7 +377,7 @@ impl eframe::App for App {
             blend: Some(self.picture.blend),
             setup: self.setup.open,
             timeline: self.shows_timeline,
-            language: Some(self.language),
+            language: Some(self.session.language()),
             projector: self.projector,
         };
         eframe::set_value(storage, REMEMBERED, &remembered);

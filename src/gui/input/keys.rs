@@ -3,7 +3,7 @@
 use egui::{Context, Event, Key, Modifiers};
 
 use crate::balance::{Condition, NodeId};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::view::{StepUnit, Subject};
 
 /// What can be asked for, by a key or by a button.
@@ -109,13 +109,13 @@ const fn same(shown: &'static str) -> Both {
 
 impl Line {
     /// What the keys are called.
-    pub fn shown(&self) -> &'static str {
-        word!(self.shown.0, self.shown.1)
+    pub fn shown(&self, language: Language) -> &'static str {
+        word!(language, self.shown.0, self.shown.1)
     }
 
     /// What they do.
-    pub fn what(&self) -> &'static str {
-        word!(self.what.0, self.what.1)
+    pub fn what(&self, language: Language) -> &'static str {
+        word!(language, self.what.0, self.what.1)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::balance::Party;
 use crate::gui::session::Session;
 use crate::gui::widgets::theme::Look;
 use crate::gui::widgets::{deeds, popup_frame};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::view::{Flight, flight_words};
 
 /// How long it may be held up, in seconds.
@@ -21,9 +21,10 @@ pub struct MessageInMenu {
     way: (Party, Party),
 }
 
-impl From<&Flight> for MessageInMenu {
-    fn from(flight: &Flight) -> Self {
-        Self { words: flight_words(flight), way: (flight.from, flight.to) }
+impl MessageInMenu {
+    /// The message that a menu opens for.
+    pub fn new(flight: &Flight, language: Language) -> Self {
+        Self { words: flight_words(flight, language), way: (flight.from, flight.to) }
     }
 }
 
@@ -34,12 +35,14 @@ pub fn on(response: &Response, session: &mut Session, subject: &MessageInMenu, l
 }
 
 fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { words, way }: &MessageInMenu, look: Look) {
-    let hold = SECONDS.map(|seconds| (seconds, say!("Hold it up for {seconds} s", "Reter por {seconds} s")));
+    let language = session.language();
+    let hold = SECONDS.map(|seconds| (seconds, say!(language, "Hold it up for {seconds} s", "Reter por {seconds} s")));
     let hint = word!(
+        language,
         "What is on this way, and what is sent there meanwhile, arrives then, in its order",
         "O que está neste caminho, e o que nele se mande até lá, chega então, em ordem"
     );
-    if let Some(seconds) = deeds(ui, words, hold, (session.can_fail(), hint), look) {
+    if let Some(seconds) = deeds(ui, words, hold, (session.can_fail(), hint), look, language) {
         session.delay(*way, Duration::from_secs(seconds));
     }
 }

@@ -40,6 +40,7 @@ enum Picture {
 impl Gallery {
     /// Opens the page, and has small pictures made of what is new, or closes it.
     pub fn toggle(&mut self, session: &Session) {
+        let language = session.language();
         self.open = !self.open;
         (self.wants_focus, self.trouble) = (self.open, None);
         if !self.open {
@@ -58,7 +59,7 @@ impl Gallery {
         }
         self.tiles.extend(scenes.iter().map(|scene| Tile { scene: scene.clone(), picture: Picture::Pending }));
         if !scenes.is_empty() {
-            session.jobs().thumbnails(scenes);
+            session.jobs().thumbnails(scenes, language);
         }
     }
 
@@ -87,6 +88,7 @@ impl Gallery {
 
     /// Takes in what was chosen in the system's dialog.
     pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
+        let language = session.language();
         match chosen {
             Some(path) => {
                 self.open = false;
@@ -94,6 +96,7 @@ impl Gallery {
             }
             None => {
                 let trouble = word!(
+                    language,
                     "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
                     "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
                 );
@@ -115,21 +118,25 @@ impl Gallery {
     }
 
     fn path_row(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+        let language = session.language();
         ui.horizontal(|ui| {
-            ui.label(RichText::new(word!("Scenes", "Cenas")).font(theme::strong(theme::LARGE)).color(look.text));
+            ui.label(
+                RichText::new(word!(language, "Scenes", "Cenas")).font(theme::strong(theme::LARGE)).color(look.text),
+            );
             ui.add_space(GRID);
             let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
             let hint = word!(
+                language,
                 "path of a scene, a lesson (.ron) or a run (.anel)",
                 "caminho de uma cena, lição (.ron) ou execução (.anel)"
             );
-            let name = word!("What to open", "O que abrir");
+            let name = word!(language, "What to open", "O que abrir");
             let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);
             if field.changed {
                 self.trouble = None;
             }
-            if button(ui, None, word!("Open", "Abrir"), true, Emphasis::Primary).clicked() || field.entered {
-                match resolve(&self.path, std::env::home_dir()) {
+            if button(ui, None, word!(language, "Open", "Abrir"), true, Emphasis::Primary).clicked() || field.entered {
+                match resolve(&self.path, std::env::home_dir(), language) {
                     Ok(path) => {
                         self.open = false;
                         session.open(&path.to_string_lossy());
@@ -137,20 +144,22 @@ impl Gallery {
                     Err(why) => self.trouble = Some(why),
                 }
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
+            if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
-                session.jobs().choose(Purpose::Open, directory.join("scene"));
+                session.jobs().choose(Purpose::Open, directory.join("scene"), language);
             }
-            if button(ui, Some(Icon::Close), word!("Close scenes", "Fechar cenas"), false, Emphasis::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), word!(language, "Close scenes", "Fechar cenas"), false, Emphasis::Quiet)
+                .clicked()
+            {
                 self.open = false;
             }
         });
         ui.horizontal(|ui| {
-            let text = word!("Or drop a file on the window.", "Ou soltar um arquivo na janela.");
+            let text = word!(language, "Or drop a file on the window.", "Ou soltar um arquivo na janela.");
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
             let last =
                 session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
-            let name = word!("Open the run saved last", "Abrir a última execução salva");
+            let name = word!(language, "Open the run saved last", "Abrir a última execução salva");
             if let Some(last) = last
                 && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(&last).clicked()
             {
@@ -161,6 +170,7 @@ impl Gallery {
     }
 
     fn tiles(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+        let language = session.language();
         const LEAST: f32 = 34.0 * GRID;
         const GAP: f32 = 2.0 * GRID;
         let room = ui.available_width() - GRID;
@@ -176,7 +186,7 @@ impl Gallery {
             let place = Rect::from_min_size(corner, vec2(width, height + caption));
             let response = ui.interact(place, ui.scope_id().with(("tile", &tile.scene)), Sense::click());
             let name = name_of(&tile.scene);
-            let open = say!("Open {name}", "Abrir {name}");
+            let open = say!(language, "Open {name}", "Abrir {name}");
             response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &open));
             let picture = place.with_max_y(place.top() + height);
             let painter = ui.painter();
@@ -188,7 +198,7 @@ impl Gallery {
                 }
                 Picture::Pending => {
                     let (at, font) = (picture.center(), theme::regular(theme::SMALL));
-                    let words = word!("is being traced …", "sendo calculada …");
+                    let words = word!(language, "is being traced …", "sendo calculada …");
                     painter.text(at, Align2::CENTER_CENTER, words, font, look.quiet);
                 }
                 Picture::None(why) => {

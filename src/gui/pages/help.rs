@@ -6,10 +6,10 @@ use crate::gui::input::keys::TABLE;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
-use crate::language::word;
+use crate::language::{Language, word};
 
 /// Shows the page over everything else; returns whether it is to be closed.
-pub fn show(ctx: &egui::Context) -> bool {
+pub fn show(ctx: &egui::Context, language: Language) -> bool {
     let look = Look::of(ctx);
     let frame = Frame::NONE.fill(look.ground).inner_margin(3.0 * GRID).corner_radius(10.0);
     let frame = frame.stroke(egui::Stroke::new(1.0, look.hairline));
@@ -17,10 +17,11 @@ pub fn show(ctx: &egui::Context) -> bool {
     let shown = modal.show(ctx, |ui| {
         let closed = ui
             .horizontal(|ui| {
-                let title = word!("Keys", "Teclas");
+                let title = word!(language, "Keys", "Teclas");
                 ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    button(ui, Some(Icon::Close), word!("Close help", "Fechar ajuda"), false, Emphasis::Quiet).clicked()
+                    button(ui, Some(Icon::Close), word!(language, "Close help", "Fechar ajuda"), false, Emphasis::Quiet)
+                        .clicked()
                 })
                 .inner
             })
@@ -33,24 +34,24 @@ pub fn show(ctx: &egui::Context) -> bool {
         egui::ScrollArea::vertical()
             .max_height(height)
             .min_scrolled_height(height)
-            .show(ui, |ui| table(ui, columns, lines, look));
+            .show(ui, |ui| table(ui, columns, lines, look, language));
         closed
     });
     shown.should_close() || shown.inner
 }
 
-fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
+fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look, language: Language) {
     const WIDTH: f32 = 58.0 * GRID;
     const LINE: f32 = 3.5 * GRID;
     let size = vec2(WIDTH * columns as f32, LINE * lines as f32);
     let (area, response) = ui.allocate_exact_size(size, Sense::hover());
-    let name = word!("What the keys do", "O que fazem as teclas");
+    let name = word!(language, "What the keys do", "O que fazem as teclas");
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, name));
     for (i, line) in TABLE.iter().enumerate() {
         let corner = area.min + vec2((i / lines) as f32 * WIDTH, (i % lines) as f32 * LINE);
         let middle = corner.y + LINE / 2.0;
         let font = theme::strong(theme::SMALL);
-        let galley = ui.painter().layout_no_wrap(line.shown().to_owned(), font, look.text);
+        let galley = ui.painter().layout_no_wrap(line.shown(language).to_owned(), font, look.text);
         let cap = Rect::from_min_size(
             Pos2::new(corner.x, middle - 1.5 * GRID),
             vec2(galley.size().x + 2.0 * GRID, 3.0 * GRID),
@@ -58,6 +59,6 @@ fn table(ui: &mut Ui, columns: usize, lines: usize, look: Look) {
         ui.painter().rect(cap, 5.0, look.raised, egui::Stroke::new(1.0, look.hairline), StrokeKind::Inside);
         ui.painter().galley(cap.center() - galley.size() / 2.0, galley, look.text);
         let what = Pos2::new(corner.x + 12.0 * GRID, middle);
-        ui.painter().text(what, Align2::LEFT_CENTER, line.what(), theme::regular(theme::BODY), look.text);
+        ui.painter().text(what, Align2::LEFT_CENTER, line.what(language), theme::regular(theme::BODY), look.text);
     }
 }

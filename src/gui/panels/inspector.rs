@@ -9,7 +9,7 @@ use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{self, Emphasis, button};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::srgb8;
 use crate::view::{ChosenRay, Inspected, Mark, RaySpot};
 
@@ -27,32 +27,38 @@ const MOST_ROWS: usize = 16;
 
 /// Shows what is known of the pixel at `place`.
 pub fn show(ui: &mut Ui, place: [u32; 2], session: &mut Session) {
-    let mut asked = heading(ui, place, session.inspected());
+    let language = session.language();
+    let mut asked = heading(ui, place, session.inspected(), language);
     match session.inspected() {
         Some(inspected) => {
             let inks = Inks { look: Look::of(ui.ctx()), nodes: &session.stage().colours };
             let scrolled = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Beside the bar that scrolls.
                 ui.set_width(ui.available_width() - GRID);
-                body(ui, inspected, &inks)
+                body(ui, inspected, &inks, language)
             });
             asked = asked.or(scrolled.inner);
         }
-        None => quiet(ui, word!("Tracing it once more …", "Calculando-o mais uma vez …")),
+        None => quiet(ui, word!(language, "Tracing it once more …", "Calculando-o mais uma vez …")),
     }
     match asked {
         Some(InspectorAction::Choose(chosen)) => session.choose_ray(chosen),
         Some(InspectorAction::Copy) => {
-            let text = session.inspected().map(Inspected::text).unwrap_or_default();
+            let text = session.inspected().map(|pixel| pixel.text(language)).unwrap_or_default();
             ui.ctx().copy_text(text);
-            session.note(word!("Copied as text", "Copiado como texto"));
+            session.note(word!(language, "Copied as text", "Copiado como texto"));
         }
         Some(InspectorAction::Close) => session.stop_inspecting(),
         None => {}
     }
 }
 
-fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Option<InspectorAction> {
+fn heading(
+    ui: &mut Ui,
+    [x, y]: [u32; 2],
+    inspected: Option<&Inspected>,
+    language: Language,
+) -> Option<InspectorAction> {
     let look = Look::of(ui.ctx());
     let mut asked = None;
     ui.horizontal(|ui| {
@@ -64,14 +70,20 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
         let title = RichText::new(format!("Pixel {x}, {y}")).font(theme::strong(theme::LARGE)).color(look.text);
         ui.label(title);
         ui.with_layout(Layout::right_to_left(egui::Align::Center), |ui| {
-            if button(ui, Some(Icon::Close), word!("Close inspector", "Fechar inspetor"), false, Emphasis::Quiet)
-                .on_hover_text(word!("Close (Esc)", "Fechar (Esc)"))
-                .clicked()
+            if button(
+                ui,
+                Some(Icon::Close),
+                word!(language, "Close inspector", "Fechar inspetor"),
+                false,
+                Emphasis::Quiet,
+            )
+            .on_hover_text(word!(language, "Close (Esc)", "Fechar (Esc)"))
+            .clicked()
             {
                 asked = Some(InspectorAction::Close);
             }
             ui.add_enabled_ui(inspected.is_some(), |ui| {
-                let name = word!("Copy as text", "Copiar como texto");
+                let name = word!(language, "Copy as text", "Copiar como texto");
                 let has_room = ui.available_width() > 20.0 * GRID;
                 let icon = (!has_room).then_some(Icon::Copy);
                 if button(ui, icon, name, has_room, Emphasis::Quiet).on_hover_text(name).clicked() {
@@ -83,10 +95,10 @@ fn heading(ui: &mut Ui, [x, y]: [u32; 2], inspected: Option<&Inspected>) -> Opti
     asked
 }
 
-fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<InspectorAction> {
+fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) -> Option<InspectorAction> {
     let look = inks.look;
     ui.spacing_mut().item_spacing.y = GRID / 2.0;
-    let sentences = inspected.sentences();
+    let sentences = inspected.sentences(language);
     if let Some((first, others)) = sentences.split_first() {
         sentence(ui, RichText::new(first).font(theme::regular(theme::BODY)).color(look.text));
         if !others.is_empty() {
@@ -95,33 +107,33 @@ fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Inspector
     }
     ui.add_space(GRID);
     if ui.available_width() < WIDE {
-        let asked = rays(ui, inspected, inks);
+        let asked = rays(ui, inspected, inks, language);
         ui.add_space(GRID);
-        ray(ui, inspected, inks);
+        ray(ui, inspected, inks, language);
         return asked;
     }
     let whole = ui.available_rect_before_wrap();
     let split = whole.left() + (0.4 * whole.width()).round();
     let [left, right] = [whole.with_max_x(split), whole.with_min_x(split + 3.0 * GRID)];
-    let left = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| rays(ui, inspected, inks));
-    let right = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| ray(ui, inspected, inks));
+    let left = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| rays(ui, inspected, inks, language));
+    let right = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| ray(ui, inspected, inks, language));
     ui.advance_cursor_after_rect(left.response.rect.union(right.response.rect));
     left.inner
 }
 
 /// The tree of rays, of which one can be chosen.
-fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<InspectorAction> {
+fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) -> Option<InspectorAction> {
     let mut asked = None;
     let (chosen, samples) = (inspected.chosen, inspected.samples.len());
     ui.horizontal(|ui| {
-        title(ui, word!("Its rays", "Seus raios"), inks.look);
+        title(ui, word!(language, "Its rays", "Seus raios"), inks.look);
         if samples > 1 {
-            asked = sample_buttons(ui, chosen.sample, samples, inks.look);
+            asked = sample_buttons(ui, chosen.sample, samples, inks.look, language);
         }
     });
-    let tree = inspected.ray_tree(ui.available_width());
+    let tree = inspected.ray_tree(ui.available_width(), language);
     let names: Vec<_> = tree.spots.iter().map(|spot| spot.name.clone()).collect();
-    let name = word!("Tree of rays", "Árvore de raios");
+    let name = word!(language, "Tree of rays", "Árvore de raios");
     let rect = drawing(ui, name, &names.join("; "), (&tree.marks, tree.height), inks);
     for spot in tree.spots {
         let at = rect.min + Vec2::from(spot.at);
@@ -140,6 +152,7 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Inspector
         quiet(
             ui,
             word!(
+                language,
                 "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
                 "P do observador, R refletido (tracejado), T através de superfície; quanto mais largo, mais conta. \
                  Clique num."
@@ -150,7 +163,13 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) -> Option<Inspector
 }
 
 /// From one sample to the next.
-fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Option<InspectorAction> {
+fn sample_buttons(
+    ui: &mut Ui,
+    sample: usize,
+    samples: usize,
+    look: Look,
+    language: Language,
+) -> Option<InspectorAction> {
     let mut asked = None;
     let mut step = |ui: &mut Ui, name, words, to: Option<usize>| {
         ui.add_enabled_ui(to.is_some(), |ui| {
@@ -159,26 +178,26 @@ fn sample_buttons(ui: &mut Ui, sample: usize, samples: usize, look: Look) -> Opt
             }
         });
     };
-    step(ui, word!("Sample before", "Amostra anterior"), "<", sample.checked_sub(1));
+    step(ui, word!(language, "Sample before", "Amostra anterior"), "<", sample.checked_sub(1));
     let which = sample + 1;
-    let text = say!("sample {which} of {samples}", "amostra {which} de {samples}");
+    let text = say!(language, "sample {which} of {samples}", "amostra {which} de {samples}");
     ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
-    step(ui, word!("Next sample", "Próxima amostra"), ">", Some(which).filter(|next| *next < samples));
+    step(ui, word!(language, "Next sample", "Próxima amostra"), ">", Some(which).filter(|next| *next < samples));
     asked
 }
 
 /// The chosen ray: the terms of its equation, and what it passes.
-fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>) {
+fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) {
     let which = inspected.chosen.ray + 1;
-    ui.horizontal(|ui| title(ui, &say!("Ray {which}", "Raio {which}"), inks.look));
-    quiet(ui, &inspected.ray_sentences().join(" "));
-    let terms = inspected.draw_terms(ui.available_width());
-    let name = word!("Terms of the equation", "Termos da equação");
-    drawing(ui, name, &inspected.term_words(), (&terms.marks, terms.height), inks);
+    ui.horizontal(|ui| title(ui, &say!(language, "Ray {which}", "Raio {which}"), inks.look));
+    quiet(ui, &inspected.ray_sentences(language).join(" "));
+    let terms = inspected.draw_terms(ui.available_width(), language);
+    let name = word!(language, "Terms of the equation", "Termos da equação");
+    drawing(ui, name, &inspected.term_words(language), (&terms.marks, terms.height), inks);
     ui.add_space(GRID);
-    let spans = inspected.spans(ui.available_width(), MOST_ROWS);
-    let name = word!("Spans along the ray", "Trechos ao longo do raio");
-    drawing(ui, name, &inspected.span_words(), (&spans.marks, spans.height), inks);
+    let spans = inspected.spans(ui.available_width(), MOST_ROWS, language);
+    let name = word!(language, "Spans along the ray", "Trechos ao longo do raio");
+    drawing(ui, name, &inspected.span_words(language), (&spans.marks, spans.height), inks);
 }
 
 /// A display list as high as it is; returns its place.

@@ -6,10 +6,13 @@ use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBui
 use crate::gui::session::{Phase, Session};
 use crate::gui::widgets;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
-use crate::view::{Details, NodeShare, figures, node_name, percent, record_words, shares, unfinished_words};
+use crate::view::{
+    Details, Happening, NodeShare, figures, node_name, parts_words, percent, record_words, result_words, shares,
+    unfinished_words,
+};
 
 const SENTENCE: f32 = 3.25 * GRID;
 const EVENT: f32 = 2.25 * GRID;
@@ -22,6 +25,7 @@ pub fn height(ui: &Ui) -> f32 {
 
 /// Shows all three.
 pub fn show(ui: &mut Ui, session: &Session, about: Option<&Details>) {
+    let language = session.language();
     let look = Look::of(ui.ctx());
     let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui)), Sense::hover());
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - BAR);
@@ -41,7 +45,7 @@ pub fn show(ui: &mut Ui, session: &Session, about: Option<&Details>) {
             sentence(words, session, look);
             let stage = session.stage();
             let earlier = stage.narrator().earlier(stage.state(), session.now());
-            events(words, earlier.rev().take(events_shown(words)), look);
+            events(words, earlier.rev().take(events_shown(words)), look, language);
         }
     }
     bar(ui, below, session, look);
@@ -59,11 +63,12 @@ fn events_shown(ui: &Ui) -> usize {
 
 /// What is selected, in the place of earlier events: whoever clicks wants to know.
 fn selected(ui: &mut Ui, session: &Session, about: &Details, look: Look) {
+    let language = session.language();
     let stage = session.stage();
-    let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
+    let (title, more) = about.words(stage.state(), stage.now(), stage.grain(), language);
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("selected"), Sense::hover());
-    widgets::describe(&response, word!("Selected", "Selecionado"), || format!("{title}. {more}"));
+    widgets::describe(&response, word!(language, "Selected", "Selecionado"), || format!("{title}. {more}"));
     let layout = |more: &str| {
         let mut job = LayoutJob::default();
         job.wrap.max_width = area.width();
@@ -82,18 +87,22 @@ fn selected(ui: &mut Ui, session: &Session, about: &Details, look: Look) {
 
 /// The sentence of the moment.
 fn sentence(ui: &mut Ui, session: &Session, look: Look) {
+    let language = session.language();
     let stage = session.stage();
     let sentence = match &stage.phase {
         Phase::Preparing => word!(
+            language,
             "Reading the scene, compiling it, and looking what it will cost …",
             "Lendo a cena, compilando-a e vendo quanto vai custar …"
         )
         .to_owned(),
-        Phase::Failed(why) => say!("The run cannot go on: {why}", "A execução não pode continuar: {why}"),
-        Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => unfinished_words(stage.state()),
+        Phase::Failed(why) => say!(language, "The run cannot go on: {why}", "A execução não pode continuar: {why}"),
+        Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => {
+            unfinished_words(stage.state(), language)
+        }
         _ => match stage.stepped_to() {
-            Some(record) => record_words(record, stage.state()),
-            None => stage.narrator().sentence(stage.state(), session.now()),
+            Some(record) => record_words(record, stage.state(), language),
+            None => stage.narrator().sentence(stage.state(), session.now(), language),
         },
     };
     // Rather small than cut.
@@ -107,31 +116,34 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
 }
 
 /// Events and their times, a line each.
-fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a str)>, look: Look) {
+fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a Happening)>, look: Look, language: Language) {
     let font = theme::regular(theme::SMALL);
     for (at, event) in events {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
-        widgets::describe(&response, word!("Event", "Evento"), || event.to_owned());
+        widgets::describe(&response, word!(language, "Event", "Evento"), || event.sentence(language));
         let y = line.center().y;
-        let time = format!("{} s", decimal(at.secs(), 1));
+        let time = format!("{} s", decimal(language, at.secs(), 1));
         ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
-        let galley = one_line(ui, event, &font, look, line.width() - 6.0 * GRID);
+        let galley = one_line(ui, &event.sentence(language), &font, look, line.width() - 6.0 * GRID);
         ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
     }
 }
 
 /// What the run amounts to: large, and in words.
 fn result(ui: &mut Ui, session: &Session, look: Look) {
+    let language = session.language();
     let stage = session.stage();
     let Some(result) = stage.result() else { return };
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("result"), Sense::hover());
-    widgets::describe(&response, word!("Result", "Resultado"), || result.words.clone());
+    widgets::describe(&response, word!(language, "Result", "Resultado"), || {
+        result_words(stage.state(), result, language)
+    });
     // Where there is no room below a figure, what it means stands beside it.
     let is_high = area.height() > 5.5 * GRID;
     let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
     let mut x = area.left();
-    for (figure, means) in figures(&result.outcome) {
+    for (figure, means) in figures(result, language) {
         let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
         let means = ui.painter().layout_no_wrap(means.to_owned(), theme::regular(theme::SMALL), look.quiet);
         let (figure_size, means_size) = (figure.size(), means.size());
@@ -146,15 +158,16 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let rest = area.with_min_y(area.top() + 7.0 * GRID);
     let lines = (rest.height().max(0.0) / EVENT) as usize;
     ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| {
-        events(ui, stage.narrator().events().rev().take(lines), look);
+        events(ui, stage.narrator().events().rev().take(lines), look, language);
     });
+    let parts = parts_words(stage.state(), language).unwrap_or_default();
     let height =
-        |size: f32| ui.painter().layout(result.parts.clone(), theme::regular(size), look.text, place.width()).size().y;
+        |size: f32| ui.painter().layout(parts.clone(), theme::regular(size), look.text, place.width()).size().y;
     // Rather not at all than cut: the bar below tells it too.
     let fits = [theme::BODY, theme::SMALL].into_iter().find(|&size| height(size) <= place.height());
     if let Some(size) = fits.filter(|_| place.width() > 12.0 * GRID) {
         ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-            ui.add(Label::new(RichText::new(&result.parts).font(theme::regular(size)).color(look.text)).wrap());
+            ui.add(Label::new(RichText::new(&parts).font(theme::regular(size)).color(look.text)).wrap());
         });
     }
 }
@@ -167,10 +180,11 @@ fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::
 
 /// All atoms in one row: each node's part in its colour, what is still to be done empty.
 fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
+    let language = session.language();
     let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
     let state = session.stage().state();
     let (shares, all) = (shares(state), state.atoms());
-    widgets::describe(&response, word!("Who has traced how much", "Quem calculou quanto"), || {
+    widgets::describe(&response, word!(language, "Who has traced how much", "Quem calculou quanto"), || {
         let say = |share: &NodeShare| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(say).collect::<Vec<_>>().join(", ")
     });
@@ -178,7 +192,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let end = shares.last().map_or(0.0, |share| share.end);
     if rect.width() * (1.0 - end) > 26.0 * GRID {
         let (at, font) = (pos2(rect.right() - GRID, rect.center().y), theme::regular(theme::SMALL));
-        let words = word!("who has traced how much", "quem calculou quanto");
+        let words = word!(language, "who has traced how much", "quem calculou quanto");
         ui.painter().text(at, Align2::RIGHT_CENTER, words, font, look.quiet);
     }
     let last = shares.iter().rposition(|share| share.end > share.start);

@@ -6,7 +6,7 @@ use crate::gui::session::{Notice, NoticeKind};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::view::fraction;
 
 /// What was pressed.
@@ -19,7 +19,7 @@ pub enum Click {
 }
 
 /// Shows a notice with its lower right corner at `at`, and returns what was pressed.
-pub fn show(notice: &Notice, ctx: &Context, at: Pos2) -> Option<Click> {
+pub fn show(notice: &Notice, ctx: &Context, at: Pos2, language: Language) -> Option<Click> {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
         let colour = if notice.kind == NoticeKind::Trouble { look.trouble } else { look.text };
@@ -29,51 +29,51 @@ pub fn show(notice: &Notice, ctx: &Context, at: Pos2) -> Option<Click> {
             ui.set_max_width(widest(ui) - buttons * GRID);
             ui.add(Label::new(text).wrap());
         });
-        let name = word!("Reload", "Recarregar");
+        let name = word!(language, "Reload", "Recarregar");
         let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Emphasis::Primary).clicked();
-        let close = word!("Close notice", "Fechar aviso");
+        let close = word!(language, "Close notice", "Fechar aviso");
         let close = button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked();
         if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
     })
 }
 
 /// Says that something is being read and compiled.
-pub fn loading(ctx: &Context, at: Pos2, name: &str) {
+pub fn loading(ctx: &Context, at: Pos2, name: &str, language: Language) {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
-        let text = say!("{name} is being read and compiled …", "{name} está sendo lida e compilada …");
+        let text = say!(language, "{name} is being read and compiled …", "{name} está sendo lida e compilada …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
 
 /// Says what is being made, for how many seconds already, and what part of it is done; returns whether that is to end.
-pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64)) -> bool {
+pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64), language: Language) -> bool {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
-        let text = say!("{name} is being made", "{name} está sendo feito");
+        let text = say!(language, "{name} is being made", "{name} está sendo feito");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
         let done = fraction(part);
-        let done = left(secs, part).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
+        let done = left(secs, part, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
         ui.visuals_mut().extreme_bg_color = look.hairline;
         let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
         ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
-        button(ui, None, word!("Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
+        button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
     })
 }
 
 /// How long it will still take, as soon as that can be told.
-fn left(secs: f64, part: f64) -> Option<String> {
+fn left(secs: f64, part: f64, language: Language) -> Option<String> {
     let left = (secs / part - secs).ceil();
     if secs < 1.5 || part < 0.01 || left < 1.0 {
         return None;
     }
     let minutes = (left / 60.0).round();
     Some(if left < 90.0 {
-        say!("about {left} s left", "faltam uns {left} s")
+        say!(language, "about {left} s left", "faltam uns {left} s")
     } else {
-        say!("about {minutes} min left", "faltam uns {minutes} min")
+        say!(language, "about {minutes} min left", "faltam uns {minutes} min")
     })
 }
 
@@ -95,14 +95,14 @@ fn widest(ui: &Ui) -> f32 {
 }
 
 /// Says, over everything, that a file can be dropped.
-pub fn drop_here(ui: &Ui) {
+pub fn drop_here(ui: &Ui, language: Language) {
     let look = Look::of(ui.ctx());
     let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));
     let area = ui.ctx().content_rect();
     painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
     let frame = area.shrink(3.0 * GRID);
     painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
-    let text = word!("Drop a scene or a recorded run", "Soltar uma cena ou uma execução gravada");
+    let text = word!(language, "Drop a scene or a recorded run", "Soltar uma cena ou uma execução gravada");
     painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
 }
 
@@ -112,8 +112,12 @@ mod tests {
 
     #[test]
     fn what_takes_long_says_how_long_still() {
-        assert_eq!(left(10.0, 0.25).as_deref(), Some("about 30 s left"));
-        assert_eq!(left(60.0, 0.25).as_deref(), Some("about 3 min left"));
-        assert_eq!([left(1.0, 0.25), left(10.0, 0.0), left(10.0, 1.0)], [None, None, None]);
+        let language = Language::English;
+        assert_eq!(left(10.0, 0.25, language).as_deref(), Some("about 30 s left"));
+        assert_eq!(left(60.0, 0.25, language).as_deref(), Some("about 3 min left"));
+        assert_eq!(
+            [left(1.0, 0.25, language), left(10.0, 0.0, language), left(10.0, 1.0, language)],
+            [None, None, None]
+        );
     }
 }

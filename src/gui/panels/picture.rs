@@ -15,7 +15,7 @@ use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::picture_view::PictureView;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::Atom;
 use crate::view::{Highlight, Layer, Subject, atom_words, outlines, percent};
 
@@ -60,6 +60,7 @@ const APART: f32 = 5.0;
 impl PicturePanel {
     /// Shows the picture as large as it gets, and the slider below it.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         let shown = self.shown();
         if self.moves_camera && session.is_recorded() {
@@ -81,9 +82,9 @@ impl PicturePanel {
         let texture = self.texture.upload(ui.ctx(), canvas, scale >= SQUARE);
         self.move_camera(ui, &response, frame, session);
         let state = session.stage().state();
-        widgets::describe(&response, word!("Picture", "Imagem"), || {
+        widgets::describe(&response, word!(language, "Picture", "Imagem"), || {
             let done = percent(state.done(), state.atoms());
-            say!("{done} done", "{done} pronta")
+            say!(language, "{done} done", "{done} pronta")
         });
         let painter = ui.painter_at(frame);
         if let Some(texture) = texture {
@@ -126,15 +127,16 @@ impl PicturePanel {
             let atom = atom_at(session, [x, y]);
             focus.hover(Subject::Atom(atom));
             if !self.moves_camera && !response.dragged() {
-                let words = atom_words(session.stage().state(), atom, session.now());
+                let words = atom_words(session.stage().state(), atom, session.now(), language);
                 response.on_hover_text_at_pointer(say!(
+                    language,
                     "{words}\nClick to inspect pixel {x}, {y}",
                     "{words}\nClique para inspecionar o pixel {x}, {y}"
                 ));
             }
         }
         let below = Rect::from_min_size(frame.left_bottom(), vec2(frame.width(), BELOW));
-        self.blend_slider(ui, below, look);
+        self.blend_slider(ui, below, look, language);
     }
 
     /// What lies over the render, and how much of it is seen, 0 to 1.
@@ -181,6 +183,7 @@ impl PicturePanel {
 
     /// What a hand does to the camera, and the way back.
     fn camera_words(&self, ui: &mut Ui, frame: Rect, session: &mut Session, look: Look) {
+        let language = session.language();
         let height = 4.0 * GRID;
         let place = Rect::from_min_max(pos2(frame.left(), frame.bottom() - height), frame.max);
         ui.painter().rect_filled(place, 0.0, look.ground.gamma_multiply(0.75));
@@ -191,17 +194,22 @@ impl PicturePanel {
                     && widgets::button(
                         ui,
                         Some(Icon::Undo),
-                        word!("Camera back", "Câmera de volta"),
+                        word!(language, "Camera back", "Câmera de volta"),
                         frame.width() > 300.0,
                         widgets::Emphasis::Quiet,
                     )
-                    .on_hover_text(word!("The scene's own camera (Shift C)", "A câmera da própria cena (Shift C)"))
+                    .on_hover_text(word!(
+                        language,
+                        "The scene's own camera (Shift C)",
+                        "A câmera da própria cena (Shift C)"
+                    ))
                     .clicked()
                 {
                     session.camera_home();
                 }
                 if self.moves_camera {
                     let text = word!(
+                        language,
                         "Drag to turn, Shift to move, wheel: nearer",
                         "Arrastar gira, com Shift move; roda: mais perto"
                     );
@@ -228,7 +236,7 @@ impl PicturePanel {
         }
     }
 
-    fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look) {
+    fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look, language: Language) {
         let (middle, font) = (row.center().y + GRID / 2.0, theme::regular(theme::SMALL));
         // Under a small picture there is room for one of both words.
         let fits = row.width() > 30.0 * GRID;
@@ -236,7 +244,7 @@ impl PicturePanel {
         if fits {
             let place = Rect::from_min_size(pos2(left - 4.0, middle - 1.5 * GRID), Vec2::splat(3.0 * GRID));
             let response = ui.interact(place, ui.scope_id().with("camera"), Sense::click());
-            let name = word!("Move the camera", "Mover a câmera");
+            let name = word!(language, "Move the camera", "Mover a câmera");
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, self.moves_camera, name));
             let ink = match (self.moves_camera, response.hovered() || response.has_focus()) {
                 (true, _) => look.accent,
@@ -245,6 +253,7 @@ impl PicturePanel {
             };
             icons::paint(ui.painter(), Icon::Camera, place.shrink(3.0), ink);
             let hint = word!(
+                language,
                 "Move the camera (C), or drag with the right button at any time",
                 "Mover a câmera (C), ou arrastar com o botão direito a qualquer momento"
             );
@@ -256,13 +265,17 @@ impl PicturePanel {
         if fits {
             let colour = look.quiet.lerp_to_gamma(look.text, 1.0 - self.blend as f32 / 100.0);
             let place = pos2(left, middle);
-            let text = word!("Render", "Imagem");
+            let text = word!(language, "Render", "Imagem");
             left += ui.painter().text(place, Align2::LEFT_CENTER, text, font.clone(), colour).width() + 1.5 * GRID;
         }
         let colour = look.quiet.lerp_to_gamma(look.text, self.blend as f32 / 100.0);
-        let right =
-            self.choose_layer(ui, (pos2(row.right().max(row.left() + 13.0 * GRID), middle), fits), colour, look)
-                - 1.5 * GRID;
+        let right = self.choose_layer(
+            ui,
+            (pos2(row.right().max(row.left() + 13.0 * GRID), middle), fits),
+            colour,
+            look,
+            language,
+        ) - 1.5 * GRID;
         // Under a tiny picture there is room for the layer's name only.
         let width = right - left;
         if width < 5.0 * GRID {
@@ -270,17 +283,27 @@ impl PicturePanel {
         }
         let place = Rect::from_min_size(pos2(left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
-            let name = word!("Render or layer", "Imagem ou camada");
-            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, name)
-                .on_hover_text(word!("From the render to what lies over it", "Da imagem ao que está sobre ela"));
+            let name = word!(language, "Render or layer", "Imagem ou camada");
+            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, name).on_hover_text(word!(
+                language,
+                "From the render to what lies over it",
+                "Da imagem ao que está sobre ela"
+            ));
         });
     }
 
     /// What lies over the render, and what its colours mean; a click goes on to the next. Returns where it begins.
-    fn choose_layer(&mut self, ui: &Ui, (right, has_legend): (Pos2, bool), colour: Color32, look: Look) -> f32 {
+    fn choose_layer(
+        &mut self,
+        ui: &Ui,
+        (right, has_legend): (Pos2, bool),
+        colour: Color32,
+        look: Look,
+        language: Language,
+    ) -> f32 {
         let font = theme::regular(theme::SMALL);
         let mut x = right.x;
-        if let Some([dark, light]) = self.layer.ends().filter(|_| self.blend > 0.0 && has_legend) {
+        if let Some([dark, light]) = self.layer.ends(language).filter(|_| self.blend > 0.0 && has_legend) {
             let word = |x: f32, text: &str| {
                 ui.painter().text(pos2(x, right.y), Align2::RIGHT_CENTER, text, font.clone(), look.quiet).left()
             };
@@ -293,17 +316,20 @@ impl PicturePanel {
             }
             x = word(x - 4.0, dark) - GRID;
         }
-        let galley = ui.painter().layout_no_wrap(self.layer.name().to_owned(), font, colour);
+        let galley = ui.painter().layout_no_wrap(self.layer.name(language).to_owned(), font, colour);
         let size = galley.size() + vec2(2.0 * GRID, 0.0);
         let place = Rect::from_min_size(pos2(x - size.x, right.y - 1.5 * GRID), vec2(size.x, 3.0 * GRID));
         let response = ui.interact(place, ui.scope_id().with("layer"), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, self.layer.name()));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, self.layer.name(language)));
         if response.hovered() || response.has_focus() {
             ui.painter().rect_filled(place, 4.0, look.raised);
         }
         ui.painter().galley(pos2(place.left() + GRID, right.y - galley.size().y / 2.0), galley, colour);
-        let hint =
-            word!("What lies over the render: press for the next (V)", "A camada sobre a imagem: pressionar muda (V)");
+        let hint = word!(
+            language,
+            "What lies over the render: press for the next (V)",
+            "A camada sobre a imagem: pressionar muda (V)"
+        );
         if response.on_hover_text(hint).clicked() {
             self.next_layer();
         }

@@ -4,7 +4,7 @@ use egui::{Align2, Painter, Rect, Sense, Ui};
 
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
-use crate::gui::input::message_menu;
+use crate::gui::input::message_menu::{self, MessageInMenu};
 use crate::gui::input::selection::Selection;
 use crate::gui::session::Session;
 use crate::gui::widgets;
@@ -18,13 +18,14 @@ use crate::view::{
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
 pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
+    let language = session.language();
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
-    widgets::describe(&response, word!("The ring", "O anel"), || {
+    widgets::describe(&response, word!(language, "The ring", "O anel"), || {
         let told = |node| {
-            let (name, does) = (node_name(node), activity_word(state.activity(node, now)));
-            say!("{name} is {does}", "{name} está {does}")
+            let (name, does) = (node_name(node), activity_word(state.activity(node, now), language));
+            say!(language, "{name} is {does}", "{name} está {does}")
         };
         let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| told(node)).collect();
         nodes.join(", ")
@@ -33,16 +34,16 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
     let drawn = RingOverlay {
-        outcome: stage.result().map(|result| result.outcome),
+        outcome: stage.result().copied(),
         selected: focus.node(),
         lit: lit.nodes.clone(),
         message: lit.message,
     };
-    paint(&painter, rect.min, &ring(state, &drawn, now, rect.size().into()), &inks);
+    paint(&painter, rect.min, &ring(state, &drawn, now, rect.size().into(), language), &inks);
 
     let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
-    let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at));
-    let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at));
+    let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at, language));
+    let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at, language));
     if response.clicked() {
         match (message, spot) {
             (Some(message), _) => focus.toggle(Subject::Message(message.id)),
@@ -57,28 +58,30 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
     }
     // Messages fly over everything else.
     let more = match (message, spot) {
-        (Some(message), _) => Some((flight_words(message), Vec::new())),
+        (Some(message), _) => Some((flight_words(message, language), Vec::new())),
         (None, Some(RingSpot::Node(node))) => {
             let name = node_name(node);
-            Some((say!("Machine {name}", "Máquina {name}"), node_words(state, node, now)))
+            Some((say!(language, "Machine {name}", "Máquina {name}"), node_words(state, node, now, language)))
         }
-        (None, Some(RingSpot::Parent)) => Some((word!("The parent", "O pai").to_owned(), parent_words(state, now))),
+        (None, Some(RingSpot::Parent)) => {
+            Some((word!(language, "The parent", "O pai").to_owned(), parent_words(state, now, language)))
+        }
         (None, None) => None,
     };
     if response.secondary_clicked() {
         let subject = match (message, spot) {
-            (Some(message), _) => Some(RingMenu::Message(message.into())),
+            (Some(message), _) => Some(RingMenu::Message(MessageInMenu::new(message, language))),
             (None, Some(RingSpot::Node(node))) => Some(RingMenu::Node(node)),
             (None, _) => None,
         };
         ui.data_mut(|data| data.insert_temp(response.id, subject));
     }
     if state.finished().is_none() {
-        corner(&painter, rect, small_print(state), look);
+        corner(&painter, rect, small_print(state, language), look);
     }
     // For a room there is no bar at the top that tells it.
     if Look::is_strong(painter.ctx()) {
-        let time = time_words(stage.lasted(), stage.grain());
+        let time = time_words(stage.lasted(), stage.grain(), language);
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
@@ -96,7 +99,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
 #[derive(Clone)]
 enum RingMenu {
     Node(NodeId),
-    Message(message_menu::MessageInMenu),
+    Message(MessageInMenu),
 }
 
 /// What there is to know of the drawing itself, in its lower right corner.

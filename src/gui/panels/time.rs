@@ -58,6 +58,7 @@ impl TimePanel {
 
     /// Shows the panel and returns what was pressed.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shows_timeline: bool) -> Option<UserCommand> {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         let mut pressed = None;
         ui.horizontal(|ui| {
@@ -65,17 +66,18 @@ impl TimePanel {
             ui.spacing_mut().item_spacing.x = GRID / 2.0;
             let can = session.stage().phase != Phase::Preparing;
             ui.add_enabled_ui(can, |ui| {
-                pressed = self.steps(ui);
+                pressed = self.steps(ui, language);
                 ui.add_space(GRID);
-                pressed = pressed.or(rate_menu::show(ui, session.stage().time.rate()));
+                pressed = pressed.or(rate_menu::show(ui, session.stage().time.rate(), language));
             });
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
                 let weight = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
-                let words = (ui.available_width() > 760.0).then_some(word!("Timeline", "Linha do tempo"));
-                let name = word!("Show the timeline", "Mostrar a linha do tempo");
+                let words = (ui.available_width() > 760.0).then_some(word!(language, "Timeline", "Linha do tempo"));
+                let name = word!(language, "Show the timeline", "Mostrar a linha do tempo");
                 let hint = word!(
+                    language,
                     "Who did what and when, in place of the machines (T)",
                     "Quem fez o quê e quando, no lugar das máquinas (T)"
                 );
@@ -83,7 +85,7 @@ impl TimePanel {
                 if timeline.on_hover_text(hint).clicked() {
                     pressed = Some(UserCommand::Timeline);
                 }
-                pressed = pressed.or(live(ui, session.stage(), look));
+                pressed = pressed.or(live(ui, session.stage(), look, language));
                 ui.add_space(GRID);
                 let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
                 pressed = pressed.or(arrows(ui, &response, self.step));
@@ -94,17 +96,20 @@ impl TimePanel {
     }
 
     /// Back, by what, and on.
-    fn steps(&mut self, ui: &mut Ui) -> Option<UserCommand> {
+    fn steps(&mut self, ui: &mut Ui, language: Language) -> Option<UserCommand> {
         let step = self.step;
         let mut pressed = None;
-        let (name, [back_keys, on_keys]) = (step.name(), ['←', '→'].map(|arrow| keys(step, arrow)));
-        let back = button(ui, Some(Icon::StepBack), word!("Step back", "Passo atrás"), false, Emphasis::Quiet);
-        let hint = say!("Back by one {name} ({back_keys})", "Voltar: {name} ({back_keys})");
+        let (name, [back_keys, on_keys]) = (step.name(language), ['←', '→'].map(|arrow| keys(step, arrow)));
+        let back =
+            button(ui, Some(Icon::StepBack), word!(language, "Step back", "Passo atrás"), false, Emphasis::Quiet);
+        let hint = say!(language, "Back by one {name} ({back_keys})", "Voltar: {name} ({back_keys})");
         if back.on_hover_text(hint).clicked() {
             pressed = Some(UserCommand::StepUnit(step, false));
         }
-        let by = named_button(ui, None, word!("What a step is", "O que é um passo"), Some(name), Emphasis::Quiet);
+        let by =
+            named_button(ui, None, word!(language, "What a step is", "O que é um passo"), Some(name), Emphasis::Quiet);
         let hint = word!(
+            language,
             "Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to \
              change",
             "Evento: uma mensagem, ou uma intervenção. Átomo: um é calculado. Volta: a oferta de uma máquina parte. \
@@ -113,8 +118,8 @@ impl TimePanel {
         if by.on_hover_text(hint).clicked() {
             self.step = next_of(&StepUnit::ALL, step);
         }
-        let on = button(ui, Some(Icon::StepOn), word!("Step on", "Passo adiante"), false, Emphasis::Quiet);
-        let hint = say!("On by one {name} ({on_keys})", "Avançar: {name} ({on_keys})");
+        let on = button(ui, Some(Icon::StepOn), word!(language, "Step on", "Passo adiante"), false, Emphasis::Quiet);
+        let hint = say!(language, "On by one {name} ({on_keys})", "Avançar: {name} ({on_keys})");
         if on.on_hover_text(hint).clicked() {
             pressed = Some(UserCommand::StepUnit(step, true));
         }
@@ -123,10 +128,14 @@ impl TimePanel {
 
     /// What is worth jumping to.
     fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
+        let language = session.language();
         let weight = if self.is_finding { Emphasis::On } else { Emphasis::Quiet };
-        let hint =
-            word!("The first offer, the biggest transfer … (F)", "A primeira oferta, a maior transferência … (F)");
-        let find = button(ui, None, word!("Find", "Achar"), true, weight).on_hover_text(hint);
+        let hint = word!(
+            language,
+            "The first offer, the biggest transfer … (F)",
+            "A primeira oferta, a maior transferência … (F)"
+        );
+        let find = button(ui, None, word!(language, "Find", "Achar"), true, weight).on_hover_text(hint);
         let id = Popup::default_response_id(&find);
         if std::mem::take(&mut self.toggles) {
             Popup::toggle_id(ui.ctx(), id);
@@ -134,9 +143,9 @@ impl TimePanel {
         let was_open = self.is_finding;
         let popup = Popup::from_toggle_button_response(&find).frame(popup_frame(ui.ctx()));
         let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-            let known = (session.stage().lanes().version(), Language::spoken());
+            let known = (session.stage().lanes().version(), language);
             if !was_open || self.found_in != known {
-                (self.found, self.found_in) = (landmarks(&session.stage().log), known);
+                (self.found, self.found_in) = (landmarks(&session.stage().log, language), known);
                 let told = session.stage().told_length();
                 self.found.retain(|mark| mark.at <= told);
             }
@@ -144,12 +153,12 @@ impl TimePanel {
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
             let mut chosen = None;
             for (place, mark) in self.found.iter().enumerate() {
-                if entry(ui, (place + 1, mark), session.stage().grain(), look).clicked() {
+                if entry(ui, (place + 1, mark), session.stage().grain(), look, language).clicked() {
                     chosen = Some(UserCommand::Jump(mark.records, mark.about));
                 }
             }
             if self.found.is_empty() {
-                let text = word!("Nothing has happened yet", "Nada aconteceu ainda");
+                let text = word!(language, "Nothing has happened yet", "Nada aconteceu ainda");
                 ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
             }
             chosen
@@ -169,7 +178,7 @@ fn keys(step: StepUnit, arrow: char) -> String {
 }
 
 /// A line of the list: what it is, and when.
-fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look) -> Response {
+fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look, language: Language) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.5 * GRID), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &mark.words));
     if response.hovered() || response.has_focus() {
@@ -180,18 +189,19 @@ fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look)
     let font = theme::regular(theme::SMALL);
     ui.painter().text(pos2(rect.left() + GRID, y), Align2::LEFT_CENTER, number, font, look.quiet);
     ui.painter().galley(pos2(rect.left() + 3.0 * GRID, y - words.size().y / 2.0), words, look.text);
-    let time = ui.painter().layout_no_wrap(time_words(mark.at, rate), theme::regular(theme::SMALL), look.quiet);
+    let time =
+        ui.painter().layout_no_wrap(time_words(mark.at, rate, language), theme::regular(theme::SMALL), look.quiet);
     ui.painter().galley(pos2(rect.right() - GRID - time.size().x, y - time.size().y / 2.0), time, look.quiet);
     response
 }
 
 /// Back to what happens now, or to the end.
-fn live(ui: &mut Ui, stage: &Stage, look: Look) -> Option<UserCommand> {
+fn live(ui: &mut Ui, stage: &Stage, look: Look, language: Language) -> Option<UserCommand> {
     let runs = matches!(stage.phase, Phase::Running | Phase::Preparing);
     let (name, hint) = if runs {
-        word!(("Live", "What happens now (L)"), ("Ao vivo", "O que acontece agora (L)"))
+        word!(language, ("Live", "What happens now (L)"), ("Ao vivo", "O que acontece agora (L)"))
     } else {
-        word!(("End", "The end of the run (L)"), ("Fim", "O fim da execução (L)"))
+        word!(language, ("End", "The end of the run (L)"), ("Fim", "O fim da execução (L)"))
     };
     let is_there = if runs { stage.is_live() } else { stage.shows_end() };
     let weight = if is_there { Emphasis::On } else { Emphasis::Quiet };
@@ -218,6 +228,7 @@ fn arrows(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserCommand> {
 
 /// The line along which one drags, with what stands out.
 fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Look) {
+    let language = session.language();
     let length = session.stage().told_length();
     let rail =
         Rect::from_x_y_ranges(rect.left() + GRID..=rect.right() - GRID, rect.center().y - 2.0..=rect.center().y + 2.0);
@@ -242,11 +253,11 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     let now = stage.lasted();
     let grain = stage.grain();
     response.widget_info(|| {
-        let mut info = WidgetInfo::slider(true, now.secs(), word!("The run's time", "O tempo da execução"));
+        let mut info = WidgetInfo::slider(true, now.secs(), word!(language, "The run's time", "O tempo da execução"));
         let is_more = stage.phase == Phase::Running || stage.hides_later;
-        let of = if is_more { word!("so far", "até agora") } else { word!("in all", "ao todo") };
-        let [now, length] = [now, length].map(|time| time_words(time, grain));
-        info.current_text_value = Some(say!("{now} of {length} {of}", "{now} de {length} {of}"));
+        let of = if is_more { word!(language, "so far", "até agora") } else { word!(language, "in all", "ao todo") };
+        let [now, length] = [now, length].map(|time| time_words(time, grain, language));
+        info.current_text_value = Some(say!(language, "{now} of {length} {of}", "{now} de {length} {of}"));
         info
     });
     let painter = ui.painter();
@@ -273,9 +284,15 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     if let Some(at) = response.hover_pos().filter(|_| length > Time::ZERO) {
         let pointed = time_at(at);
         let reach = Duration::from_secs_f64(length.secs() * f64::from(6.0 / rail.width().max(1.0)));
-        let mut words = vec![time_words(pointed, grain * 0.1)];
+        let mut words = vec![time_words(pointed, grain * 0.1, language)];
         words.extend(
-            stage.signs().near(pointed, reach).into_iter().filter(shown).take(3).map(|sign| sign.words.clone()),
+            stage
+                .signs()
+                .near(pointed, reach)
+                .into_iter()
+                .filter(shown)
+                .take(3)
+                .map(|sign| sign.happening.sentence(language)),
         );
         response.on_hover_text_at_pointer(words.join("\n"));
     }

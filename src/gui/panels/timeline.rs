@@ -9,7 +9,7 @@ use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
@@ -65,6 +65,7 @@ impl TimelinePanel {
         lit: &Highlight,
         hovered: Option<&Details>,
     ) {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
@@ -80,15 +81,15 @@ impl TimelinePanel {
         self.window.fit(session.stage().told_length());
         self.point(&response, place, &plan, session, focus);
         let stage = session.stage();
-        describe(&response, stage);
+        describe(&response, stage, language);
         if let Some(about) = hovered.filter(|_| response.hovered() && !response.dragged()) {
-            let (title, more) = about.words(stage.state(), stage.now(), stage.grain());
+            let (title, more) = about.words(stage.state(), stage.now(), stage.grain(), language);
             response.clone().on_hover_text_at_pointer(format!("{title}\n{more}"));
         }
         let painter = ui.painter_at(place.expand(1.0));
         self.paint(&painter, place, &plan, stage, lit, look);
-        usage(&ui.painter_at(area), area, &plan, stage, look);
-        self.axis(&painter, place, &plan, look);
+        usage(&ui.painter_at(area), area, &plan, stage, look, language);
+        self.axis(&painter, place, &plan, look, language);
         for node in 0..nodes as NodeId {
             let [top, bottom] = plan.lane(node).map(|y| area.top() + y);
             let row = Rect::from_min_max(pos2(area.left(), top), pos2(area.left() + left - GRID, bottom));
@@ -124,7 +125,7 @@ impl TimelinePanel {
     }
 
     /// Times below the lanes.
-    fn axis(&self, painter: &Painter, place: Rect, plan: &TimelineLayout, look: Look) {
+    fn axis(&self, painter: &Painter, place: Rect, plan: &TimelineLayout, look: Look, language: Language) {
         if plan.foot == 0.0 {
             return;
         }
@@ -133,7 +134,8 @@ impl TimelinePanel {
         for time in times {
             let x = place.left() + place.width() * self.window.share(time) as f32;
             painter.line_segment([pos2(x, top), pos2(x, top + 4.0)], Stroke::new(1.0, look.quiet));
-            let words = painter.layout_no_wrap(time_words(time, rate), theme::regular(theme::SMALL), look.quiet);
+            let words =
+                painter.layout_no_wrap(time_words(time, rate, language), theme::regular(theme::SMALL), look.quiet);
             let left = (x + 4.0).min(place.right() - words.size().x);
             painter.galley(pos2(left, top + 2.0), words, look.quiet);
         }
@@ -238,14 +240,15 @@ impl TimelinePanel {
 
 /// A lane's number and speed, at its left.
 fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus: &mut Selection, is_lit: bool) {
+    let language = session.language();
     let look = Look::of(ui.ctx());
     let response = ui.interact(row, ui.scope_id().with(("lane", node)), Sense::click());
     let stage = session.stage();
     let name = node_name(node);
-    widgets::describe(&response, &say!("Lane of {name}", "Pista de {name}"), || {
+    widgets::describe(&response, &say!(language, "Lane of {name}", "Pista de {name}"), || {
         let usage = stage.lanes().lanes()[usize::from(node)].bars().len();
-        let doing = activity_word(stage.state().activity(node, stage.now()));
-        say!("{usage} atoms traced so far, {doing}", "{usage} átomos calculados até agora, {doing}")
+        let doing = activity_word(stage.state().activity(node, stage.now()), language);
+        say!(language, "{usage} atoms traced so far, {doing}", "{usage} átomos calculados até agora, {doing}")
     });
     if response.hovered() {
         focus.hover(Subject::Node(node));
@@ -282,12 +285,12 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
 }
 
 /// How the machines' time was used until the shown time, in as many words as fit, above the strip that shows it.
-fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, look: Look) {
+fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, look: Look, language: Language) {
     if plan.head == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }
     let layout = |text: String| painter.layout_no_wrap(text, theme::regular(theme::SMALL), look.quiet);
-    let words = usage_words(stage);
+    let words = usage_words(stage, language);
     let mut galleys = (1..=words.len()).rev().map(|parts| layout(words[..parts].join(" · ")));
     if let Some(galley) = galleys.find(|galley| galley.size().x <= area.width()) {
         painter.galley(area.min, galley, look.quiet);
@@ -296,30 +299,32 @@ fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, lo
     if plan.lane < SLIDER + 2.0 {
         return;
     }
-    let label = layout(word!("machines in use", "máquinas em uso").into());
+    let label = layout(word!(language, "machines in use", "máquinas em uso").into());
     let place = pos2(area.left(), area.top() + plan.head - label.size().y - 4.0);
     painter.galley(place, label, look.quiet);
 }
 
-fn usage_words(stage: &Stage) -> [String; 4] {
+fn usage_words(stage: &Stage, language: Language) -> [String; 4] {
     let usage = stage.lanes().usage(stage.lasted());
     let [used, asking] = [usage.utilisation, usage.asking].map(fraction);
     let above = fraction((usage.imbalance - 1.0).max(0.0));
-    let (messages, bytes) = (count(u32::try_from(usage.messages).unwrap_or(u32::MAX)), bytes_words(usage.bytes));
+    let (messages, bytes) =
+        (count(u32::try_from(usage.messages).unwrap_or(u32::MAX)), bytes_words(usage.bytes, language));
     [
-        say!("{used} of the machines' time used", "{used} do tempo das máquinas usado"),
-        say!("busiest machine {above} above the mean", "a mais ocupada {above} acima da média"),
-        say!("{asking} spent asking or waiting", "{asking} pedindo ou esperando"),
-        say!("{messages} messages, {bytes}", "{messages} mensagens, {bytes}"),
+        say!(language, "{used} of the machines' time used", "{used} do tempo das máquinas usado"),
+        say!(language, "busiest machine {above} above the mean", "a mais ocupada {above} acima da média"),
+        say!(language, "{asking} spent asking or waiting", "{asking} pedindo ou esperando"),
+        say!(language, "{messages} messages, {bytes}", "{messages} mensagens, {bytes}"),
     ]
 }
 
-fn describe(response: &Response, stage: &Stage) {
-    widgets::describe(response, word!("Timeline", "Linha do tempo"), || {
-        let [until, length] = [stage.lasted(), stage.told_length()].map(|time| time_words(time, stage.grain()));
+fn describe(response: &Response, stage: &Stage, language: Language) {
+    widgets::describe(response, word!(language, "Timeline", "Linha do tempo"), || {
+        let [until, length] =
+            [stage.lasted(), stage.told_length()].map(|time| time_words(time, stage.grain(), language));
         let over = stage.phase == Phase::Finished && !stage.hides_later;
-        let of = if over { word!("in all", "ao todo") } else { word!("so far", "até agora") };
-        let usage = usage_words(stage).join(" · ");
-        say!("{until} of {length} {of}: {usage}", "{until} de {length} {of}: {usage}")
+        let of = if over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
+        let usage = usage_words(stage, language).join(" · ");
+        say!(language, "{until} of {length} {of}: {usage}", "{until} de {length} {of}: {usage}")
     });
 }

@@ -9,6 +9,7 @@ use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnc
 use super::jobs::Jobs;
 use crate::balance::Strategy;
 use crate::driver::TracedPicture;
+use crate::language::Language;
 use crate::palette::Rgb;
 use crate::runlog::{Driver, Metrics};
 use crate::sim::{Change, PixelCosts, Trial};
@@ -93,12 +94,14 @@ impl Session {
 
     /// Traces the picture, if it is not known, and runs trials of it; returns the job's number.
     pub fn compare(&mut self, subject: &ComparisonSubject, known: PictureSource, entries: Vec<NumberedTrial>) -> u64 {
-        self.jobs.compare(subject.clone(), known, entries, self.ground)
+        let language = self.language;
+        self.jobs.compare(subject.clone(), known, entries, self.ground, language)
     }
 
     /// Runs the subject by each strategy with more and more machines; returns the job's number.
     pub fn grow(&mut self, subject: &ComparisonSubject, pictured: Arc<TracedOnce>) -> u64 {
-        self.jobs.grow(subject.clone(), pictured)
+        let language = self.language;
+        self.jobs.grow(subject.clone(), pictured, language)
     }
 }
 
@@ -109,35 +112,46 @@ impl Jobs {
         known: PictureSource,
         entries: Vec<NumberedTrial>,
         ground: Rgb,
+        language: Language,
     ) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
-        self.start_many("compare", failed, move |tell| {
-            let tell = |compared| tell(JobResult::CompareResult(number, compared));
-            let pictured = match known {
-                PictureSource::Picture(pictured) => pictured,
-                PictureSource::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
-                    Ok(None) => return,
-                    Ok(Some(pictured)) => pictured,
-                    Err(why) => return tell(CompareResult::Failed(why)),
-                },
-            };
-            tell(CompareResult::Picture(Arc::clone(&pictured)));
-            for (id, name, trial) in entries {
-                let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
-                tell(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &pictured.pixels, ground))));
-            }
-        });
+        self.start_many(
+            "compare",
+            failed,
+            move |tell| {
+                let tell = |compared| tell(JobResult::CompareResult(number, compared));
+                let pictured = match known {
+                    PictureSource::Picture(pictured) => pictured,
+                    PictureSource::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
+                        Ok(None) => return,
+                        Ok(Some(pictured)) => pictured,
+                        Err(why) => return tell(CompareResult::Failed(why)),
+                    },
+                };
+                tell(CompareResult::Picture(Arc::clone(&pictured)));
+                for (id, name, trial) in entries {
+                    let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
+                    tell(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &pictured.pixels, ground))));
+                }
+            },
+            language,
+        );
         number
     }
 
-    fn grow(&mut self, subject: ComparisonSubject, pictured: Arc<TracedOnce>) -> u64 {
+    fn grow(&mut self, subject: ComparisonSubject, pictured: Arc<TracedOnce>, language: Language) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
-        self.start_many("grow", failed, move |tell| {
-            let trial = subject.paced(subject.trial.clone(), &pictured.costs);
-            tell(JobResult::CompareResult(number, CompareResult::Growth(grown(&trial, &pictured.costs))));
-        });
+        self.start_many(
+            "grow",
+            failed,
+            move |tell| {
+                let trial = subject.paced(subject.trial.clone(), &pictured.costs);
+                tell(JobResult::CompareResult(number, CompareResult::Growth(grown(&trial, &pictured.costs))));
+            },
+            language,
+        );
         number
     }
 }

@@ -62,8 +62,10 @@ type ProgressSink<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 impl Session {
     /// Makes it in the background and writes it to `path`.
     pub fn export(&mut self, path: PathBuf, export: Export) {
+        let language = self.language;
         if let Some(ExportJob { name, .. }) = &self.making {
             return self.trouble(say!(
+                language,
                 "{name} is still being made: cancel it first",
                 "{name} ainda está sendo feito: cancele antes"
             ));
@@ -72,24 +74,29 @@ impl Session {
         // The picture of a recorded run is traced again while it is shown.
         let is_known = !self.is_recorded() || self.stage.performer.has_ended();
         let source = ExportSource { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
-        let (job, (stop, stopped), language) = (self.jobs.number(), bounded::<()>(0), Language::spoken());
+        let (job, (stop, stopped)) = (self.jobs.number(), bounded::<()>(0));
         // What was said of the file before would cover how far this one is.
         self.notice = None;
         self.making = Some(ExportJob { job, name, since: self.clock, part: 0.0, _stop: stop });
         let failed = move |why| JobResult::Made(job, Err(why));
-        self.jobs.start_many("export", failed, move |tell| {
-            let percent = AtomicU32::new(0);
-            let goes_on = |part: f64| {
-                let now = (100.0 * part) as u32;
-                // The window need not hear more often.
-                if percent.fetch_max(now, Ordering::Relaxed) < now {
-                    tell(JobResult::Progress(job, part));
-                }
-                stopped.try_recv() != Err(TryRecvError::Disconnected)
-            };
-            let made = source.make(&path, export, &goes_on);
-            tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
-        });
+        self.jobs.start_many(
+            "export",
+            failed,
+            move |tell| {
+                let percent = AtomicU32::new(0);
+                let goes_on = |part: f64| {
+                    let now = (100.0 * part) as u32;
+                    // The window need not hear more often.
+                    if percent.fetch_max(now, Ordering::Relaxed) < now {
+                        tell(JobResult::Progress(job, part));
+                    }
+                    stopped.try_recv() != Err(TryRecvError::Disconnected)
+                };
+                let made = source.make(&path, export, &goes_on, language);
+                tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
+            },
+            language,
+        );
     }
 
     /// What is being made, how many seconds already, and what part of it is done.
@@ -99,8 +106,13 @@ impl Session {
 
     /// Gives up what is being made; nothing of it is kept.
     pub fn stop_making(&mut self) {
+        let language = self.language;
         if let Some(ExportJob { name, .. }) = self.making.take() {
-            self.note(say!("Cancelled: nothing of {name} was kept", "Cancelado: nada de {name} foi guardado"));
+            self.note(say!(
+                language,
+                "Cancelled: nothing of {name} was kept",
+                "Cancelado: nada de {name} foi guardado"
+            ));
         }
     }
 
@@ -126,7 +138,13 @@ impl ExportSource {
     ///
     /// # Errors
     /// A sentence, if it cannot be made; within it what writing came to.
-    fn make(&self, path: &Path, export: Export, tell: ProgressSink<'_>) -> Result<Result<(), OutputError>, String> {
+    fn make(
+        &self,
+        path: &Path,
+        export: Export,
+        tell: ProgressSink<'_>,
+        _language: Language,
+    ) -> Result<Result<(), OutputError>, String> {
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);

@@ -71,6 +71,7 @@ impl Session {
 
     /// Traces the pixel once more: another was asked for, or the picture is another.
     pub(super) fn look_again(&mut self) {
+        let language = self.language;
         let Some(InspectedRay { place, chosen }) = self.inspecting.asked else { return };
         if self.inspecting.is_busy {
             self.inspecting.again = true;
@@ -82,12 +83,15 @@ impl Session {
             return self.stop_inspecting();
         };
         self.inspecting.is_busy = true;
-        self.jobs.inspect(move || {
-            let inspected = Inspected::new(&tracer, &opened.scene, place)?;
-            // In another picture the pixel may have fewer rays.
-            let along = chosen.and_then(|chosen| inspected.choose(&tracer, chosen));
-            Some(along.unwrap_or(inspected))
-        });
+        self.jobs.inspect(
+            move || {
+                let inspected = Inspected::new(&tracer, &opened.scene, place)?;
+                // In another picture the pixel may have fewer rays.
+                let along = chosen.and_then(|chosen| inspected.choose(&tracer, chosen));
+                Some(along.unwrap_or(inspected))
+            },
+            language,
+        );
     }
 
     pub(super) fn take_inspected(&mut self, inspected: Option<Box<Inspected>>) {

@@ -42,38 +42,50 @@ impl Jobs {
     }
 
     /// Writes a picture of these pixels.
-    pub fn save_picture(&self, path: PathBuf, size: Size, pixels: impl FnOnce() -> Vec<u8> + Send + 'static) {
-        let language = Language::spoken();
-        self.start("save", move || JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language)));
+    pub fn save_picture(
+        &self,
+        path: PathBuf,
+        size: Size,
+        pixels: impl FnOnce() -> Vec<u8> + Send + 'static,
+        language: Language,
+    ) {
+        self.start(
+            "save",
+            move || JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language)),
+            language,
+        );
     }
 
     /// Writes a run file.
-    pub fn save_run(&self, path: PathBuf, log: RunLog) {
-        let language = Language::spoken();
-        self.start("save", move || JobResult::Saved(told(&path, log.save(&path), language)));
+    pub fn save_run(&self, path: PathBuf, log: RunLog, language: Language) {
+        self.start("save", move || JobResult::Saved(told(&path, log.save(&path), language)), language);
     }
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
-    pub fn choose(&self, purpose: Purpose, at: PathBuf) {
+    pub fn choose(&self, purpose: Purpose, at: PathBuf, language: Language) {
         let [scenes, lessons, all] =
-            word!(["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
-        self.start("file dialog", move || {
-            let mut dialog = rfd::FileDialog::new();
-            if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
-                dialog = dialog.set_directory(directory);
-            }
-            let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let chosen = match purpose {
-                Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
-                Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
-                Purpose::Save => dialog.set_file_name(name).save_file(),
-            };
-            JobResult::Chosen(purpose, chosen)
-        });
+            word!(language, ["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
+        self.start(
+            "file dialog",
+            move || {
+                let mut dialog = rfd::FileDialog::new();
+                if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
+                    dialog = dialog.set_directory(directory);
+                }
+                let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+                let chosen = match purpose {
+                    Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
+                    Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
+                    Purpose::Save => dialog.set_file_name(name).save_file(),
+                };
+                JobResult::Chosen(purpose, chosen)
+            },
+            language,
+        );
     }
 
     /// Makes small pictures of these scenes, one after the other.
-    pub fn thumbnails(&self, scenes: Vec<String>) {
+    pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
         self.start_many(
             "thumbnails",
             |why| JobResult::Saved(Err(why)),
@@ -84,16 +96,17 @@ impl Jobs {
                     tell(JobResult::Thumbnail(scene, made));
                 }
             },
+            language,
         );
     }
 
     /// Traces a pixel once more, to be looked at.
-    pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static) {
-        self.start("inspect", move || JobResult::Inspected(look().map(Box::new)));
+    pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static, language: Language) {
+        self.start("inspect", move || JobResult::Inspected(look().map(Box::new)), language);
     }
 
     /// Watches this file instead of the one before.
-    pub fn watch(&mut self, path: Option<PathBuf>) {
+    pub fn watch(&mut self, path: Option<PathBuf>, language: Language) {
         self.watch = None;
         let Some(path) = path else { return };
         let (stop, stopped) = bounded(0);
@@ -112,6 +125,7 @@ impl Jobs {
                     }
                 }
             },
+            language,
         );
     }
 
@@ -121,8 +135,8 @@ impl Jobs {
         self.next
     }
 
-    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
-        self.start_many(name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()));
+    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> JobResult + Send + 'static, language: Language) {
+        self.start_many(name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()), language);
     }
 
     /// Starts a thread for a job that tells several things, or tells what it `failed` with.
@@ -131,6 +145,7 @@ impl Jobs {
         name: &str,
         failed: impl FnOnce(String) -> JobResult,
         job: impl FnOnce(&(dyn Fn(JobResult) + Sync)) + Send + 'static,
+        language: Language,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {
@@ -139,7 +154,8 @@ impl Jobs {
             ctx.request_repaint();
         };
         if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
-            let why = say!("No thread could be started: {error}", "Nenhuma thread pôde ser iniciada: {error}");
+            let why =
+                say!(language, "No thread could be started: {error}", "Nenhuma thread pôde ser iniciada: {error}");
             let _ = self.sender.send(failed(why));
         }
     }
@@ -155,8 +171,7 @@ fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
 
 /// How saving went, in a sentence of this language. What is in files is English, so that only now the thread speaks it.
 pub(super) fn told(path: &Path, saved: Result<(), OutputError>, language: Language) -> Result<String, String> {
-    language.speak();
     let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let shown = shown.display();
-    saved.map(|()| say!("Saved to {shown}", "Salvo em {shown}")).map_err(|error| error.to_string())
+    saved.map(|()| say!(language, "Saved to {shown}", "Salvo em {shown}")).map_err(|error| error.to_string())
 }

@@ -7,6 +7,7 @@ use crossbeam_channel::{TryRecvError, bounded};
 use super::Session;
 use super::job_result::{Finding, JobResult, Prepared};
 use super::jobs::Jobs;
+use crate::language::Language;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
 use crate::study::accuracy::{MOST, Reference, measure, size_for};
@@ -14,8 +15,9 @@ use crate::study::accuracy::{MOST, Reference, measure, size_for};
 impl Session {
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+        let language = self.language;
         self.measurements += 1;
-        self.jobs.measure(prepared, qualities)
+        self.jobs.measure(prepared, qualities, language)
     }
 
     /// Gives up what is being measured, if something is.
@@ -26,18 +28,23 @@ impl Session {
 
 impl Jobs {
     /// Measures these qualities in a small picture, in place of what was measured before; returns the job's number.
-    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
+    pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>, language: Language) -> u64 {
         let number = self.number();
         let (stop, stopped) = bounded::<()>(0);
         self.measuring = Some(stop);
         let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
         let failed = move |why| JobResult::Found(number, Finding::Over(Err(why)));
-        self.start_many("measure", failed, move |tell| {
-            let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
-            let tell = |finding| tell(JobResult::Found(number, finding));
-            tell(Finding::Needs(tracer.compiled(), tracer.levels()));
-            tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
-        });
+        self.start_many(
+            "measure",
+            failed,
+            move |tell| {
+                let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
+                let tell = |finding| tell(JobResult::Found(number, finding));
+                tell(Finding::Needs(tracer.compiled(), tracer.levels()));
+                tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
+            },
+            language,
+        );
         number
     }
 

@@ -27,7 +27,7 @@ use super::settings::Settings;
 use super::settings::undo::{Gesture, UndoHistory};
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
-use crate::language::say;
+use crate::language::{Language, say};
 use crate::palette::Rgb;
 use crate::runlog::Header;
 use crate::scene::{Camera, Opened};
@@ -81,6 +81,8 @@ pub struct Session {
     ground: Rgb,
     /// While a hand drags the run's time: whether that stood still before.
     dragged_from: Option<bool>,
+    /// The language of the window.
+    language: Language,
     /// egui's clock, in seconds.
     clock: f64,
 }
@@ -117,8 +119,19 @@ impl Session {
             recent: Vec::new(),
             ground,
             dragged_from: None,
+            language: Language::default(),
             clock: 0.0,
         }
+    }
+
+    /// The language of the window.
+    pub fn language(&self) -> Language {
+        self.language
+    }
+
+    /// Sets the language of the window.
+    pub fn set_language(&mut self, language: Language) {
+        self.language = language;
     }
 
     /// Ends the run and starts it anew with what is set now; a recorded run begins again.
@@ -182,19 +195,20 @@ impl Session {
 
     /// Changes what is set: at once, or by starting the run anew if that is needed. What is impossible is said in words.
     pub fn change(&mut self, gesture: Gesture, change: impl FnOnce(&mut Settings)) {
+        let language = self.language;
         let mut settings = self.settings.clone();
         change(&mut settings);
         if settings == self.settings || self.is_recorded() {
             return;
         }
-        if let Err(why) = settings.check() {
+        if let Err(why) = settings.check(language) {
             return self.trouble(why);
         }
         self.history.keep(self.settings.clone(), gesture);
         let before = self.apply(settings);
         if self.settings.needs_restart(&before) {
-            let now = self.settings.difference(&before);
-            self.note(say!("Started anew: {now}", "Reiniciada: {now}"));
+            let now = self.settings.difference(&before, language);
+            self.note(say!(language, "Started anew: {now}", "Reiniciada: {now}"));
         }
     }
 
@@ -205,19 +219,21 @@ impl Session {
 
     /// Takes the last change back.
     pub fn undo(&mut self) {
+        let language = self.language;
         if let Some(settings) = self.history.undo(&self.settings) {
             let before = self.apply(settings);
-            let now = self.settings.difference(&before);
-            self.note(say!("Undone; now {now}", "Desfeito; agora {now}"));
+            let now = self.settings.difference(&before, language);
+            self.note(say!(language, "Undone; now {now}", "Desfeito; agora {now}"));
         }
     }
 
     /// Makes the change that was taken back.
     pub fn redo(&mut self) {
+        let language = self.language;
         if let Some(settings) = self.history.redo(&self.settings) {
             let before = self.apply(settings);
-            let now = self.settings.difference(&before);
-            self.note(say!("Done again; now {now}", "Refeito; agora {now}"));
+            let now = self.settings.difference(&before, language);
+            self.note(say!(language, "Done again; now {now}", "Refeito; agora {now}"));
         }
     }
 

@@ -8,7 +8,7 @@ use super::job_result::{CameraPreview, JobResult};
 use super::jobs::Jobs;
 use super::opening::Opening;
 use super::preview::{guess, with_preview};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Tracer;
@@ -49,7 +49,9 @@ impl Session {
 
     /// Says why the camera of a recorded run cannot be moved.
     pub fn refuse_camera(&mut self) {
+        let language = self.language;
         self.note(word!(
+            language,
             "A recorded run keeps its camera: make it live first, under Set up (E)",
             "Uma execução gravada mantém sua câmera: antes, executar ao vivo, em Ajustar (E)"
         ));
@@ -84,6 +86,7 @@ impl Session {
 
     /// Once the camera rests and no hand `holds` it, the run starts anew from there.
     pub fn settle_camera(&mut self, holds: bool) {
+        let language = self.language;
         let Some(moving) = self.moving.as_mut().filter(|moving| !moving.is_settled) else { return };
         if holds || self.clock - moving.since < REST {
             return;
@@ -95,13 +98,14 @@ impl Session {
             Some(opened) => {
                 self.show(Opening::Scene(Arc::new(opened)));
                 self.note(word!(
+                    language,
                     "Seen from elsewhere: the run starts anew",
                     "Vista de outro lugar: a execução reinicia"
                 ));
             }
             None => {
                 self.moving = None;
-                self.trouble(word!("The camera cannot go there", "A câmera não pode ir para lá"));
+                self.trouble(word!(language, "The camera cannot go there", "A câmera não pode ir para lá"));
             }
         }
     }
@@ -125,6 +129,7 @@ impl Session {
     }
 
     fn look_from_there(&mut self) {
+        let language = self.language;
         let (Some(moving), Some(prepared)) = (&mut self.moving, &self.prepared) else { return };
         if moving.is_busy {
             moving.again = true;
@@ -133,14 +138,14 @@ impl Session {
         moving.is_busy = true;
         self.camera_jobs += 1;
         let scene = Scene { camera: moving.camera, ..prepared.opened.scene.clone() };
-        self.jobs.look(scene, prepared.size, prepared.quality);
+        self.jobs.look(scene, prepared.size, prepared.quality, language);
     }
 }
 
 impl Jobs {
     /// Looks at the scene, coarsely and then as finely as there is time.
-    fn look(&mut self, scene: Scene, size: Size, quality: Quality) {
-        self.start("camera", move || JobResult::CameraPreview(look(&scene, size, quality)));
+    fn look(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
+        self.start("camera", move || JobResult::CameraPreview(look(&scene, size, quality)), language);
     }
 }
 

@@ -21,41 +21,45 @@ impl Jobs {
         &mut self,
         read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
         settings: &Settings,
+        language: Language,
     ) -> u64 {
         let number = self.number();
         let (size, quality, division) = (settings.size, settings.quality, settings.division());
-        let language = Language::spoken();
-        self.start("prepare", move || {
-            language.speak();
-            let ready = read().and_then(|opening| match opening {
-                Opening::Scene(opened) => {
-                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
-                    let found = probe(&tracer, division, PROBE);
-                    let cpu = found.whole_with_rests(&tracer, division);
-                    let virtual_time = RAY.mul_f64(found.rays as f64);
-                    let preview = guess(&tracer);
-                    Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
-                }
-                Opening::Run(log) => {
-                    check_size(log.header.size)?;
-                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                    let unread = |error| {
-                        say!(
-                            "The run's own scene cannot be read: {error}",
-                            "A cena da própria execução não pode ser lida: {error}"
-                        )
-                    };
-                    let opened = opened.map_err(unread)?;
-                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                    let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
-                    let known = Arc::new(RunView::of(&log));
-                    let preview = guess(&tracer);
-                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
-                }
-                Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
-            });
-            JobResult::Ready(number, ready)
-        });
+        self.start(
+            "prepare",
+            move || {
+                let ready = read().and_then(|opening| match opening {
+                    Opening::Scene(opened) => {
+                        let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
+                        let found = probe(&tracer, division, PROBE);
+                        let cpu = found.whole_with_rests(&tracer, division);
+                        let virtual_time = RAY.mul_f64(found.rays as f64);
+                        let preview = guess(&tracer);
+                        Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
+                    }
+                    Opening::Run(log) => {
+                        check_size(log.header.size, language)?;
+                        let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
+                        let unread = |error| {
+                            say!(
+                                language,
+                                "The run's own scene cannot be read: {error}",
+                                "A cena da própria execução não pode ser lida: {error}"
+                            )
+                        };
+                        let opened = opened.map_err(unread)?;
+                        let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
+                        let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
+                        let known = Arc::new(RunView::of(&log));
+                        let preview = guess(&tracer);
+                        Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
+                    }
+                    Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
+                });
+                JobResult::Ready(number, ready)
+            },
+            language,
+        );
         number
     }
 }
@@ -64,12 +68,13 @@ impl Jobs {
 const PROBE: Duration = Duration::from_millis(120);
 
 /// Whether a window can hold a recorded picture.
-fn check_size(size: Size) -> Result<(), String> {
+fn check_size(size: Size, language: Language) -> Result<(), String> {
     let most = Settings::LONGEST_SIDE * Settings::LONGEST_SIDE;
     if size.pixels() <= most {
         return Ok(());
     }
     Err(say!(
+        language,
         "This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels",
         "A imagem desta execução, de {size} pixels, é grande demais para a janela, que mostra até {most} pixels"
     ))

@@ -13,7 +13,7 @@ use crate::runlog::{Driver, Header, RunLog};
 use crate::time::Time;
 use crate::view::{
     Canvas, Details, Lanes, Layer, Markers, Narrator, Playback, RATES, RunState, RunView, Snapshot, SnapshotCache,
-    StepUnit, Subject, Summary, parts_words, result_words, step,
+    StepUnit, Subject, Summary, step,
 };
 
 /// A run, and everything that is known of it.
@@ -43,19 +43,9 @@ pub struct Stage {
     stepped_to: Option<usize>,
     past: SnapshotCache,
     canvas: Canvas,
-    result: Option<RunResult>,
+    result: Option<Summary>,
     /// egui's clock at the last tick, in seconds.
     ticked: Option<f64>,
-}
-
-/// What a run amounts to.
-pub struct RunResult {
-    /// In figures.
-    pub outcome: Summary,
-    /// The same in words.
-    pub words: String,
-    /// Who did most and least of it.
-    pub parts: String,
 }
 
 /// How far a run is.
@@ -103,7 +93,7 @@ impl Stage {
 
     /// A run that was recorded, from its beginning; `known` is what is known of all of it.
     pub fn recorded(performer: RunSource, log: RunLog, known: RunView, ground: Rgb) -> Self {
-        let result = RunResult::of(&log, &known.latest.state);
+        let result = Summary::of(&log);
         let mut time = Playback::from_the_beginning();
         // A run of no time would be over before anybody looked.
         let length = known.latest.state.head().secs();
@@ -124,9 +114,6 @@ impl Stage {
     pub fn tick(&mut self, clock: f64) -> bool {
         let passed = Duration::try_from_secs_f64(clock - self.ticked.unwrap_or(clock)).unwrap_or_default();
         self.ticked = Some(clock);
-        if self.known.language != Language::spoken() {
-            self.tell_anew();
-        }
         // One batch for the log, which would else sort its end for each party's.
         let (mut told, mut ends) = (Vec::new(), false);
         while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
@@ -154,7 +141,7 @@ impl Stage {
         }
         self.sort_in(told);
         if ends {
-            self.result = RunResult::of(&self.log, &self.known.latest.state);
+            self.result = Summary::of(&self.log);
         }
         self.time.advance(passed.min(LONGEST_FRAME), self.clock(), self.keeps_pace());
         self.show_now();
@@ -187,8 +174,8 @@ impl Stage {
     }
 
     /// What is known of something, whatever moment is shown.
-    pub fn dossier(&mut self, about: Subject) -> Details {
-        Details::of(about, &self.log, &self.known.lanes, &mut self.past)
+    pub fn dossier(&mut self, about: Subject, language: Language) -> Details {
+        Details::of(about, &self.log, &self.known.lanes, &mut self.past, language)
     }
 
     /// How many records lie before what is shown.
@@ -212,7 +199,7 @@ impl Stage {
     }
 
     /// What the run amounts to, where its end is shown.
-    pub fn result(&self) -> Option<&RunResult> {
+    pub fn result(&self) -> Option<&Summary> {
         self.result.as_ref().filter(|_| self.shows_end())
     }
 
@@ -311,15 +298,6 @@ impl Stage {
         self.performer.set_rate(self.time.rate());
     }
 
-    /// All that has happened, in the language that is spoken now.
-    fn tell_anew(&mut self) {
-        (self.known, self.past) = (RunView::of(&self.log), SnapshotCache::default());
-        if let Some(earlier) = &mut self.earlier {
-            *earlier = Snapshot::new(&self.log.header);
-        }
-        self.result = self.result.take().and_then(|_| RunResult::of(&self.log, &self.known.latest.state));
-    }
-
     fn shown(&self) -> &Snapshot {
         shown(&self.earlier, &self.known)
     }
@@ -387,13 +365,4 @@ impl Stage {
 /// The moment that is shown: of its own, so that what is drawn of it can be changed meanwhile.
 fn shown<'a>(earlier: &'a Option<Snapshot>, known: &'a RunView) -> &'a Snapshot {
     earlier.as_ref().unwrap_or(&known.latest)
-}
-
-impl RunResult {
-    /// What the run amounts to, if it came to its end. Sums over all atoms, so not for every frame.
-    fn of(log: &RunLog, state: &RunState) -> Option<Self> {
-        let outcome = Summary::of(log)?;
-        let parts = parts_words(state).unwrap_or_default();
-        Some(Self { outcome, words: result_words(state, &outcome), parts })
-    }
 }

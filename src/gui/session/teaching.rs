@@ -30,8 +30,9 @@ impl PreparingLesson {
 impl Session {
     /// Runs a lesson's runs in the background.
     pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> PreparingLesson {
+        let language = self.language;
         let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
-        let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced));
+        let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced), language);
         PreparingLesson { job, traced, pixels }
     }
 
@@ -67,27 +68,31 @@ impl Session {
 }
 
 impl Jobs {
-    fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>) -> u64 {
-        let (number, language) = (self.number(), Language::spoken());
-        self.start("lesson", move || {
-            language.speak();
-            let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
-            // A lesson's pictures are small, and soon traced.
-            let performed = lesson.perform(&done, &|| false);
-            let taught = performed.and_then(|performed| {
-                let performed = performed.unwrap_or_default();
-                lesson.has_moments(&performed)?;
-                let values = lesson.values(&performed);
-                let recorded = performed.into_iter().map(|(name, run)| {
-                    let known = Arc::new(RunView::of(&run.log));
-                    let preview = guess(&run.tracer);
-                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
+    fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>, language: Language) -> u64 {
+        let number = self.number();
+        self.start(
+            "lesson",
+            move || {
+                let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
+                // A lesson's pictures are small, and soon traced.
+                let performed = lesson.perform(&done, &|| false);
+                let taught = performed.and_then(|performed| {
+                    let performed = performed.unwrap_or_default();
+                    lesson.has_moments(&performed)?;
+                    let values = lesson.values(&performed);
+                    let recorded = performed.into_iter().map(|(name, run)| {
+                        let known = Arc::new(RunView::of(&run.log));
+                        let preview = guess(&run.tracer);
+                        (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
+                    });
+                    Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
                 });
-                Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
-            });
-            let unshown = |why| say!("The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
-            JobResult::Lesson(number, taught.map_err(unshown))
-        });
+                let unshown =
+                    |why| say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
+                JobResult::Lesson(number, taught.map_err(unshown))
+            },
+            language,
+        );
         number
     }
 }

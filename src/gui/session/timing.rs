@@ -56,25 +56,28 @@ impl Session {
 
     /// Shows what happened next or before, and stands still there.
     pub fn step(&mut self, by: StepUnit, forward: bool) {
+        let language = self.language;
         // Whoever makes steps wants to see them all.
         if self.stage.is_live() {
             self.set_run_paused(true);
         }
         if !self.stage.step(by, forward) {
-            let name = by.name();
+            let name = by.name(language);
             self.note(if forward {
-                say!("There is no later {name}", "Depois daqui: nenhum passo por {name}")
+                say!(language, "There is no later {name}", "Depois daqui: nenhum passo por {name}")
             } else {
-                say!("There is no earlier {name}", "Antes daqui: nenhum passo por {name}")
+                say!(language, "There is no earlier {name}", "Antes daqui: nenhum passo por {name}")
             });
         }
     }
 
     /// Whoever takes a hand in a run that goes on sees what comes of it.
     pub(super) fn return_to_present(&mut self) {
+        let language = self.language;
         if self.stage.phase == Phase::Running && !self.stage.is_live() {
             self.stage.follow();
             self.note(word!(
+                language,
                 "Back in the present: what you change, you change in the run as it is now",
                 "De volta ao presente: o que se muda, muda na execução como está agora"
             ));

@@ -12,7 +12,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::balance::{NodeId, Remedies, Strategy};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::Driver;
 use crate::view::Sharing;
@@ -82,11 +82,12 @@ impl Settings {
 
     /// # Errors
     /// A sentence that says which setting is impossible, and what would be possible.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self, language: Language) -> Result<(), String> {
         let within = |what: &str, value: u32, least: u32, most: u32| {
             let possible = (least..=most).contains(&value);
             let why = || {
                 say!(
+                    language,
                     "{what} can be {least} to {most}, not {value}",
                     "{what}: pode ser de {least} a {most}, não {value}"
                 )
@@ -94,36 +95,37 @@ impl Settings {
             if possible { Ok(()) } else { Err(why()) }
         };
         Size::new(self.size.width(), self.size.height())?;
-        within(word!("The width", "Largura"), self.size.width(), 16, Self::LONGEST_SIDE)?;
-        within(word!("The height", "Altura"), self.size.height(), 16, Self::LONGEST_SIDE)?;
-        within(word!("Samples", "Amostras"), self.quality.samples, 1, Self::MOST_SAMPLES)?;
+        within(word!(language, "The width", "Largura"), self.size.width(), 16, Self::LONGEST_SIDE)?;
+        within(word!(language, "The height", "Altura"), self.size.height(), 16, Self::LONGEST_SIDE)?;
+        within(word!(language, "Samples", "Amostras"), self.quality.samples, 1, Self::MOST_SAMPLES)?;
         self.quality.check()?;
-        let machines = word!("The number of machines", "Número de máquinas");
+        let machines = word!(language, "The number of machines", "Número de máquinas");
         within(
             machines,
             self.speeds.len() as u32,
             1,
             (Self::MOST_NODES - self.spares.len().min(Self::MOST_SPARES)) as u32,
         )?;
-        let spares = word!("The number of spare machines", "Número de máquinas de reserva");
+        let spares = word!(language, "The number of spare machines", "Número de máquinas de reserva");
         within(spares, self.spares.len() as u32, 0, Self::MOST_SPARES as u32)?;
-        within(word!("An atom's pixels", "Pixels de um átomo"), self.atom, 1, self.size.pixels())?;
-        within(word!("A part", "Uma parte"), self.part, 1, Self::MOST_ATOMS)?;
-        within(word!("The latency", "Latência"), self.latency, 0, Self::MOST_LATENCY)?;
-        let handling = word!("The parent's time for a message", "Tempo do pai por mensagem");
+        within(word!(language, "An atom's pixels", "Pixels de um átomo"), self.atom, 1, self.size.pixels())?;
+        within(word!(language, "A part", "Uma parte"), self.part, 1, Self::MOST_ATOMS)?;
+        within(word!(language, "The latency", "Latência"), self.latency, 0, Self::MOST_LATENCY)?;
+        let handling = word!(language, "The parent's time for a message", "Tempo do pai por mensagem");
         within(handling, self.handling, 0, Self::MOST_HANDLING)?;
-        let bandwidth = word!("A link's kB a second", "kB por segundo de um enlace");
+        let bandwidth = word!(language, "A link's kB a second", "kB por segundo de um enlace");
         within(bandwidth, self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
         if let Pace::Lasts(seconds) = self.tempo {
-            within(word!("A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
+            within(word!(language, "A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
         }
         if !self.all_speeds().all(|speed| (0.0..=1.0).contains(&speed)) {
-            return Err(word!("A speed can be 0 to 100 %", "Uma velocidade pode ser de 0 a 100 %").into());
+            return Err(word!(language, "A speed can be 0 to 100 %", "Uma velocidade pode ser de 0 a 100 %").into());
         }
         let (atoms, most) = (self.division().atoms(), Self::MOST_ATOMS);
         if atoms > most {
             let (size, atom) = (self.size, self.atom);
             return Err(say!(
+                language,
                 "{size} pixels in atoms of {atom} are {atoms} atoms; the window shows up to {most}: larger atoms, or a \
                  smaller picture",
                 "{size} pixels em átomos de {atom} são {atoms} átomos; a janela mostra até {most}: átomos maiores, ou \
@@ -268,8 +270,9 @@ mod tests {
 
     #[test]
     fn impossible_settings_are_told_in_words() {
-        assert_eq!(Settings::default().check(), Ok(()));
-        let complaint = |change: fn(&mut Settings)| with(change).check().unwrap_err();
+        let language = Language::English;
+        assert_eq!(Settings::default().check(language), Ok(()));
+        let complaint = |change: fn(&mut Settings)| with(change).check(language).unwrap_err();
         assert_eq!(complaint(|s| s.speeds.clear()), "The number of machines can be 1 to 32, not 0");
         assert_eq!(complaint(|s| s.speeds = vec![f64::NAN]), "A speed can be 0 to 100 %");
         assert!(complaint(|s| s.atom = 1).contains("307200 atoms; the window shows up to 262144"));
@@ -278,14 +281,15 @@ mod tests {
 
     #[test]
     fn differences_are_told_in_a_few_words() {
-        let told = |change: fn(&mut Settings)| with(change).difference(&Settings::default());
+        let language = Language::English;
+        let told = |change: fn(&mut Settings)| with(change).difference(&Settings::default(), language);
         assert_eq!(told(|_| {}), "");
         assert_eq!(told(|s| s.speeds[2] = 0.3), "machine 3 at 30 %");
         assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "other speeds for 8 machines");
         assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
         let farm = Sharing::By(Strategy::Farm);
-        assert_eq!(with(|s| s.set_sharing(farm)).difference(&Settings::default()), "farm");
+        assert_eq!(with(|s| s.set_sharing(farm)).difference(&Settings::default(), language), "farm");
         assert_eq!(told(|s| s.set_sharing(Sharing::Stealing)), "work stealing (rayon)");
         assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, 5 atoms in a transfer at least");
         assert_eq!(
@@ -309,6 +313,7 @@ mod tests {
 
     #[test]
     fn spare_machines_come_with_the_ring_that_adapts() {
+        let language = Language::English;
         let mut settings = with(|s| s.set_sharing(Sharing::By(Strategy::Adaptive)));
         assert_eq!((settings.spares.len(), settings.speeds.len()), (1, 8));
         settings.set_speed(8, 0.5);
@@ -318,9 +323,9 @@ mod tests {
         assert_eq!(Settings::of(&header, settings.tempo), settings);
         let more = Settings { spares: vec![1.0; 2], ..settings.clone() };
         assert!(more.needs_restart(&settings));
-        assert_eq!(more.difference(&settings), "2 spare machines");
+        assert_eq!(more.difference(&settings, language), "2 spare machines");
         settings.set_nodes(32);
-        assert_eq!((settings.speeds.len(), settings.check()), (31, Ok(())));
+        assert_eq!((settings.speeds.len(), settings.check(language)), (31, Ok(())));
         settings.set_sharing(Sharing::By(Strategy::Ring));
         assert!(settings.spares.is_empty());
     }

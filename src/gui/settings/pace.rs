@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 
 /// How fast the reference machine is emulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,10 +17,10 @@ pub enum Pace {
 
 impl Pace {
     /// How fast that is, in a few words.
-    pub fn words(self) -> String {
+    pub fn words(self, language: Language) -> String {
         match self {
-            Self::Lasts(seconds) => say!("a run of about {seconds} s", "uma execução de uns {seconds} s"),
-            Self::Full => word!("full speed", "velocidade total").into(),
+            Self::Lasts(seconds) => say!(language, "a run of about {seconds} s", "uma execução de uns {seconds} s"),
+            Self::Full => word!(language, "full speed", "velocidade total").into(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Speeds that are offered for all machines at once.
 
-use crate::language::word;
+use crate::language::{Language, word};
 
 /// Speeds for all machines at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,29 +33,35 @@ impl SpeedPreset {
     pub const ALL: [Self; 4] = [Self::Equal, Self::OneSlow, Self::Random, Self::Laboratory];
 
     /// What it is called.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
-            Self::Equal => word!("All equal", "Iguais"),
-            Self::OneSlow => word!("One slow", "Uma lenta"),
-            Self::Random => word!("Random", "Ao acaso"),
-            Self::Laboratory => word!("Old laboratory", "Laboratório antigo"),
+            Self::Equal => word!(language, "All equal", "Iguais"),
+            Self::OneSlow => word!(language, "One slow", "Uma lenta"),
+            Self::Random => word!(language, "Random", "Ao acaso"),
+            Self::Laboratory => word!(language, "Old laboratory", "Laboratório antigo"),
         }
     }
 
     /// What it does, in a sentence.
-    pub fn hint(self) -> &'static str {
+    pub fn hint(self, language: Language) -> &'static str {
         match self {
-            Self::Equal => word!("Every machine at full speed", "Todas as máquinas a 100 %"),
+            Self::Equal => word!(language, "Every machine at full speed", "Todas as máquinas a 100 %"),
             Self::OneSlow => {
-                word!("One machine at 10 %, the others at full speed", "Uma máquina a 10 %, as outras a 100 %")
+                word!(
+                    language,
+                    "One machine at 10 %, the others at full speed",
+                    "Uma máquina a 10 %, as outras a 100 %"
+                )
             }
             Self::Random => {
                 word!(
+                    language,
                     "Each machine anywhere from 10 to 100 %, by the seed",
                     "Cada máquina entre 10 e 100 %, pela semente"
                 )
             }
             Self::Laboratory => word!(
+                language,
                 "Machines of a laboratory of 1997: Pentiums, 486s, and a busy HP 9000/710",
                 "Máquinas de um laboratório de 1997: Pentiums, 486s e uma HP 9000/710 sobrecarregada"
             ),

@@ -16,7 +16,7 @@ use egui::{
     StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::language::word;
+use crate::language::{Language, word};
 use icons::Icon;
 use theme::{GRID, Look};
 
@@ -234,6 +234,7 @@ pub fn deeds<T>(
     deeds: impl IntoIterator<Item = (T, String)>,
     (is_possible, hint): (bool, &str),
     look: Look,
+    language: Language,
 ) -> Option<T> {
     ui.set_width(34.0 * GRID);
     let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
@@ -247,7 +248,7 @@ pub fn deeds<T>(
             }
         });
     }
-    let never = word!("Only while a run goes on, live", "Só enquanto uma execução acontece, ao vivo");
+    let never = word!(language, "Only while a run goes on, live", "Só enquanto uma execução acontece, ao vivo");
     let hint = RichText::new(if is_possible { hint } else { never });
     let hint = Label::new(hint.font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
     // A menu would stretch its lines.

@@ -26,6 +26,7 @@ use serde::Serialize;
 
 use super::progress::Progress;
 use super::{ProgressSink, Study};
+use crate::language::Language;
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::scene::Opened;
@@ -99,12 +100,12 @@ pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result
     study.add_table("ring", &ring.rows())?;
     for found in &found {
         let name = as_file_name(&found.scene);
-        study.add_chart(&format!("{name}-front"), &charts::front(found).marks(CHART_SIZE));
-        study.add_chart(&format!("{name}-alone"), &charts::alone(found).marks(CHART_SIZE));
+        study.add_chart(&format!("{name}-front"), &charts::front(found).marks(CHART_SIZE, Language::English));
+        study.add_chart(&format!("{name}-alone"), &charts::alone(found).marks(CHART_SIZE, Language::English));
     }
-    study.add_chart("estimate", &charts::estimate(&ring).marks(CHART_SIZE));
-    study.add_chart("lateness", &charts::lateness(&ring).marks(CHART_SIZE));
-    study.add_chart("atoms", &charts::atoms(&ring).marks(CHART_SIZE));
+    study.add_chart("estimate", &charts::estimate(&ring).marks(CHART_SIZE, Language::English));
+    study.add_chart("lateness", &charts::lateness(&ring).marks(CHART_SIZE, Language::English));
+    study.add_chart("atoms", &charts::atoms(&ring).marks(CHART_SIZE, Language::English));
     study.add_report(report::report(&found, &ring));
     Ok(study)
 }

@@ -3,6 +3,7 @@
 use super::article::{self, PACKETS, SERIAL};
 use super::rows::PaperRow;
 use crate::balance::Strategy;
+use crate::language::Language;
 use crate::study::fixture::STRATEGIES;
 use crate::view::{Axis, Bar, BarChart, CHART_SIZE, LineChart, Mark, Scale, Series, Style, series_hue};
 
@@ -26,12 +27,12 @@ pub(super) fn all(rows: &[PaperRow], handling: &[(f64, [f64; 4])]) -> Vec<(&'sta
         ("figure5-sim-network", "sim", "modelled", "In virtual time, on the modelled network"),
     ];
     for (name, driver, network, title) in figures {
-        charts.push((name, times(rows, driver, network, title).marks(CHART_SIZE)));
+        charts.push((name, times(rows, driver, network, title).marks(CHART_SIZE, Language::English)));
     }
-    charts.push(("atoms", sizes(rows, "atom").marks(CHART_SIZE)));
-    charts.push(("parts", sizes(rows, "part").marks(CHART_SIZE)));
-    charts.push(("figure9", packets(rows).marks(CHART_SIZE)));
-    charts.push(("handling", choked(handling).marks(CHART_SIZE)));
+    charts.push(("atoms", sizes(rows, "atom").marks(CHART_SIZE, Language::English)));
+    charts.push(("parts", sizes(rows, "part").marks(CHART_SIZE, Language::English)));
+    charts.push(("figure9", packets(rows).marks(CHART_SIZE, Language::English)));
+    charts.push(("handling", choked(handling).marks(CHART_SIZE, Language::English)));
     charts
 }
 

@@ -7,6 +7,7 @@ mod report;
 
 use super::progress::Progress;
 use super::{ProgressSink, Study};
+use crate::language::Language;
 use crate::scene::Opened;
 
 /// Measures all cases with this scene's picture.
@@ -21,7 +22,7 @@ pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String>
     study.add_rows(&rows)?;
     study.add_table("growth", &growth)?;
     for (name, chart) in report::charts(&rows).into_iter().chain(growth::charts(&growth)) {
-        study.add_chart(&name, &chart.marks(crate::view::CHART_SIZE));
+        study.add_chart(&name, &chart.marks(crate::view::CHART_SIZE, Language::English));
     }
     let mut text = report::report(&rows);
     growth::report(&mut text, &growth);

@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use super::progress::Progress;
 use super::{ProgressSink, Study};
+use crate::language::Language;
 use crate::view::Scale;
 
 /// Something that is tried at growing hardness, by several methods.
@@ -104,7 +105,7 @@ pub fn stability(tell: ProgressSink<'_>) -> Result<Study, String> {
     let found: Vec<(&StabilityCase, &[StabilityRow])> =
         cases.iter().zip(starts.zip(&ends)).map(|(case, (start, &end))| (case, &rows[start..end])).collect();
     for (case, rows) in &found {
-        study.add_chart(case.name, &report::chart(case, rows).marks(crate::view::CHART_SIZE));
+        study.add_chart(case.name, &report::chart(case, rows).marks(crate::view::CHART_SIZE, Language::English));
     }
     study.add_report(report::report(&found));
     Ok(study)

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::time_budget::TimeBudget;
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::view::text::format::{atoms_words, count, duration, fraction, node_name};
 
 /// A run that came to its end, and what it is called.
@@ -19,19 +19,27 @@ pub struct NamedBudget<'a> {
 const SAME: f64 = 1.02;
 
 /// What tells two runs apart: which took longer, and where its time went.
-pub fn contrast(one: NamedBudget<'_>, other: NamedBudget<'_>) -> String {
+pub fn contrast(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language) -> String {
     let [quick, slow] = if one.account.makespan <= other.account.makespan { [one, other] } else { [other, one] };
     let times = slow.account.makespan.as_secs_f64() / quick.account.makespan.as_secs_f64().max(f64::MIN_POSITIVE);
     if times < SAME {
-        return same(one, other);
+        return same(one, other, language);
     }
-    let (name, takes, quicker, ratio) =
-        (slow.name, duration(slow.account.makespan), quick.name, decimal(times, if times < 10.0 { 2 } else { 0 }));
+    let (name, takes, quicker, ratio) = (
+        slow.name,
+        duration(slow.account.makespan, language),
+        quick.name,
+        decimal(language, times, if times < 10.0 { 2 } else { 0 }),
+    );
     let mut told = say!(
+        language,
         "{name} takes {takes}, {ratio} times as long as {quicker}.",
         "{name} leva {takes}, {ratio} vezes o tempo de {quicker}."
     );
-    for sentence in [power(quick.account, slow.account), cause(quick.account, slow.account)].into_iter().flatten() {
+    for sentence in [power(quick.account, slow.account, language), cause(quick.account, slow.account, language)]
+        .into_iter()
+        .flatten()
+    {
         told.push(' ');
         told.push_str(&sentence);
     }
@@ -39,32 +47,35 @@ pub fn contrast(one: NamedBudget<'_>, other: NamedBudget<'_>) -> String {
 }
 
 /// Both take about as long.
-fn same(one: NamedBudget<'_>, other: NamedBudget<'_>) -> String {
+fn same(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language) -> String {
     let (a, b) = (one.name, other.name);
-    let [first, second] = [one, other].map(|run| duration(run.account.makespan));
+    let [first, second] = [one, other].map(|run| duration(run.account.makespan, language));
     let least = one.account.efficiency().min(other.account.efficiency());
     let why = if least > 0.95 {
         word!(
+            language,
             "Both keep all machines at work until the end.",
             "As duas mantêm todas as máquinas trabalhando até o fim."
         )
     } else {
-        word!("Both lose about as much.", "As duas perdem mais ou menos o mesmo.")
+        word!(language, "Both lose about as much.", "As duas perdem mais ou menos o mesmo.")
     };
     say!(
+        language,
         "{a} and {b} take about the same time: {first} and {second}. {why}",
         "{a} e {b} levam quase o mesmo tempo: {first} e {second}. {why}"
     )
 }
 
 /// The machines themselves are not the same.
-fn power(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
+fn power(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> Option<String> {
     // As long as both go on: what is set later in one of them explains nothing.
     let [of_quick, of_slow] = [quick, slow].map(|run| run.power(quick.makespan));
     let times = of_quick / of_slow.max(f64::MIN_POSITIVE);
-    let ratio = decimal(times, 2);
+    let ratio = decimal(language, times, 2);
     (times > SAME).then(|| {
         say!(
+            language,
             "Its machines together are slower: the other's are worth {ratio} times as much.",
             "Suas máquinas, juntas, são mais lentas: as da outra valem {ratio} vezes mais."
         )
@@ -72,7 +83,7 @@ fn power(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
 }
 
 /// Where the slower run's time went that the quicker one's did not.
-fn cause(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
+fn cause(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> Option<String> {
     // Shares of the machines' time, so that more machines do not count for more waiting.
     let excess = |part: Part| {
         let seconds = |account: &TimeBudget| part(account) / account.spent.sum() * account.makespan.as_secs_f64();
@@ -87,35 +98,38 @@ fn cause(quick: &TimeBudget, slow: &TimeBudget) -> Option<String> {
     let (most, tell) = parts.into_iter().map(|(part, tell)| (excess(part), tell)).max_by(|a, b| a.0.total_cmp(&b.0))?;
     let lost = slow.makespan.as_secs_f64() - quick.makespan.as_secs_f64();
     // What explains little of it is no cause.
-    (most > 0.2 * lost).then(|| tell(quick, slow))
+    (most > 0.2 * lost).then(|| tell(quick, slow, language))
 }
 
 /// Seconds of a run's machines that were spent on something.
 type Part = fn(&TimeBudget) -> f64;
 
 /// Tells of the slower run, its second argument.
-type Tell = fn(&TimeBudget, &TimeBudget) -> String;
+type Tell = fn(&TimeBudget, &TimeBudget, Language) -> String;
 
 /// Machines were done while others still traced.
-fn waiting(quick: &TimeBudget, slow: &TimeBudget) -> String {
+fn waiting(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     let last = slow.last;
-    let (name, alone, share) = (node_name(last.node), duration(last.alone), fraction(share(slow, slow.spent.waiting)));
-    let traced = atoms_words(last.traced);
+    let (name, alone, share) =
+        (node_name(last.node), duration(last.alone, language), fraction(share(slow, slow.spent.waiting)));
+    let traced = atoms_words(last.traced, language);
     let is_slow = last.speed < 0.5;
     let speed = fraction(last.speed);
     let who = if is_slow {
-        say!("machine {name}, which is slow ({speed}),", "a máquina {name}, que é lenta ({speed}),")
+        say!(language, "machine {name}, which is slow ({speed}),", "a máquina {name}, que é lenta ({speed}),")
     } else {
-        say!("machine {name}", "a máquina {name}")
+        say!(language, "machine {name}", "a máquina {name}")
     };
     let long = last.alone > slow.makespan / 10;
     let wait = if long {
         say!(
+            language,
             "There {who} traces {traced} and is alone for the last {alone}, while all others wait.",
             "Nela {who} calcula {traced} e fica sozinha nos últimos {alone}, enquanto todas as outras esperam."
         )
     } else {
         say!(
+            language,
             "There machines that are done wait for the others, {share} of their time.",
             "Nela as máquinas que terminaram esperam pelas outras, {share} do seu tempo."
         )
@@ -123,8 +137,9 @@ fn waiting(quick: &TimeBudget, slow: &TimeBudget) -> String {
     let moved = quick.messages.atoms_moved;
     if moved > 0 && slow.messages.atoms_moved == 0 {
         let (atoms, times) =
-            (atoms_words(moved.min(u64::from(u32::MAX)) as u32), count(quick.messages.transfers as u32));
+            (atoms_words(moved.min(u64::from(u32::MAX)) as u32, language), count(quick.messages.transfers as u32));
         let helped = say!(
+            language,
             "In the other run whoever is done takes over atoms: {atoms} in {times} transfers.",
             "Na outra, quem termina assume átomos: {atoms} em {times} transferências."
         );
@@ -134,14 +149,15 @@ fn waiting(quick: &TimeBudget, slow: &TimeBudget) -> String {
 }
 
 /// Machines waited for messages in the middle of the work.
-fn asking(_: &TimeBudget, slow: &TimeBudget) -> String {
+fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     let share = fraction(share(slow, slow.spent.asking));
     let waited = slow.waited_at_parent;
     // Only what comes to it keeps the parent busy.
     let arrived = slow.messages.requests + slow.messages.results;
-    let (messages, wait) = (count(arrived.min(u64::from(u32::MAX)) as u32), duration(waited));
+    let (messages, wait) = (count(arrived.min(u64::from(u32::MAX)) as u32), duration(waited, language));
     if slow.sharing.is_farm() && waited > Duration::from_millis(1) {
         say!(
+            language,
             "There machines wait {share} of their time for more work: the parent is busy with {messages} messages, \
              which stand in line for {wait} together.",
             "Nela as máquinas passam {share} do tempo à espera de trabalho: o pai se ocupa de {messages} mensagens, \
@@ -149,6 +165,7 @@ fn asking(_: &TimeBudget, slow: &TimeBudget) -> String {
         )
     } else {
         say!(
+            language,
             "There machines wait {share} of their time between atoms, while offers, requests and atoms are on their way.",
             "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas, pedidos e átomos estão a caminho."
         )
@@ -156,16 +173,18 @@ fn asking(_: &TimeBudget, slow: &TimeBudget) -> String {
 }
 
 /// Machines waited for their first atom.
-fn starting(_: &TimeBudget, slow: &TimeBudget) -> String {
-    let estimating = duration(slow.estimating);
+fn starting(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
+    let estimating = duration(slow.estimating, language);
     let share = fraction(share(slow, slow.spent.starting));
     if slow.estimating > Duration::ZERO {
         say!(
+            language,
             "There all wait {estimating} while the parent samples the picture to guess what each part costs.",
             "Nela todas esperam {estimating} enquanto o pai amostra a imagem para estimar quanto custa cada parte."
         )
     } else {
         say!(
+            language,
             "There machines wait {share} of their time for their first atoms.",
             "Nela as máquinas esperam {share} do tempo pelos primeiros átomos."
         )
@@ -173,9 +192,10 @@ fn starting(_: &TimeBudget, slow: &TimeBudget) -> String {
 }
 
 /// Workers were made to stand still.
-fn standing(_: &TimeBudget, slow: &TimeBudget) -> String {
+fn standing(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     let share = fraction(share(slow, slow.spent.standing));
     say!(
+        language,
         "There machines that were stopped hold atoms for {share} of the time.",
         "Nela máquinas paradas seguram átomos durante {share} do tempo."
     )

@@ -223,6 +223,7 @@ fn estimating(records: &[Record]) -> Duration {
 
 #[cfg(test)]
 mod tests {
+    use crate::language::Language;
     use proptest::prelude::*;
 
     use super::super::compare_runs::{NamedBudget, contrast};
@@ -277,6 +278,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
+        let language = Language::English;
         let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
         let quick = TimeBudget::of(&plain).expect("it came to its end");
         let mut records = plain.records().to_vec();
@@ -290,8 +292,11 @@ mod tests {
         assert_eq!(slow.power(half), 2.0);
         assert!((slow.power(2 * half) - 1.75).abs() < 1e-9, "{}", slow.power(2 * half));
         let slow = TimeBudget { makespan: quick.makespan.mul_f64(1.2), ..slow };
-        let told =
-            contrast(NamedBudget { name: "One", account: &quick }, NamedBudget { name: "The other", account: &slow });
+        let told = contrast(
+            NamedBudget { name: "One", account: &quick },
+            NamedBudget { name: "The other", account: &slow },
+            language,
+        );
         assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
     }
 }

@@ -1,6 +1,6 @@
 //! Axes: which part of the numbers is seen, and which of them are written beside it.
 
-use crate::language::comma;
+use crate::language::{Language, comma};
 use crate::view::text::format::count;
 
 /// How numbers become lengths.
@@ -60,11 +60,12 @@ impl Ruler {
         values: impl Iterator<Item = f64>,
         length: f32,
         extent: impl Fn(&str) -> f32,
+        language: Language,
     ) -> Self {
         let scale = axis.scale;
         let given = axis.range.filter(|&range| is_usable(scale, range));
         let (from, to) = given.unwrap_or_else(|| needed(scale, values));
-        let at = |i: i32| Self::with(Steps::nth(scale, from, to, i), scale, (from, to), given.is_some());
+        let at = |i: i32| Self::with(Steps::nth(scale, from, to, i), scale, (from, to), given.is_some(), language);
         let fits = |ruler: &Self| ruler.is_apart(length, &extent);
         (0..TRIES).map(at).find(fits).unwrap_or_else(|| at(TRIES))
     }
@@ -77,14 +78,14 @@ impl Ruler {
     }
 
     /// The axis with these steps: a range that was given stays as it is if two of them are in it.
-    fn with(steps: Steps, scale: Scale, (from, to): (f64, f64), given: bool) -> Self {
+    fn with(steps: Steps, scale: Scale, (from, to): (f64, f64), given: bool, language: Language) -> Self {
         let outer = steps.round(from, to);
         let inner: Vec<f64> = outer.iter().copied().filter(|value| (from..=to).contains(value)).collect();
         let (values, from, to) = match &outer[..] {
             [first, .., last] if !given || inner.len() < 2 => (outer.clone(), *first, *last),
             _ => (inner, from, to),
         };
-        let ticks = values.into_iter().map(|value| Tick { value, text: steps.text(value) }).collect();
+        let ticks = values.into_iter().map(|value| Tick { value, text: steps.text(value, language) }).collect();
         Self { scale, from, to, ticks }
     }
 
@@ -184,7 +185,7 @@ impl Steps {
     }
 
     /// The number in words: plain digits where they are few.
-    fn text(self, value: f64) -> String {
+    fn text(self, value: f64, language: Language) -> String {
         let own = value.abs().log10().floor() as i32;
         let power = match self {
             _ if value == 0.0 => return "0".into(),
@@ -199,11 +200,11 @@ impl Steps {
         if value >= 1e9 || power < -4 {
             let digits = format!("{value:.*e}", (own - power).clamp(0, 9) as usize);
             let (digits, exponent) = digits.split_at(digits.find('e').unwrap_or(digits.len()));
-            return comma(format!("{sign}{}{exponent}", trimmed(digits)));
+            return comma(language, format!("{sign}{}{exponent}", trimmed(digits)));
         }
         let digits = format!("{value:.*}", (-power).max(0) as usize);
         let (whole, decimals) = trimmed(&digits).split_at(digits.find('.').unwrap_or(digits.len()));
-        comma(format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
+        comma(language, format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
     }
 }
 
@@ -223,31 +224,37 @@ mod tests {
 
     use super::*;
 
-    fn texts(scale: Scale, range: Option<(f64, f64)>, values: &[f64]) -> Vec<String> {
+    fn texts(scale: Scale, range: Option<(f64, f64)>, values: &[f64], language: Language) -> Vec<String> {
         let axis = Axis { range, scale, ..Axis::default() };
-        let ruler = Ruler::new(&axis, values.iter().copied(), 600.0, |text| 10.0 * text.chars().count() as f32);
+        let ruler =
+            Ruler::new(&axis, values.iter().copied(), 600.0, |text| 10.0 * text.chars().count() as f32, language);
         ruler.ticks.into_iter().map(|tick| tick.text.replace('\u{a0}', " ")).collect()
     }
 
     #[test]
     fn numbers_are_those_that_people_would_write() {
-        assert_eq!(texts(Scale::Linear, None, &[0.2, 0.97]), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
-        assert_eq!(texts(Scale::Linear, Some((0.0, 1.0)), &[]), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
-        assert_eq!(texts(Scale::Linear, None, &[-20.0, 35.0]), ["−20", "−10", "0", "10", "20", "30", "40"]);
-        assert_eq!(texts(Scale::Linear, None, &[5321.0]), ["0", "1 000", "2 000", "3 000", "4 000", "5 000", "6 000"]);
+        let language = Language::English;
+        assert_eq!(texts(Scale::Linear, None, &[0.2, 0.97], language), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+        assert_eq!(texts(Scale::Linear, Some((0.0, 1.0)), &[], language), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+        assert_eq!(texts(Scale::Linear, None, &[-20.0, 35.0], language), ["−20", "−10", "0", "10", "20", "30", "40"]);
+        assert_eq!(
+            texts(Scale::Linear, None, &[5321.0], language),
+            ["0", "1 000", "2 000", "3 000", "4 000", "5 000", "6 000"]
+        );
         let nodes = ["1", "2", "4", "8", "16", "32", "64", "128", "256", "512", "1 024"];
-        assert_eq!(texts(Scale::Log2, None, &[1.0, 1024.0]), nodes);
-        assert_eq!(texts(Scale::Log2, None, &[0.2, 1.5]), ["1/8", "1/4", "1/2", "1", "2"]);
-        assert_eq!(texts(Scale::Log10, None, &[0.3, 8.0]), ["0.2", "0.5", "1", "2", "5", "10"]);
-        assert_eq!(texts(Scale::Log10, None, &[0.01, 900.0]), ["0.01", "0.1", "1", "10", "100", "1 000"]);
-        assert_eq!(texts(Scale::Log10, Some((2.1, 4.9)), &[]), ["2", "5"]);
+        assert_eq!(texts(Scale::Log2, None, &[1.0, 1024.0], language), nodes);
+        assert_eq!(texts(Scale::Log2, None, &[0.2, 1.5], language), ["1/8", "1/4", "1/2", "1", "2"]);
+        assert_eq!(texts(Scale::Log10, None, &[0.3, 8.0], language), ["0.2", "0.5", "1", "2", "5", "10"]);
+        assert_eq!(texts(Scale::Log10, None, &[0.01, 900.0], language), ["0.01", "0.1", "1", "10", "100", "1 000"]);
+        assert_eq!(texts(Scale::Log10, Some((2.1, 4.9)), &[], language), ["2", "5"]);
     }
 
     #[test]
     fn an_axis_of_nothing_has_numbers_too() {
-        assert_eq!(texts(Scale::Linear, None, &[f64::NAN, f64::INFINITY])[..2], ["0", "0.2"]);
-        assert_eq!(texts(Scale::Log2, Some((-1.0, f64::NAN)), &[0.0]), ["1", "2", "4", "8", "16"]);
-        assert_eq!(texts(Scale::Log10, Some((7.0, 7.0)), &[100.0]), ["100", "200"]);
+        let language = Language::English;
+        assert_eq!(texts(Scale::Linear, None, &[f64::NAN, f64::INFINITY], language)[..2], ["0", "0.2"]);
+        assert_eq!(texts(Scale::Log2, Some((-1.0, f64::NAN)), &[0.0], language), ["1", "2", "4", "8", "16"]);
+        assert_eq!(texts(Scale::Log10, Some((7.0, 7.0)), &[100.0], language), ["100", "200"]);
     }
 
     /// Numbers of every magnitude, some that are none, and often of one magnitude.
@@ -268,10 +275,11 @@ mod tests {
         fn ticks_ascend_stand_apart_and_are_few(
             scale in scales(), values in numbers(), given in any::<bool>(), length in 150.0..1500.0f32, letter in 5.0..10.0f32,
         ) {
+        let language = Language::English;
             let range = (given && values.len() > 1).then(|| (values[0].min(values[1]), values[0].max(values[1])));
             let axis = Axis { range, scale, ..Axis::default() };
             let extent = |text: &str| letter * text.chars().count() as f32;
-            let ruler = Ruler::new(&axis, values.iter().copied(), length, extent);
+            let ruler = Ruler::new(&axis, values.iter().copied(), length, extent, language);
             let most = if scale == Scale::Log2 { MOST_POWERS } else { MOST };
             prop_assert!((2..=most).contains(&ruler.ticks.len()), "{ruler:?}");
             let places: Vec<f32> = ruler
@@ -289,8 +297,9 @@ mod tests {
 
         #[test]
         fn ticks_cover_what_is_seen(scale in scales(), values in numbers()) {
+        let language = Language::English;
             let axis = Axis { scale, ..Axis::default() };
-            let ruler = Ruler::new(&axis, values.iter().copied(), 600.0, |_| 10.0);
+            let ruler = Ruler::new(&axis, values.iter().copied(), 600.0, |_| 10.0, language);
             let [first, .., last] = &ruler.ticks[..] else { panic!("an axis has two ends: {ruler:?}") };
             let is_seen = |value: &&f64| (1.0 / LIMIT..=LIMIT).contains(&if scale.is_log() { **value } else { value.abs() });
             for &value in values.iter().filter(is_seen) {
@@ -302,8 +311,9 @@ mod tests {
 
         #[test]
         fn a_range_that_is_given_is_kept(from in -1e6..1e6f64, more in 1.0..1e6f64) {
+        let language = Language::English;
             let axis = Axis { range: Some((from, from + more)), ..Axis::default() };
-            let ruler = Ruler::new(&axis, [1e9].into_iter(), 600.0, |_| 10.0);
+            let ruler = Ruler::new(&axis, [1e9].into_iter(), 600.0, |_| 10.0, language);
             prop_assert_eq!((ruler.place(from), ruler.place(from + more)), (Some(0.0), Some(1.0)));
             prop_assert!(ruler.ticks.len() >= 3, "{:?}", ruler);
         }

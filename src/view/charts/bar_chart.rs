@@ -5,6 +5,7 @@ use std::iter;
 use super::axis::Axis;
 use super::frame::{BESIDE, ChartFrame, ChartHeading, DASHES, GAP, width_of};
 use super::line_chart::series_hue;
+use crate::language::Language;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 
 /// Measurements side by side. Bars begin at 0 or, on a logarithmic axis, which has none, at the plot's lower edge.
@@ -45,7 +46,7 @@ const MARKED: f32 = 3.0;
 
 impl BarChart {
     /// The bars as a display list whose corner is at 0, 0; it needs 480 × 360 at least.
-    pub fn marks(&self, size: Point) -> Vec<Mark> {
+    pub fn marks(&self, size: Point, language: Language) -> Vec<Mark> {
         let names = self.names();
         let legend: Vec<_> = names.iter().enumerate().map(|(i, &name)| (name, series_hue(i))).collect();
         let rough = (size[0] - 2.0 * BESIDE) / self.groups.len().max(1) as f32 - GAP;
@@ -53,7 +54,7 @@ impl BarChart {
         let words = ChartHeading { title: &self.title, note: &self.note, legend: &legend, below };
         let bars =
             || self.groups.iter().flat_map(|(_, bars)| bars).flat_map(|bar| iter::once(bar.value).chain(bar.other));
-        let (mut sheet, ruler) = ChartFrame::new(size, &words, &self.y, bars().chain(self.reference), 0.0);
+        let (mut sheet, ruler) = ChartFrame::new(size, &words, &self.y, bars().chain(self.reference), 0.0, language);
         let zero = ruler.place(0.0).unwrap_or(0.0).clamp(0.0, 1.0);
         let group_width = (sheet.right - sheet.left) / self.groups.len().max(1) as f32;
         let slot = group_width * (1.0 - APART) / names.len().max(1) as f32;
@@ -151,8 +152,9 @@ mod tests {
         fn bars_stand_on_the_axis_apart_and_as_high_as_their_numbers(
             groups in prop::collection::vec(prop::collection::vec(1.0..1000.0f64, 1..5), 1..7),
         ) {
+        let language = Language::English;
             let groups: Vec<_> = groups.iter().map(|group| &group[..]).collect();
-            let marks = bars(Scale::Linear, &groups).marks(CHART_SIZE);
+            let marks = bars(Scale::Linear, &groups).marks(CHART_SIZE, language);
             let [_, _, _, bottom] = plot(&marks);
             let (boxes, values) = (boxes(&marks), groups.concat());
             prop_assert_eq!(boxes.len(), values.len());
@@ -171,17 +173,19 @@ mod tests {
             names in prop::collection::vec("[a-z ]{0,40}", 1..9), width in 480.0..1600.0f32, height in 360.0..1000.0f32,
             title in "[a-z ]{0,90}", scale in prop_oneof![Just(Scale::Linear), Just(Scale::Log10), Just(Scale::Log2)],
         ) {
+        let language = Language::English;
             let values = [&[0.3, 7.0, f64::NAN, -1.0][..]; 8];
             let mut bars = bars(scale, &values[..names.len()]);
             bars.groups.iter_mut().zip(names).for_each(|(group, name)| group.0 = name);
             (bars.title, bars.reference) = (title, Some(1.0));
-            check_words(&bars.marks([width, height]), [width, height])?;
+            check_words(&bars.marks([width, height], language), [width, height])?;
         }
     }
 
     #[test]
     fn what_is_less_than_nothing_hangs_down() {
-        let marks = bars(Scale::Linear, &[&[10.0, -10.0]]).marks(CHART_SIZE);
+        let language = Language::English;
+        let marks = bars(Scale::Linear, &[&[10.0, -10.0]]).marks(CHART_SIZE, language);
         let [[_, top, _, zero], [_, same, _, bottom]] = boxes(&marks)[..] else { panic!("two bars") };
         assert_eq!(zero, same);
         assert!((zero - top - (bottom - same)).abs() < 0.01 && zero > top);
@@ -189,9 +193,10 @@ mod tests {
 
     #[test]
     fn a_bar_that_leaves_the_plot_is_broken_at_its_edge() {
+        let language = Language::English;
         let mut bars = bars(Scale::Log10, &[&[5.0, 5000.0]]);
         bars.y.range = Some((1.0, 100.0));
-        let marks = bars.marks(CHART_SIZE);
+        let marks = bars.marks(CHART_SIZE, language);
         let [_, top, _, bottom] = plot(&marks);
         let [_, tall] = boxes(&marks)[..] else { panic!("two bars") };
         assert_eq!((tall[1], tall[3]), (top, bottom));
@@ -201,9 +206,10 @@ mod tests {
 
     #[test]
     fn a_reference_is_seen_where_its_number_is() {
+        let language = Language::English;
         let mut bars = bars(Scale::Linear, &[&[2.0]]);
         bars.reference = Some(1.0);
-        let marks = bars.marks(CHART_SIZE);
+        let marks = bars.marks(CHART_SIZE, language);
         let [left, top, _, bottom] = plot(&marks);
         let first = marks.iter().find_map(|mark| match mark {
             Mark::Line { points, ink, .. } if ink.hue == Hue::Text => Some(points[0]),
@@ -214,9 +220,10 @@ mod tests {
 
     #[test]
     fn what_others_have_measured_is_a_mark_as_high_as_their_bar_would_be() {
+        let language = Language::English;
         let mut bars = bars(Scale::Linear, &[&[4.0, 3.0]]);
         bars.groups[0].1[0].other = Some(3.0);
-        let marks = bars.marks(CHART_SIZE);
+        let marks = bars.marks(CHART_SIZE, language);
         let [left, _, right, _] = boxes(&marks)[0];
         let mark = marks.iter().find_map(|mark| match mark {
             Mark::Line { points, ink, .. } if ink.hue == Hue::Text => Some(points.clone()),

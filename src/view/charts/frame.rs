@@ -1,6 +1,7 @@
 //! What every chart has: words above it, a legend, numbers at its sides, and a plot between them.
 
 use super::axis::{Axis, Ruler};
+use crate::language::Language;
 use crate::view::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::view::draw::polyline::dashes;
 
@@ -61,6 +62,7 @@ impl ChartFrame {
         axis: &Axis,
         values: impl Iterator<Item = f64>,
         aside: f32,
+        language: Language,
     ) -> (Self, Ruler) {
         let size = [size[0].max(Self::LEAST[0]), size[1].max(Self::LEAST[1])];
         let bottom = size[1] - MARGIN - GAP - words.below as f32 * NEXT;
@@ -73,7 +75,7 @@ impl ChartFrame {
         sheet.top += GAP;
         sheet.heading(&axis.label, plain(USUAL), Hue::Quiet, width);
         sheet.top += GAP;
-        let ruler = Ruler::new(axis, values, sheet.bottom - sheet.top, |_| LINE);
+        let ruler = Ruler::new(axis, values, sheet.bottom - sheet.top, |_| LINE, language);
         let widest = ruler.ticks.iter().map(|tick| width_of(&tick.text)).fold(0.0, f32::max);
         sheet.left = (MARGIN + widest + GAP).max(BESIDE);
         sheet.rows(&ruler);
@@ -81,8 +83,8 @@ impl ChartFrame {
     }
 
     /// What is measured to the right: numbers below the plot.
-    pub(crate) fn columns(&mut self, axis: &Axis, values: impl Iterator<Item = f64>) -> Ruler {
-        let ruler = Ruler::new(axis, values, self.right - self.left, |text| width_of(text) + 2.0 * GAP);
+    pub(crate) fn columns(&mut self, axis: &Axis, values: impl Iterator<Item = f64>, language: Language) -> Ruler {
+        let ruler = Ruler::new(axis, values, self.right - self.left, |text| width_of(text) + 2.0 * GAP, language);
         for tick in &ruler.ticks {
             let [x, bottom] = self.at([ruler.place(tick.value).unwrap_or(0.0), 0.0]);
             self.line(vec![[x, bottom], [x, bottom + 6.0]], 1.0, Hue::Hairline.full());

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, Ruler};
 use super::frame::{ChartFrame, ChartHeading, DASHES, DOTTED, LINE, width_of_name};
+use crate::language::Language;
 use crate::palette::CHART;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::draw::polyline::{clipped, is_inside, spread};
@@ -75,7 +76,7 @@ const HOLLOW: f32 = 2.0;
 
 impl LineChart {
     /// The chart as a display list whose corner is at 0, 0; it needs 480 × 360 at least, without a title [`LEAST_HIGH`].
-    pub fn marks(&self, size: Point) -> Vec<Mark> {
+    pub fn marks(&self, size: Point, language: Language) -> Vec<Mark> {
         let are_named = self.series.len() <= NAMED;
         let legend: Vec<_> = self.series.iter().map(|series| (&*series.name, series.hue)).collect();
         let names = self.series.iter().map(|series| width_of_name(&series.name)).fold(0.0, f32::max);
@@ -86,8 +87,8 @@ impl LineChart {
         let points = || self.series.iter().flat_map(|series| series.points.iter().copied());
         let (from, to) = self.x.range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let heights = points().filter(|(x, _)| (from..=to).contains(x)).map(|(_, y)| y);
-        let (mut sheet, y) = ChartFrame::new(size, &words, &self.y, heights, aside);
-        let x = sheet.columns(&self.x, points().map(|(x, _)| x));
+        let (mut sheet, y) = ChartFrame::new(size, &words, &self.y, heights, aside, language);
+        let x = sheet.columns(&self.x, points().map(|(x, _)| x), language);
         let ends: Vec<_> = self.series.iter().map(|series| series.draw(&mut sheet, &x, &y)).collect();
         if are_named {
             self.put_names(&mut sheet, &ends);
@@ -188,26 +189,30 @@ mod tests {
     proptest! {
         #[test]
         fn words_are_inside_and_apart(chart in charts(0..9), width in 480.0..1600.0f32, height in 360.0..1000.0f32) {
-            check_words(&chart.marks([width, height]), [width, height])?;
+        let language = Language::English;
+            check_words(&chart.marks([width, height], language), [width, height])?;
         }
 
         #[test]
         fn without_a_title_less_is_enough(chart in charts(0..6), width in 480.0..1600.0f32) {
-            check_words(&LineChart { title: String::new(), ..chart }.marks([width, LEAST_HIGH]), [width, LEAST_HIGH])?;
+        let language = Language::English;
+            check_words(&LineChart { title: String::new(), ..chart }.marks([width, LEAST_HIGH], language), [width, LEAST_HIGH])?;
         }
 
         #[test]
         fn a_legend_is_inside_too(chart in charts(9..14)) {
-            check_words(&chart.marks(CHART_SIZE), CHART_SIZE)?;
+        let language = Language::English;
+            check_words(&chart.marks(CHART_SIZE, language), CHART_SIZE)?;
         }
 
         #[test]
         fn all_that_is_in_range_is_drawn_in_the_plot(mut chart in charts(1..9), x in even_axes(), y in even_axes()) {
+        let language = Language::English;
             let is_seen = |axis: &Axis, value| axis.range.is_some_and(|(from, to)| from <= value && value <= to);
             let points = chart.series.iter().flat_map(|series| &series.points);
             let seen = points.filter(|(u, v)| is_seen(&x, *u) && is_seen(&y, *v)).count();
             chart.series.iter_mut().for_each(|series| series.style = Style::Line);
-            let marks = LineChart { x, y, ..chart }.marks(CHART_SIZE);
+            let marks = LineChart { x, y, ..chart }.marks(CHART_SIZE, language);
             let [left, top, right, bottom] = plot(&marks);
             let dots = dots(&marks);
             prop_assert_eq!(dots.len(), seen);
@@ -224,10 +229,11 @@ mod tests {
 
     #[test]
     fn points_are_where_their_numbers_say() {
+        let language = Language::English;
         let (x, y) = (Axis { scale: Scale::Log2, ..Axis::default() }, Axis::default());
         let points = vec![(1.0, 0.0), (32.0, 1.0), (1024.0, 2.0), (2.0, f64::NAN), (0.0, 1.0)];
         let series = vec![Series { name: "ring".into(), hue: series_hue(0), points, style: Style::Dots }];
-        let marks = LineChart { x, y, series, ..LineChart::default() }.marks(CHART_SIZE);
+        let marks = LineChart { x, y, series, ..LineChart::default() }.marks(CHART_SIZE, language);
         let [left, top, right, bottom] = plot(&marks);
         assert_eq!(dots(&marks), [[left, bottom], [(left + right) / 2.0, (top + bottom) / 2.0], [right, top]]);
     }

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Ruler, Scale};
 use super::frame::{ChartFrame, ChartHeading, DASHES};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 
 /// What is known of several qualities so far.
@@ -43,27 +43,28 @@ const RING: [f32; 2] = [8.0, 10.0];
 
 impl Tradeoff {
     /// Time and error, both on logarithmic axes, as a display list whose corner is at 0, 0; it needs 480 × 360 at least.
-    pub fn drawn(&self, size: Point) -> Drawn {
+    pub fn drawn(&self, size: Point, language: Language) -> Drawn {
         let axis = |label: &str| Axis { label: label.into(), scale: Scale::Log10, range: None };
         let shown: Vec<(f64, f64)> =
             self.points.iter().map(|(time, error)| (time.max(LEAST_TIME), error.max(LEAST_ERROR))).collect();
         let legend = [
-            (word!("a quality", "uma qualidade"), Hue::Quiet),
-            (word!("the best for its time", "a melhor em seu tempo"), Hue::Text),
-            (word!("chosen", "escolhida"), Hue::Accent),
+            (word!(language, "a quality", "uma qualidade"), Hue::Quiet),
+            (word!(language, "the best for its time", "a melhor em seu tempo"), Hue::Text),
+            (word!(language, "chosen", "escolhida"), Hue::Accent),
         ];
         let words = ChartHeading { title: "", note: "", legend: &legend, below: 2 };
         let floor = Some(self.floor).filter(|floor| *floor > LEAST_ERROR && !shown.is_empty());
         // Above the highest point there is room for its name.
         let above_all = shown.iter().map(|(_, error)| *error).reduce(f64::max).map(|error| 1.5 * error);
         let heights = shown.iter().map(|(_, error)| *error).chain(floor).chain(above_all);
-        let error = axis(word!("error of the picture (RMSE, linear light)", "erro da imagem (RMSE, luz linear)"));
-        let (mut sheet, y) = ChartFrame::new(size, &words, &error, heights, 0.0);
-        let x = sheet.columns(&axis(&self.time), shown.iter().map(|(time, _)| *time));
+        let error =
+            axis(word!(language, "error of the picture (RMSE, linear light)", "erro da imagem (RMSE, luz linear)"));
+        let (mut sheet, y) = ChartFrame::new(size, &words, &error, heights, 0.0, language);
+        let x = sheet.columns(&axis(&self.time), shown.iter().map(|(time, _)| *time), language);
         if let Some(height) = floor.and_then(|floor| y.place(floor)) {
             let ends = [sheet.at([0.0, height]), sheet.at([1.0, height])];
             sheet.dashed(&ends, DASHES, 2.0, Hue::Quiet.faint(0.7));
-            sheet.marks.push(above(ends[0]));
+            sheet.marks.push(above(ends[0], language));
         }
         let places: Vec<Point> = shown.iter().map(|&point| place(&sheet, &x, &y, point)).collect();
         let at = |&i: &usize| places.get(i).copied();
@@ -77,7 +78,7 @@ impl Tradeoff {
         if let Some(centre) = self.present.as_ref().and_then(at) {
             let rings = [(RING[0], Hue::Text), (RING[0] - 2.0, Hue::Ground), (DOT, Hue::Text)];
             sheet.marks.extend(rings.map(|(radius, hue)| disc(centre, radius, hue)));
-            sheet.marks.push(beside(centre, &sheet));
+            sheet.marks.push(beside(centre, &sheet, language));
         }
         Drawn { marks: sheet.marks, places }
     }
@@ -88,17 +89,17 @@ fn place(sheet: &ChartFrame, x: &Ruler, y: &Ruler, (time, error): (f64, f64)) ->
 }
 
 /// What the line of the floor is called.
-fn above([x, y]: Point) -> Mark {
-    let text = word!("the reference's own error", "o erro da própria referência").into();
+fn above([x, y]: Point, language: Language) -> Mark {
+    let text = word!(language, "the reference's own error", "o erro da própria referência").into();
     let (anchor, size) = (Anchor::Left, TextSize::Small(1.0));
     Mark::Label { at: [x + 8.0, y - 10.0], anchor, text, size, ink: Hue::Quiet.full() }
 }
 
 /// What the point of the present settings is called, on the side where there is room.
-fn beside([x, y]: Point, sheet: &ChartFrame) -> Mark {
+fn beside([x, y]: Point, sheet: &ChartFrame, language: Language) -> Mark {
     let (anchor, side) = if sheet.room_from(x) > 110.0 { (Anchor::Left, 1.0) } else { (Anchor::Right, -1.0) };
     let at = [x + side * (RING[1] + 6.0), y - 1.6 * RING[1]];
-    let text = word!("set now", "atual").into();
+    let text = word!(language, "set now", "atual").into();
     Mark::Label { at, anchor, text, size: TextSize::Body(1.0), ink: Hue::Text.full() }
 }
 
@@ -126,7 +127,8 @@ mod tests {
     proptest! {
         #[test]
         fn every_point_is_in_the_chart_and_stands_as_its_numbers_do(points in clouds(), floor in 0.0..0.01f64) {
-            let drawn = Tradeoff { points: points.clone(), floor, ..Tradeoff::default() }.drawn(SIZE);
+        let language = Language::English;
+            let drawn = Tradeoff { points: points.clone(), floor, ..Tradeoff::default() }.drawn(SIZE, language);
             prop_assert_eq!(drawn.places.len(), points.len());
             prop_assert_eq!(&discs(&drawn.marks, Hue::Quiet), &drawn.places);
             for ([x, y], (time, error)) in drawn.places.iter().zip(&points) {
@@ -141,20 +143,22 @@ mod tests {
 
         #[test]
         fn what_is_chosen_and_what_is_set_are_where_their_points_are(points in clouds(), at: prop::sample::Index) {
+        let language = Language::English;
             prop_assume!(!points.is_empty());
             let chosen = at.index(points.len());
             let tradeoff = Tradeoff { points, chosen: Some(chosen), ..Tradeoff::default() };
-            let drawn = tradeoff.drawn(SIZE);
+            let drawn = tradeoff.drawn(SIZE, language);
             prop_assert_eq!(discs(&drawn.marks, Hue::Accent), vec![drawn.places[chosen]]);
-            let drawn = Tradeoff { chosen: None, present: Some(chosen), ..tradeoff }.drawn(SIZE);
+            let drawn = Tradeoff { chosen: None, present: Some(chosen), ..tradeoff }.drawn(SIZE, language);
             prop_assert_eq!(discs(&drawn.marks, Hue::Ground), vec![drawn.places[chosen]]);
         }
     }
 
     #[test]
     fn places_that_are_no_points_are_left_out() {
+        let language = Language::English;
         let tradeoff = Tradeoff { front: vec![0, 9], present: Some(3), chosen: Some(4), ..Tradeoff::default() };
-        let drawn = Tradeoff { points: vec![(1.0, 0.1)], ..tradeoff }.drawn(SIZE);
+        let drawn = Tradeoff { points: vec![(1.0, 0.1)], ..tradeoff }.drawn(SIZE, language);
         assert_eq!(discs(&drawn.marks, Hue::Text), drawn.places);
         assert!(discs(&drawn.marks, Hue::Accent).is_empty());
     }

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::csg::SpanDiagram;
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
 use crate::scene::{Material, Scene};
@@ -99,9 +99,9 @@ impl Inspected {
     }
 
     /// What a ray met, in a word or two.
-    fn what(&self, ray: &RayNotes) -> &str {
-        let nameless = word!("a solid without a material", "um sólido sem material");
-        ray.met.map_or(word!("nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
+    fn what(&self, ray: &RayNotes, language: Language) -> &str {
+        let nameless = word!(language, "a solid without a material", "um sólido sem material");
+        ray.met.map_or(word!(language, "nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
     }
 
     /// The colour of what a ray met, as it is shown.

@@ -2,7 +2,7 @@
 
 use super::format::{kind_word, share_words};
 use super::{Inspected, cut, edge, label, line};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::tracer::{RayKind, RayNotes};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
@@ -51,7 +51,7 @@ const DEEPEST: u32 = 12;
 impl Inspected {
     /// The tree of rays of the chosen sample. Rays were traced in the order of their weights, the strongest first: of so many
     /// that they do not fit, the strongest are drawn.
-    pub fn ray_tree(&self, width: f32) -> RayTree {
+    pub fn ray_tree(&self, width: f32, language: Language) -> RayTree {
         let rays = &self.sample().rays;
         let fitting = fitting(rays, width);
         let places = places(&rays[..fitting], width);
@@ -60,7 +60,8 @@ impl Inspected {
         let top = SMALL_LINE;
         let at = |ray: usize| -> Point { [places[ray], top + rays[ray].path.level as f32 * step] };
         let eye = [places[0], top];
-        let mut marks = vec![label([eye[0], top / 2.0], Anchor::Centre, word!("the eye", "observador"), Hue::Quiet)];
+        let mut marks =
+            vec![label([eye[0], top / 2.0], Anchor::Centre, word!(language, "the eye", "observador"), Hue::Quiet)];
         for (number, ray) in rays[..fitting].iter().enumerate() {
             let from = ray.path.from.map_or(eye, |from| at(from as usize));
             marks.extend(way(ray, from, at(number)));
@@ -69,9 +70,14 @@ impl Inspected {
             .iter()
             .enumerate()
             .map(|(number, ray)| {
-                let (kind, what, weight) = (kind_word(ray.path.kind), self.what(ray), share_words(ray.path.weight));
+                let (kind, what, weight) = (
+                    kind_word(ray.path.kind, language),
+                    self.what(ray, language),
+                    share_words(ray.path.weight, language),
+                );
                 let which = number + 1;
-                let name = say!("Ray {which}, {kind}: {what}, {weight}", "Raio {which}, {kind}: {what}, {weight}");
+                let name =
+                    say!(language, "Ray {which}, {kind}: {what}, {weight}", "Raio {which}, {kind}: {what}, {weight}");
                 RaySpot { ray: number, at: at(number), name }
             })
             .collect();
@@ -82,8 +88,9 @@ impl Inspected {
         if fitting < rays.len() {
             let weight = rays[fitting..].iter().map(|ray| ray.path.weight).fold(0.0, f64::max);
             let more = count(u32::try_from(rays.len() - fitting).unwrap_or(u32::MAX));
-            let weight = share_words(weight);
-            let text = say!("and {more} more, none above {weight}", "e mais {more}, nenhum acima de {weight}");
+            let weight = share_words(weight, language);
+            let text =
+                say!(language, "and {more} more, none above {weight}", "e mais {more}, nenhum acima de {weight}");
             marks.push(label([width / 2.0, height + SMALL_LINE / 2.0], Anchor::Centre, cut(&text, width), Hue::Quiet));
             height += SMALL_LINE;
         }
@@ -187,10 +194,11 @@ mod tests {
 
     #[test]
     fn ends_stand_apart_below_the_rays_they_come_from() {
+        let language = Language::English;
         let quality = Quality { cutoff: 1e-4, max_depth: 30, ..Quality::default() };
         each(quality, |_, inspected| {
             for width in [120.0, 300.0, 700.0] {
-                let tree = inspected.ray_tree(width);
+                let tree = inspected.ray_tree(width, language);
                 assert_within(&tree.marks, [width, tree.height]);
                 let rays = &inspected.sample().rays;
                 for (i, spot) in tree.spots.iter().enumerate() {
@@ -212,10 +220,11 @@ mod tests {
 
     #[test]
     fn the_chosen_ray_and_only_that_is_marked() {
+        let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(3) {
                 let one = inspected.choose(tracer, ChosenRay { sample: 0, ray }).expect("a ray of it");
-                let tree = one.ray_tree(500.0);
+                let tree = one.ray_tree(500.0, language);
                 let rings = |mark: &&Mark| match mark {
                     Mark::Disc { ink, .. } | Mark::Box { ink, .. } => ink.hue == Hue::Text,
                     _ => false,

@@ -3,7 +3,7 @@
 use super::format::{number, passes_nothing};
 use super::{Inspected, cut, edge, label, line, shown};
 use crate::csg::{Operation, SolidKind, SpanDiagram};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::view::charts::axis::{Axis, Ruler};
 use crate::view::draw::display_list::{Anchor, Hue, Mark};
 use crate::view::text::format::count;
@@ -37,17 +37,17 @@ const BEYOND: f64 = 0.35;
 impl Inspected {
     /// The stays of the chosen ray in each solid that it passes and in what it is made of, `most` rows at most. Distances are
     /// to the right.
-    pub fn spans(&self, width: f32, most: usize) -> SpanPlot {
+    pub fn spans(&self, width: f32, most: usize, language: Language) -> SpanPlot {
         let (rows, range) = (self.rows(), self.range());
         if rows.is_empty() {
-            let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, passes_nothing(), Hue::Quiet)];
+            let marks = vec![label([0.0, ROW / 2.0], Anchor::Left, passes_nothing(language), Hue::Quiet)];
             return SpanPlot { marks, height: ROW };
         }
         let left = (0.42 * width).min(210.0);
         let axis = Axis { range: Some(range.into()), ..Axis::default() };
         let text_width = |text: &str| super::SMALL.width(text.chars().count()) + 8.0;
         let plot = width - left - RIGHT;
-        let ruler = Ruler::new(&axis, std::iter::empty(), plot, text_width);
+        let ruler = Ruler::new(&axis, std::iter::empty(), plot, text_width, language);
         let x = |t: f64| left + plot * ruler.place(t).unwrap_or(0.0).clamp(0.0, 1.0) as f32;
         // A text's middle, so that it is not cut at the right.
         let middle = |text: &str, at: f32| at.min(width - super::SMALL.width(text.chars().count()) / 2.0);
@@ -60,24 +60,24 @@ impl Inspected {
             marks.push(label([middle(&tick.text, at), bottom + ROW / 2.0], Anchor::Centre, &tick.text, Hue::Quiet));
         }
         for (row, y) in rows.iter().take(shown).zip((0..).map(|index| top + (index as f32 + 0.5) * ROW)) {
-            self.row(row, y, left, &mut marks);
+            self.row(row, y, left, &mut marks, language);
             self.bars(row.figure, y, &x, range, &mut marks);
         }
         // What is measured to the right.
-        let along = word!("along the ray", "ao longo do raio");
+        let along = word!(language, "along the ray", "ao longo do raio");
         marks.push(label([0.0, top / 2.0 - 2.0], Anchor::Left, along, Hue::Quiet));
         let to = self.ray().path.to;
         if to.is_finite() {
             let at = x(to);
             marks.push(line([[at, top - 3.0], [at, bottom]], 2.0, Hue::Text.full()));
-            let end = number(to);
-            let text = say!("ends at {end}", "termina em {end}");
+            let end = number(to, language);
+            let text = say!(language, "ends at {end}", "termina em {end}");
             let beside = super::SMALL.width(along.len() + 1 + text.chars().count() / 2);
             marks.push(label([middle(&text, at).max(beside), top / 2.0 - 2.0], Anchor::Centre, text, Hue::Text));
         }
         if shown < rows.len() {
             let more = count((rows.len() - shown) as u32);
-            let text = say!("and {more} more", "e mais {more}");
+            let text = say!(language, "and {more} more", "e mais {more}");
             marks.push(label([0.0, bottom + ROW / 2.0], Anchor::Left, text, Hue::Quiet));
         }
         SpanPlot { marks, height: bottom + ROW }
@@ -100,13 +100,13 @@ impl Inspected {
     }
 
     /// What a row is called.
-    pub(super) fn row_name(&self, figure: &SpanDiagram) -> String {
+    pub(super) fn row_name(&self, figure: &SpanDiagram, language: Language) -> String {
         match figure.what {
-            SolidKind::Composition(Operation::Union) => word!("union", "união").into(),
-            SolidKind::Composition(Operation::Intersection) => word!("intersection", "interseção").into(),
-            SolidKind::Composition(Operation::Difference) => word!("difference", "diferença").into(),
+            SolidKind::Composition(Operation::Union) => word!(language, "union", "união").into(),
+            SolidKind::Composition(Operation::Intersection) => word!(language, "intersection", "interseção").into(),
+            SolidKind::Composition(Operation::Difference) => word!(language, "difference", "diferença").into(),
             SolidKind::Primitive { tag, kind } => {
-                let [kind, _] = shape_names(kind);
+                let [kind, _] = shape_names(kind, language);
                 self.name(tag).map_or_else(|| kind.into(), |name| format!("{name}: {kind}"))
             }
         }
@@ -134,10 +134,10 @@ impl Inspected {
         }
     }
 
-    fn row(&self, row: &SpanRow<'_>, y: f32, left: f32, marks: &mut Vec<Mark>) {
+    fn row(&self, row: &SpanRow<'_>, y: f32, left: f32, marks: &mut Vec<Mark>, language: Language) {
         let x = INDENT * row.depth.min(MOST_INDENTS) as f32;
         let hue = if row.is_met { Hue::Text } else { Hue::Quiet };
-        let text = cut(&self.row_name(row.figure), left - x - 8.0);
+        let text = cut(&self.row_name(row.figure, language), left - x - 8.0);
         marks.push(label([x, y], Anchor::Left, text, hue));
     }
 
@@ -187,11 +187,12 @@ mod tests {
 
     #[test]
     fn rows_are_no_more_than_asked_for_and_stay_within() {
+        let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for chosen in rays(&inspected) {
                 let one = inspected.choose(tracer, chosen).expect("a ray of it");
                 for (width, most) in [(300.0, 3), (640.0, 12)] {
-                    let spans = one.spans(width, most);
+                    let spans = one.spans(width, most, language);
                     assert_within(&spans.marks, [width, spans.height]);
                     let says_more = spans
                         .marks
@@ -206,10 +207,11 @@ mod tests {
 
     #[test]
     fn what_the_ray_met_is_among_the_rows_and_its_end_is_marked() {
+        let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for chosen in rays(&inspected) {
                 let one = inspected.choose(tracer, chosen).expect("a ray of it");
-                let spans = one.spans(640.0, usize::MAX);
+                let spans = one.spans(640.0, usize::MAX, language);
                 let is_end = |mark: &Mark| matches!(mark, Mark::Label { text, .. } if text.starts_with("ends at"));
                 let ends = spans.marks.iter().any(is_end);
                 assert_eq!(ends, one.ray().met.is_some());

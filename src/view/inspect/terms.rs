@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::format::share_words;
 use super::{Inspected, brightness, label, line, shown, swatch};
-use crate::language::{decimal, word};
+use crate::language::{Language, decimal, word};
 use crate::tracer::RayKind;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point};
 
@@ -34,7 +34,7 @@ pub struct Terms {
 
 impl Inspected {
     /// The terms of the chosen ray, and at last their sum; of a ray that met nothing, only the background.
-    pub fn terms(&self) -> Vec<Term> {
+    pub fn terms(&self, language: Language) -> Vec<Term> {
         let (sample, ray) = (self.sample(), self.ray());
         let whole = brightness(self.colour());
         let term = |formula, meaning, colour: DVec3| {
@@ -42,7 +42,7 @@ impl Inspected {
             Term { formula, meaning, colour, part: (whole > 0.0).then(|| counts / whole) }
         };
         if ray.met.is_none() {
-            return vec![term("Cp", word!("background", "fundo"), ray.ambient)];
+            return vec![term("Cp", word!(language, "background", "fundo"), ray.ambient)];
         }
         let follows = |kind| {
             let own = |place: &usize| {
@@ -56,19 +56,19 @@ impl Inspected {
         let specular = ray.lights.iter().map(|lit| lit.specular()).sum();
         let [reflected, refracted] = [RayKind::Reflected, RayKind::Refracted].map(follows);
         vec![
-            term("Ka Ia", word!("ambient", "ambiente"), ray.ambient),
-            term("Kd Σ Il (N·L)", word!("diffuse", "difusa"), diffuse),
-            term("Ks Σ Il (S·R)^n", word!("highlights", "especular"), specular),
-            term("Ks Is", word!("reflected", "refletida"), reflected),
-            term("Kt It", word!("transmitted", "refratada"), refracted),
-            term("Cp", word!("the sum", "a soma"), ray.ambient + diffuse + specular + reflected + refracted),
+            term("Ka Ia", word!(language, "ambient", "ambiente"), ray.ambient),
+            term("Kd Σ Il (N·L)", word!(language, "diffuse", "difusa"), diffuse),
+            term("Ks Σ Il (S·R)^n", word!(language, "highlights", "especular"), specular),
+            term("Ks Is", word!(language, "reflected", "refletida"), reflected),
+            term("Kt It", word!(language, "transmitted", "refratada"), refracted),
+            term("Cp", word!(language, "the sum", "a soma"), ray.ambient + diffuse + specular + reflected + refracted),
         ]
     }
 
     /// The terms as a table: formula, colour, red, green, blue, and part of the pixel.
-    pub fn draw_terms(&self, width: f32) -> Terms {
+    pub fn draw_terms(&self, width: f32, language: Language) -> Terms {
         const ROW: f32 = 24.0;
-        let terms = self.terms();
+        let terms = self.terms(language);
         // From right to left: the part, three numbers, the colour.
         let column = ((width - FORMULA - SWATCH - PART) / 3.0).clamp(32.0, 56.0);
         let decimals = if column < 46.0 { 2 } else { 3 };
@@ -76,8 +76,8 @@ impl Inspected {
         let places = [blue - 2.0 * column, blue - column, blue];
         let swatch_at = places[0] - column - SWATCH / 2.0 + 6.0;
         let mut marks = Vec::new();
-        let colours = word!(["red", "green", "blue"], ["verm.", "verde", "azul"]);
-        for (name, x) in colours.into_iter().zip(places).chain([(word!("of pixel", "do pixel"), width)]) {
+        let colours = word!(language, ["red", "green", "blue"], ["verm.", "verde", "azul"]);
+        for (name, x) in colours.into_iter().zip(places).chain([(word!(language, "of pixel", "do pixel"), width)]) {
             marks.push(label([x, ROW / 2.0], Anchor::Right, name, Hue::Quiet));
         }
         for (index, term) in terms.iter().enumerate() {
@@ -95,9 +95,9 @@ impl Inspected {
             let middle: Point = [swatch_at, y];
             marks.extend(swatch(middle, [8.0, 7.0], shown(term.colour)));
             for (value, x) in term.colour.to_array().into_iter().zip(places) {
-                marks.push(label([x, y], Anchor::Right, decimal(value, decimals), hue));
+                marks.push(label([x, y], Anchor::Right, decimal(language, value, decimals), hue));
             }
-            let part = term.part.map_or_else(|| "–".to_owned(), share_words);
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
             marks.push(label([width, y], Anchor::Right, part, hue));
         }
         Terms { marks, height: ROW * (terms.len() as f32 + 1.0) }
@@ -119,10 +119,11 @@ mod tests {
 
     #[test]
     fn the_terms_of_each_ray_are_what_comes_by_it() {
+        let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(5) {
                 let one = inspected.choose(tracer, ChosenRay { sample: 0, ray }).expect("a ray of it");
-                let terms = one.terms();
+                let terms = one.terms(language);
                 let (sum, others) = terms.split_last().expect("at least the sum");
                 let brings = one.sample().brings(ray);
                 let scale = 1e-12 * (1.0 + brings.length());
@@ -138,11 +139,12 @@ mod tests {
 
     #[test]
     fn the_primary_rays_of_all_samples_are_the_pixel() {
+        let language = Language::English;
         let quality = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         each(quality, |tracer, inspected| {
             let part = |sample| {
                 let one = inspected.choose(tracer, ChosenRay { sample, ray: 0 }).expect("a primary ray");
-                one.terms().last().and_then(|term| term.part).unwrap_or_default()
+                one.terms(language).last().and_then(|term| term.part).unwrap_or_default()
             };
             let all: f64 = (0..inspected.samples.len()).map(part).sum();
             assert!((all - 1.0).abs() < 1e-9, "{all}");
@@ -151,9 +153,10 @@ mod tests {
 
     #[test]
     fn the_table_stays_within_its_width() {
+        let language = Language::English;
         each(Quality::default(), |_, inspected| {
             for width in [310.0, 380.0, 620.0] {
-                let drawn = inspected.draw_terms(width);
+                let drawn = inspected.draw_terms(width, language);
                 assert_within(&drawn.marks, [width, drawn.height]);
             }
         });

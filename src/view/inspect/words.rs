@@ -4,47 +4,53 @@ use std::fmt::Write;
 
 use super::format::{kind_word, number, passes_nothing, share_words};
 use super::{Inspected, shown};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::tracer::{RayKind, RayNotes};
 use crate::view::text::format::{count, counted};
 
 impl Inspected {
     /// Why the pixel took as long as it did: its rays, its samples, and what was left out.
-    pub fn sentences(&self) -> Vec<String> {
+    pub fn sentences(&self, language: Language) -> Vec<String> {
         let rays = &self.rays;
         let kinds = [
-            (rays.primary, word!(["primary"; 2], ["primário", "primários"])),
-            (rays.shadow, word!(["to lights"; 2], ["às luzes"; 2])),
-            (rays.reflected, word!(["reflected"; 2], ["refletido", "refletidos"])),
-            (rays.refracted, word!(["through surfaces"; 2], ["através de superfícies"; 2])),
+            (rays.primary, word!(language, ["primary"; 2], ["primário", "primários"])),
+            (rays.shadow, word!(language, ["to lights"; 2], ["às luzes"; 2])),
+            (rays.reflected, word!(language, ["reflected"; 2], ["refletido", "refletidos"])),
+            (rays.refracted, word!(language, ["through surfaces"; 2], ["através de superfícies"; 2])),
         ];
         let kinds: Vec<_> = kinds
             .iter()
             .filter(|(many, _)| *many > 0)
             .map(|(many, what)| format!("{} {}", big(*many), what[usize::from(*many > 1)]))
             .collect();
-        let (took, kinds) = (several_rays(rays.total()), kinds.join(", "));
-        let mut said = vec![say!("This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
+        let (took, kinds) = (several_rays(rays.total(), language), kinds.join(", "));
+        let mut said = vec![say!(language, "This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
         let (all, counting) = (self.samples.len(), self.samples.iter().filter(|sample| sample.counts).count());
         let others = big((all - counting) as u64);
         if all > counting {
             let all = big(all as u64);
             said.push(say!(
+                language,
                 "It has {all} samples; {others} at its corners only told that more were needed.",
                 "Tem {all} amostras; {others} nos cantos só mostraram que eram precisas mais."
             ));
         } else if all > 1 {
             let all = big(all as u64);
-            said.push(say!("It is the mean of {all} samples.", "É a média de {all} amostras."));
+            said.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
         }
         let left_out: u64 = self.samples.iter().map(|sample| sample.rays_left_out).sum();
         if left_out > 0 {
             let weight = self.samples.iter().map(|sample| sample.left_out * sample.share(&self.samples)).sum();
-            let (rays, part) = (several_rays(left_out), share_words(weight));
+            let (rays, part) = (several_rays(left_out, language), share_words(weight, language));
             said.push(if left_out == 1 {
-                say!("{rays} was left out; it would have counted {part}.", "{rays} foi omitido; contaria {part}.")
+                say!(
+                    language,
+                    "{rays} was left out; it would have counted {part}.",
+                    "{rays} foi omitido; contaria {part}."
+                )
             } else {
                 say!(
+                    language,
                     "{rays} were left out; they would have counted {part} together.",
                     "{rays} foram omitidos; juntos contariam {part}."
                 )
@@ -57,8 +63,9 @@ impl Inspected {
             .map(|sample| sample.share(&self.samples) * sample.rays.iter().map(too_deep).sum::<f64>())
             .sum();
         if deep > 0.0 {
-            let part = share_words(deep);
+            let part = share_words(deep, language);
             said.push(say!(
+                language,
                 "The limit of the tree of rays cut off what would have counted {part}.",
                 "O limite da árvore de raios cortou o que contaria {part}."
             ));
@@ -67,118 +74,125 @@ impl Inspected {
     }
 
     /// What the chosen ray is, what it met, and which light arrives there.
-    pub fn ray_sentences(&self) -> Vec<String> {
+    pub fn ray_sentences(&self, language: Language) -> Vec<String> {
         let ray = self.ray();
         let path = &ray.path;
         let kind = match path.kind {
-            RayKind::Primary => word!("From the eye", "Do observador"),
-            RayKind::Shadow => word!("To a light", "A uma luz"),
-            RayKind::Reflected => word!("Reflected", "Refletido"),
-            RayKind::Refracted => word!("Through a surface", "Através de uma superfície"),
+            RayKind::Primary => word!(language, "From the eye", "Do observador"),
+            RayKind::Shadow => word!(language, "To a light", "A uma luz"),
+            RayKind::Reflected => word!(language, "Reflected", "Refletido"),
+            RayKind::Refracted => word!(language, "Through a surface", "Através de uma superfície"),
         };
-        let (level, weight) = (path.level, share_words(path.weight));
+        let (level, weight) = (path.level, share_words(path.weight, language));
         let which = say!(
+            language,
             "{kind}, on level {level}, it counts {weight} of its sample",
             "{kind}, no nível {level}, conta {weight} de sua amostra"
         );
         let Some(met) = ray.met else {
-            return vec![say!("{which} and meets nothing.", "{which} e não encontra nada.")];
+            return vec![say!(language, "{which} and meets nothing.", "{which} e não encontra nada.")];
         };
-        let does =
-            if met.enters { word!("enters", "entra em") } else { word!("meets from within", "atinge por dentro") };
-        let (what, distance) = (self.what(ray), number(path.to));
+        let does = if met.enters {
+            word!(language, "enters", "entra em")
+        } else {
+            word!(language, "meets from within", "atinge por dentro")
+        };
+        let (what, distance) = (self.what(ray, language), number(path.to, language));
         let mut said = vec![say!(
+            language,
             "{which} and {does} {what} at a distance of {distance}.",
             "{which} e {does} {what} à distância de {distance}."
         )];
         if self.lights > 0 {
-            let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light)).collect();
+            let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
             let lights = lights.join(", ");
-            said.push(say!("Lights: {lights}.", "Luzes: {lights}."));
+            said.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
         }
         said
     }
 
-    fn light_words(&self, ray: &RayNotes, light: usize) -> String {
+    fn light_words(&self, ray: &RayNotes, light: usize, language: Language) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
-            None => say!("{name} is behind the surface", "{name} está atrás da superfície"),
-            Some(0.0) => say!("{name} is hidden", "{name} está encoberta"),
-            Some(1.0) => say!("{name} arrives", "{name} chega"),
+            None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
+            Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
+            Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
             Some(part) => {
-                let part = share_words(part);
-                say!("of {name} {part} arrives", "de {name} chega {part}")
+                let part = share_words(part, language);
+                say!(language, "of {name} {part} arrives", "de {name} chega {part}")
             }
         }
     }
 
     /// Everything as a text of several lines.
-    pub fn text(&self) -> String {
+    pub fn text(&self, language: Language) -> String {
         let [x, y] = self.place;
         let colour = self.colour();
         let [red, green, blue] = shown(colour);
-        let linear = colour.to_array().map(|value| decimal(value, 4)).join(" ");
+        let linear = colour.to_array().map(|value| decimal(language, value, 4)).join(" ");
         let mut text = say!(
+            language,
             "Pixel {x}, {y}: {linear} in linear light, #{red:02x}{green:02x}{blue:02x} as shown\n",
             "Pixel {x}, {y}: {linear} em luz linear, #{red:02x}{green:02x}{blue:02x} como se mostra\n"
         );
-        self.sentences().iter().for_each(|sentence| put(&mut text, 0, sentence));
-        text.push_str(word!("\nThe tree of rays", "\nA árvore de raios"));
+        self.sentences(language).iter().for_each(|sentence| put(&mut text, 0, sentence));
+        text.push_str(word!(language, "\nThe tree of rays", "\nA árvore de raios"));
         let (sample, samples) = (self.chosen.sample + 1, self.samples.len());
         if samples > 1 {
-            text.push_str(&say!(" of sample {sample} of {samples}", " da amostra {sample} de {samples}"));
+            text.push_str(&say!(language, " of sample {sample} of {samples}", " da amostra {sample} de {samples}"));
         }
         text.push('\n');
-        self.put_rays(&mut text);
+        self.put_rays(&mut text, language);
         let chosen = self.chosen.ray + 1;
-        put(&mut text, 0, &say!("\nRay {chosen}", "\nRaio {chosen}"));
-        self.ray_sentences().iter().for_each(|sentence| put(&mut text, 0, sentence));
+        put(&mut text, 0, &say!(language, "\nRay {chosen}", "\nRaio {chosen}"));
+        self.ray_sentences(language).iter().for_each(|sentence| put(&mut text, 0, sentence));
         put(
             &mut text,
             0,
             word!(
+                language,
                 "\nIts colour: term, red, green, blue, part of the pixel",
                 "\nSua cor: termo, vermelho, verde, azul, parte do pixel"
             ),
         );
-        self.term_words().lines().for_each(|line| put(&mut text, 1, line));
-        put(&mut text, 0, word!("\nIts stays in what it passes", "\nSuas permanências no que atravessa"));
-        self.span_words().lines().for_each(|line| put(&mut text, 1, line));
+        self.term_words(language).lines().for_each(|line| put(&mut text, 1, line));
+        put(&mut text, 0, word!(language, "\nIts stays in what it passes", "\nSuas permanências no que atravessa"));
+        self.span_words(language).lines().for_each(|line| put(&mut text, 1, line));
         text
     }
 
     /// The terms of the chosen ray, a line each.
-    pub fn term_words(&self) -> String {
+    pub fn term_words(&self, language: Language) -> String {
         let mut text = String::new();
-        for term in self.terms() {
+        for term in self.terms(language) {
             let name = format!("{} ({})", term.formula, term.meaning);
-            let [red, green, blue] = term.colour.to_array().map(|value| decimal(value, 4));
-            let part = term.part.map_or_else(|| "–".to_owned(), share_words);
+            let [red, green, blue] = term.colour.to_array().map(|value| decimal(language, value, 4));
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
             put(&mut text, 0, &format!("{name:28} {red:>8} {green:>8} {blue:>8}   {part}"));
         }
         text
     }
 
     /// What the chosen ray passes and its stays in there, a line each.
-    pub fn span_words(&self) -> String {
+    pub fn span_words(&self, language: Language) -> String {
         let (rows, mut text) = (self.rows(), String::new());
         for row in rows.iter().take(MOST_LINES) {
             let stay = |stay: &[f64; 2]| {
-                let [enter, leave] = stay.map(number);
-                say!("{enter} to {leave}", "{enter} a {leave}")
+                let [enter, leave] = stay.map(|distance| number(distance, language));
+                say!(language, "{enter} to {leave}", "{enter} a {leave}")
             };
             let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
-            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure), stays.join(", ")));
+            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure, language), stays.join(", ")));
         }
-        put_more(&mut text, rows.len());
+        put_more(&mut text, rows.len(), language);
         if rows.is_empty() {
-            put(&mut text, 0, passes_nothing());
+            put(&mut text, 0, passes_nothing(language));
         }
         text
     }
 
     /// The tree of rays, each below that from whose end it starts.
-    fn put_rays(&self, text: &mut String) {
+    fn put_rays(&self, text: &mut String, language: Language) {
         let rays = &self.sample().rays;
         let shown = rays.len().min(MOST_LINES);
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); shown];
@@ -188,21 +202,23 @@ impl Inspected {
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
             let ray = &rays[number];
-            let (kind, what, counts) = (kind_word(ray.path.kind), self.what(ray), share_words(ray.path.weight));
-            let rays = several_rays(ray.lights.len() as u64);
+            let (kind, what, counts) =
+                (kind_word(ray.path.kind, language), self.what(ray, language), share_words(ray.path.weight, language));
+            let rays = several_rays(ray.lights.len() as u64, language);
             let shadows = match ray.lights.len() {
                 0 => String::new(),
-                _ => say!(", {rays} to lights", ", {rays} às luzes"),
+                _ => say!(language, ", {rays} to lights", ", {rays} às luzes"),
             };
             let (name, depth) = (number + 1, ray.path.level as usize);
             let line = say!(
+                language,
                 "{name} {kind}: {what}, counts {counts}{shadows}",
                 "{name} {kind}: {what}, conta {counts}{shadows}"
             );
             put(text, depth, &line);
             waiting.extend(followers[number].iter().rev());
         }
-        put_more(text, rays.len());
+        put_more(text, rays.len(), language);
     }
 }
 
@@ -214,10 +230,10 @@ fn put(text: &mut String, depth: usize, line: &str) {
 }
 
 /// That there are more lines than are told.
-fn put_more(text: &mut String, all: usize) {
+fn put_more(text: &mut String, all: usize, language: Language) {
     if all > MOST_LINES {
         let more = big((all - MOST_LINES) as u64);
-        put(text, 1, &say!("and {more} more", "e mais {more}"));
+        put(text, 1, &say!(language, "and {more} more", "e mais {more}"));
     }
 }
 
@@ -225,8 +241,8 @@ fn big(number: u64) -> String {
     count(u32::try_from(number).unwrap_or(u32::MAX))
 }
 
-fn several_rays(number: u64) -> String {
-    counted(u32::try_from(number).unwrap_or(u32::MAX), word!("ray", "raio"))
+fn several_rays(number: u64, language: Language) -> String {
+    counted(u32::try_from(number).unwrap_or(u32::MAX), word!(language, "ray", "raio"), language)
 }
 
 #[cfg(test)]
@@ -237,18 +253,20 @@ mod tests {
 
     #[test]
     fn parts_and_distances_are_short() {
-        let said = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(share_words);
+        let said = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(|part| share_words(part, Language::English));
         assert_eq!(said, ["0 %", "< 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
-        let said = [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY].map(number);
+        let said =
+            [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY].map(|distance| number(distance, Language::English));
         assert_eq!(said, ["0", "1.000", "12.35", "−3.500", "1.00e9", "1.00e−7", "−∞"]);
     }
 
     #[test]
     fn the_sentences_count_the_rays_and_what_was_left_out() {
+        let language = Language::English;
         let mut seen = [false; 3];
         let quality = Quality { max_depth: 4, samples: 2, ..Quality::default() };
         each(quality, |_, inspected| {
-            let said = inspected.sentences();
+            let said = inspected.sentences(language);
             let begins = format!("This pixel took {} ray", big(inspected.rays.total()));
             assert!(said[0].starts_with(&begins), "{said:?}");
             let left_out = inspected.samples.iter().any(|sample| sample.rays_left_out > 0);
@@ -263,8 +281,9 @@ mod tests {
 
     #[test]
     fn the_text_has_every_ray_term_and_row() {
+        let language = Language::English;
         each(Quality::default(), |_, inspected| {
-            let text = inspected.text();
+            let text = inspected.text(language);
             let [x, y] = inspected.place;
             assert!(text.starts_with(&format!("Pixel {x}, {y}: ")), "{text}");
             for number in 1..=inspected.sample().rays.len().min(MOST_LINES) {
@@ -273,7 +292,7 @@ mod tests {
                     "{number}: {text}"
                 );
             }
-            assert!(inspected.terms().iter().all(|term| text.contains(term.formula)), "{text}");
+            assert!(inspected.terms(language).iter().all(|term| text.contains(term.formula)), "{text}");
         });
     }
 }

@@ -1,96 +1,121 @@
-//! What befalls machines and messages in a sentence, and what the ring that adapts does about it.
+//! The sentence for each failure and each step of the recovery.
 
 use std::time::Duration;
 
-use crate::balance::{Condition, NodeId, Party, Remedy};
-use crate::language::{say, word};
-use crate::time::Time;
-use crate::view::state::node_state::NodeState;
-use crate::view::state::run_state::RunState;
+use super::failure::Failure;
+use crate::balance::{NodeId, Party};
+use crate::language::{Language, say, word};
 use crate::view::text::format::{atoms_words, duration, names, node_name};
 
-/// What has become of a machine, and what that means where atoms are shared so.
-pub(crate) fn condition(state: &RunState, node: NodeId) -> String {
-    let name = node_name(node);
-    let Some(machine) = state.nodes().get(usize::from(node)) else { return String::new() };
-    let is_mended = state.has(Remedy::Leases);
-    match (machine.condition, machine.condition_before) {
-        (Condition::Off, _) => switched_off(machine, name, is_mended),
-        (Condition::Hung, _) if is_mended => say!(
-            "Machine {name} hangs, neither traces nor answers: the parent will miss it",
-            "A máquina {name} travou, não calcula nem responde: o pai vai notar"
-        ),
-        (Condition::Hung, _) => {
-            let left = atoms_words(machine.left());
-            say!(
-                "Machine {name} hangs with {left}: what is sent to it waits, offers too",
-                "A máquina {name} travou com {left}: o que chega a ela espera, ofertas também"
-            )
+impl Failure {
+    /// One sentence without a full stop.
+    pub(crate) fn sentence(&self, language: Language) -> String {
+        match self {
+            &Self::SwitchedOff { node, atoms, is_recovered } => switched_off(language, node, atoms, is_recovered),
+            &Self::Hung { node, atoms, is_recovered } => hung(language, node, atoms, is_recovered),
+            &Self::CutOff(node) => {
+                let name = node_name(node);
+                say!(
+                    language,
+                    "Machine {name} is cut off: it traces on, but nothing comes from it or to it",
+                    "A máquina {name} está isolada: calcula, mas nada sai dela nem chega a ela"
+                )
+            }
+            &Self::Joined(node) => {
+                let name = node_name(node);
+                say!(
+                    language,
+                    "Machine {name} joins: it asks the parent to be let in",
+                    "A máquina {name} chega e pede ao pai para entrar"
+                )
+            }
+            &Self::Restarted(node) => {
+                let name = node_name(node);
+                say!(
+                    language,
+                    "Machine {name} begins anew and asks the parent to be let in",
+                    "A máquina {name} recomeça e pede ao pai para entrar"
+                )
+            }
+            &Self::RestartedOutside(node) => {
+                let name = node_name(node);
+                say!(
+                    language,
+                    "Machine {name} is on again, but has forgotten all, and nobody lets it in",
+                    "A máquina {name} voltou, mas esqueceu tudo, e ninguém a deixa entrar"
+                )
+            }
+            &Self::Reachable(node) => {
+                let name = node_name(node);
+                say!(language, "Machine {name} can be reached again", "A máquina {name} voltou a ser alcançável")
+            }
+            &Self::Continues(node) => {
+                let name = node_name(node);
+                say!(language, "Machine {name} goes on where it was", "A máquina {name} continua de onde estava")
+            }
+            Self::Missed { node, silent } => {
+                let (name, silent) = (node_name(*node), duration(*silent, language));
+                say!(
+                    language,
+                    "The parent has not heard of machine {name} for {silent}: the ring closes round it",
+                    "O pai não ouve a máquina {name} há {silent}: o anel se fecha sem ela"
+                )
+            }
+            Self::MissedMany(nodes) => {
+                let who = names(nodes, language);
+                say!(
+                    language,
+                    "The parent does not hear of machines {who}: the ring closes round them",
+                    "O pai não ouve as máquinas {who}: o anel se fecha sem elas"
+                )
+            }
+            Self::Returned(nodes) => {
+                let who = names(nodes, language);
+                match **nodes {
+                    [_] => say!(
+                        language,
+                        "The parent hears of machine {who}: the ring opens for it",
+                        "O pai ouve a máquina {who}: o anel se abre para ela"
+                    ),
+                    _ => say!(
+                        language,
+                        "The parent hears of machines {who}: the ring opens for them",
+                        "O pai ouve as máquinas {who}: o anel se abre para elas"
+                    ),
+                }
+            }
+            &Self::Delayed { from, to, by } => delayed(language, (from, to), by),
+            Self::HandedOutAgain { to, atoms } => handed_out_again(language, to, *atoms),
+            Self::Copies { from, to, atoms } => copies(language, *from, to, *atoms),
+            Self::Wakes { from, to } => wakes(language, *from, to),
         }
-        (Condition::CutOff, _) => say!(
-            "Machine {name} is cut off: it traces on, but nothing comes from it or to it",
-            "A máquina {name} está isolada: calcula, mas nada sai dela nem chega a ela"
-        ),
-        (Condition::Well, Condition::Off) if state.sharing.is_adaptive() && machine.heard.is_none() => {
-            say!(
-                "Machine {name} joins: it asks the parent to be let in",
-                "A máquina {name} chega e pede ao pai para entrar"
-            )
-        }
-        (Condition::Well, Condition::Off) if state.sharing.is_adaptive() => say!(
-            "Machine {name} begins anew and asks the parent to be let in",
-            "A máquina {name} recomeça e pede ao pai para entrar"
-        ),
-        (Condition::Well, Condition::Off) => say!(
-            "Machine {name} is on again, but has forgotten all, and nobody lets it in",
-            "A máquina {name} voltou, mas esqueceu tudo, e ninguém a deixa entrar"
-        ),
-        (Condition::Well, Condition::CutOff) => {
-            say!("Machine {name} can be reached again", "A máquina {name} voltou a ser alcançável")
-        }
-        (Condition::Well, _) => say!("Machine {name} goes on where it was", "A máquina {name} continua de onde estava"),
     }
 }
 
-/// The parent says that others are gone than before; `None` if it says the same again.
-pub(crate) fn ring_changed(state: &RunState, now: Time) -> Option<String> {
-    let unlike = |all: &[NodeId], others: &[NodeId]| -> Vec<NodeId> {
-        all.iter().copied().filter(|node| !others.contains(node)).collect()
-    };
-    let (gone, back) = (unlike(&state.gone, &state.gone_before), unlike(&state.gone_before, &state.gone));
-    let who = names(if gone.is_empty() { &back } else { &gone });
-    Some(match (&*gone, &*back) {
-        ([], []) => return None,
-        ([node], _) => {
-            let heard = state.nodes().get(usize::from(*node)).and_then(|of| of.heard).unwrap_or_default();
-            let silent = duration(now.since(heard));
-            say!(
-                "The parent has not heard of machine {who} for {silent}: the ring closes round it",
-                "O pai não ouve a máquina {who} há {silent}: o anel se fecha sem ela"
-            )
-        }
-        ([_, ..], _) => say!(
-            "The parent does not hear of machines {who}: the ring closes round them",
-            "O pai não ouve as máquinas {who}: o anel se fecha sem elas"
-        ),
-        ([], [_]) => say!(
-            "The parent hears of machine {who}: the ring opens for it",
-            "O pai ouve a máquina {who}: o anel se abre para ela"
-        ),
-        ([], _) => say!(
-            "The parent hears of machines {who}: the ring opens for them",
-            "O pai ouve as máquinas {who}: o anel se abre para elas"
-        ),
-    })
+fn hung(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> String {
+    let (name, left) = (node_name(node), atoms_words(atoms, language));
+    if is_recovered {
+        say!(
+            language,
+            "Machine {name} hangs, neither traces nor answers: the parent will miss it",
+            "A máquina {name} travou, não calcula nem responde: o pai vai notar"
+        )
+    } else {
+        say!(
+            language,
+            "Machine {name} hangs with {left}: messages to it wait, offers too",
+            "A máquina {name} travou com {left}: as mensagens para ela esperam, as ofertas também"
+        )
+    }
 }
 
-/// The way from one party to another is held up.
-pub(crate) fn delayed((from, to): (Party, Party), by: Duration) -> String {
-    let by = duration(by);
+fn delayed(language: Language, (from, to): (Party, Party), by: Duration) -> String {
+    let by = duration(by, language);
     match (from, to) {
         (Party::Node(from), Party::Node(to)) => {
             let (from, to) = (node_name(from), node_name(to));
             say!(
+                language,
                 "What machine {from} sends to machine {to} is held up for {by}",
                 "O que a máquina {from} manda à máquina {to} fica retido por {by}"
             )
@@ -98,6 +123,7 @@ pub(crate) fn delayed((from, to): (Party, Party), by: Duration) -> String {
         (Party::Node(from), Party::Parent) => {
             let from = node_name(from);
             say!(
+                language,
                 "What machine {from} sends to the parent is held up for {by}",
                 "O que a máquina {from} manda ao pai fica retido por {by}"
             )
@@ -105,6 +131,7 @@ pub(crate) fn delayed((from, to): (Party, Party), by: Duration) -> String {
         (Party::Parent, Party::Node(to)) => {
             let to = node_name(to);
             say!(
+                language,
                 "What the parent sends to machine {to} is held up for {by}",
                 "O que o pai manda à máquina {to} fica retido por {by}"
             )
@@ -113,67 +140,81 @@ pub(crate) fn delayed((from, to): (Party, Party), by: Duration) -> String {
     }
 }
 
-/// The parent gives atoms out again that nobody has.
-pub(crate) fn given_out(to: &[NodeId], atoms: u32) -> String {
-    let (who, what) = (names(to), atoms_words(atoms));
-    let machine = if let [_] = to { word!("machine", "à máquina") } else { word!("machines", "às máquinas") };
+fn handed_out_again(language: Language, to: &[NodeId], atoms: u32) -> String {
+    let (who, what) = (names(to, language), atoms_words(atoms, language));
+    let machine = if let [_] = to {
+        word!(language, "machine", "à máquina")
+    } else {
+        word!(language, "machines", "às máquinas")
+    };
     match atoms {
         1 => say!(
+            language,
             "{what} that nobody has is given out again to {machine} {who}",
             "{what} que ninguém tem é dado de novo {machine} {who}"
         ),
         _ => say!(
+            language,
             "{what} that nobody has are given out again to {machine} {who}",
             "{what} que ninguém tem são dados de novo {machine} {who}"
         ),
     }
 }
 
-/// Atoms are late at a machine, and others trace them as well.
-pub(crate) fn copies(from: NodeId, to: &[NodeId], atoms: u32) -> String {
-    let (late, who) = (node_name(from), names(to));
+fn copies(language: Language, from: NodeId, to: &[NodeId], atoms: u32) -> String {
+    let (late, who) = (node_name(from), names(to, language));
     match (to, atoms) {
         ([_], 1) => say!(
+            language,
             "Machine {who} traces an atom again that is late at machine {late}",
             "A máquina {who} calcula de novo um átomo que tarda na máquina {late}"
         ),
         ([_], _) => say!(
+            language,
             "Machine {who} traces {atoms} atoms again that are late at machine {late}",
             "A máquina {who} calcula de novo {atoms} átomos que tardam na máquina {late}"
         ),
         _ => say!(
+            language,
             "Machines {who} trace {atoms} atoms again that are late at machine {late}",
             "As máquinas {who} calculam de novo {atoms} átomos que tardam na máquina {late}"
         ),
     }
 }
 
-/// A machine has atoms to give, and wakes others that sleep.
-pub(crate) fn wakes(from: NodeId, to: &[NodeId]) -> String {
-    let (from, who) = (node_name(from), names(to));
+fn wakes(language: Language, from: NodeId, to: &[NodeId]) -> String {
+    let (from, who) = (node_name(from), names(to, language));
     match to {
         [_] => say!(
+            language,
             "Machine {from} needs help and wakes machine {who}",
             "A máquina {from} precisa de ajuda e acorda a máquina {who}"
         ),
         _ => say!(
+            language,
             "Machine {from} needs help and wakes machines {who}",
             "A máquina {from} precisa de ajuda e acorda as máquinas {who}"
         ),
     }
 }
 
-fn switched_off(machine: &NodeState, name: u32, is_mended: bool) -> String {
-    let took = atoms_words(machine.took);
-    match machine.took {
+fn switched_off(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> String {
+    let (name, took) = (node_name(node), atoms_words(atoms, language));
+    match atoms {
         0 => {
-            say!("Machine {name} is switched off; it had no atoms", "A máquina {name} foi desligada; não tinha átomos")
+            say!(
+                language,
+                "Machine {name} is switched off; it had no atoms",
+                "A máquina {name} foi desligada; não tinha átomos"
+            )
         }
-        _ if is_mended => say!(
+        _ if is_recovered => say!(
+            language,
             "Machine {name} is switched off with {took}, until the parent misses them",
             "A máquina {name} foi desligada com {took}, até que o pai dê por falta"
         ),
         _ => say!(
+            language,
             "Machine {name} is switched off with {took}, which nobody has now",
             "A máquina {name} foi desligada com {took}, que agora ninguém tem"
         ),
@@ -184,9 +225,11 @@ fn switched_off(machine: &NodeState, name: u32, is_mended: bool) -> String {
 mod tests {
     use super::super::narrator::Narrator;
     use super::*;
-    use crate::balance::Strategy;
+    use crate::balance::{Condition, Strategy};
     use crate::scenario::Command;
     use crate::sim::Sim;
+    use crate::time::Time;
+    use crate::view::state::run_state::RunState;
     use crate::view::tests::sample_runs;
 
     /// What the list of events has told in all of a run of four machines to which this was done.
@@ -198,9 +241,10 @@ mod tests {
         Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
             state.apply(&record);
             narrator.apply(&record, &state);
-            for (_, sentence) in narrator.events() {
-                if !told.iter().any(|other| other == sentence) {
-                    told.push(sentence.to_owned());
+            for (_, event) in narrator.events() {
+                let sentence = event.sentence(Language::English);
+                if !told.contains(&sentence) {
+                    told.push(sentence);
                 }
             }
         });
@@ -242,7 +286,7 @@ mod tests {
         has(&told, "Machine 3 is on again, but has forgotten all, and nobody lets it in", "");
         let hung = Command::Condition { node: 2, condition: Condition::Hung };
         let told = story(Strategy::Ring, &[1.0; 4], &[(1.0, hung), (1.5, WELL)]);
-        has(&told, "Machine 3 hangs with ", "what is sent to it waits, offers too");
+        has(&told, "Machine 3 hangs with ", "messages to it wait, offers too");
         has(&told, "Machine 3 goes on where it was", "");
     }
 }

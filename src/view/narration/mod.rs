@@ -2,7 +2,9 @@
 
 pub mod event_sentences;
 pub mod events;
+pub mod failure;
 pub mod failure_sentences;
+pub mod happening;
 pub mod narrator;
 pub mod record_sentences;
 pub mod status;

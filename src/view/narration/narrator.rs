@@ -3,17 +3,17 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::event_sentences;
-use super::events::{EventLog, is_done, jam};
-use super::failure_sentences;
+use super::event_sentences::before_virtual_time;
+use super::events::{EventLog, is_done, waiting_messages};
+use super::failure::Failure;
+use super::happening::{Happening, Retirement};
 use super::status::standing;
-use crate::balance::{Message, Party, Remedy};
-use crate::language::say;
+use crate::balance::{Message, Party};
+use crate::language::Language;
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::state::run_state::RunState;
-use crate::view::text::format::node_name;
 
 /// Says what happens, one sentence at a time: each stays long enough to be read, unless something weightier
 /// happens. Keeps the last events too.
@@ -30,7 +30,7 @@ pub struct Narrator {
 struct Told {
     at: Time,
     weight: Weight,
-    sentence: String,
+    happening: Happening,
 }
 
 /// What kind of event it is and, of transfers, how large: one of twice the atoms weighs more.
@@ -65,12 +65,12 @@ impl Narrator {
         );
         let told = if by_hand {
             // The list knows where a slider was before the hand took hold of it.
-            self.events.latest_by_hand().map(|sentence| (BY_HAND, sentence.to_owned()))
+            self.events.latest_by_hand().map(|happening| (BY_HAND, happening.clone()))
         } else {
             tell(record, state)
         };
-        let Some((weight, sentence)) = told else { return };
-        let next = Told { at: record.at, weight, sentence };
+        let Some((weight, happening)) = told else { return };
+        let next = Told { at: record.at, weight, happening };
         if self.told.as_ref().is_none_or(|told| told.gives_way_to(&next, READ)) {
             self.told = Some(next);
             self.passed_over.clear();
@@ -81,24 +81,24 @@ impl Narrator {
     }
 
     /// What is to be read at `now`: the last event while it is fresh, else how things stand.
-    pub fn sentence(&self, state: &RunState, now: Time) -> String {
+    pub fn sentence(&self, state: &RunState, now: Time, language: Language) -> String {
         match self.told_at(now, state.rate()) {
-            Some(told) => told.sentence.clone(),
-            None if state.finished().is_some() => event_sentences::complete().into(),
+            Some(told) => told.happening.sentence(language),
+            None if state.finished().is_some() => Happening::Complete.sentence(language),
             // Nothing has been heard of it: its records begin when all costs are known.
-            _ if state.is_virtual && state.head() == Time::ZERO => event_sentences::before_virtual_time().into(),
-            _ => standing(state),
+            _ if state.is_virtual && state.head() == Time::ZERO => before_virtual_time(language).into(),
+            _ => standing(state, language),
         }
     }
 
     /// The last events and their times, the newest last. What belongs together is one event: a slider that is
     /// dragged, small transfers of one machine, machines that retire.
-    pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+    pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
         self.events.iter()
     }
 
     /// Those before what is to be read at `now`.
-    pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &str)> {
+    pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
         let told = self.told_at(now, state.rate()).map(|told| told.at);
         self.events().filter(move |(at, _)| told.is_none_or(|told| *at < told))
     }
@@ -130,59 +130,58 @@ impl Told {
 /// More of them nobody could follow.
 const MOST_PASSED_OVER: usize = 64;
 
-fn tell(record: &Record, state: &RunState) -> Option<(Weight, String)> {
+fn tell(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
     let told = match &record.what {
         RecordKind::Sent {
             from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
         } => {
             let atoms = atoms_in(ranges);
-            ((3, atoms.checked_ilog2().unwrap_or(0)), event_sentences::transfer(state, *from, *to, atoms))
+            ((3, atoms.checked_ilog2().unwrap_or(0)), Happening::transfer(state, *from, *to, atoms))
         }
         RecordKind::Sent { from: Party::Parent, message: Message::Gone(_), .. } => {
-            (MISSED, failure_sentences::ring_changed(state, record.at)?)
+            (MISSED, Happening::Failure(Failure::ring_changed(state, record.at)?))
         }
         RecordKind::Sent { from, to: Party::Node(to), message: Message::Again(ranges), .. } => {
             let atoms = atoms_in(ranges);
+            let to = vec![*to];
             match *from {
-                Party::Parent => ((3, atoms.checked_ilog2().unwrap_or(0)), failure_sentences::given_out(&[*to], atoms)),
-                Party::Node(from) => ((2, 0), failure_sentences::copies(from, &[*to], atoms)),
+                Party::Parent => {
+                    ((3, atoms.checked_ilog2().unwrap_or(0)), Happening::Failure(Failure::HandedOutAgain { to, atoms }))
+                }
+                Party::Node(from) => ((2, 0), Happening::Failure(Failure::Copies { from, to, atoms })),
             }
         }
         RecordKind::Sent { from: Party::Node(from), to: Party::Node(to), message: Message::Wake, .. } => {
-            ((1, 1), failure_sentences::wakes(*from, &[*to]))
+            ((1, 1), Happening::Failure(Failure::Wakes { from: *from, to: vec![*to] }))
         }
         RecordKind::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
-            ((1, 0), event_sentences::offer(state, *from, false, message.own_offer(*from)?))
+            ((1, 0), Happening::offer(state, *from, false, message.own_offer(*from)?))
         }
         // One that is asked back, or let in, gets no band.
         RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
             return None;
         }
         RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
-            ((2, 0), event_sentences::bands(state, band))
+            ((2, 0), Happening::bands(state, band))
         }
         RecordKind::Retired { .. } if state.sharing.is_farm() => return None,
-        RecordKind::Retired { node } if state.has(Remedy::Wake) => ((1, 0), event_sentences::retired(state, &[*node])),
         RecordKind::Retired { node } => {
-            let name = node_name(*node);
-            let words = say!(
-                "{name}'s offer came back, nobody needs help: it retires",
-                "A oferta de {name} voltou, ninguém quer ajuda: ela não é mais necessária"
-            );
-            ((2, 0), words)
+            let happening = Happening::retired(state, vec![*node]);
+            let sleeps = matches!(happening, Happening::Retired { reason: Retirement::Sleeps, .. });
+            ((if sleeps { 1 } else { 2 }, 0), happening)
         }
         // The bands follow, perhaps soon.
-        RecordKind::Estimating => ((1, 0), event_sentences::estimating().into()),
+        RecordKind::Estimating => ((1, 0), Happening::Estimating),
         RecordKind::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
             let weight = if part.is_empty() { 2 } else { 1 };
-            ((weight, 0), event_sentences::part(*to, part.len() as u32))
+            ((weight, 0), Happening::Part { to: *to, atoms: part.len() as u32 })
         }
         RecordKind::Received { by: Party::Parent, .. } => {
-            let waiting = jam(state, record.at)?;
-            ((2, waiting.ilog2()), event_sentences::jam(state, waiting))
+            let waiting = waiting_messages(state, record.at)?;
+            ((2, waiting.ilog2()), Happening::queue(state, waiting))
         }
-        RecordKind::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), event_sentences::done(&[*node])),
-        RecordKind::Finished => (END, event_sentences::complete().into()),
+        RecordKind::AtomDone { node, .. } if is_done(state, *node) => ((2, 0), Happening::BandsDone(vec![*node])),
+        RecordKind::Finished => (END, Happening::Complete),
         _ => return None,
     };
     Some(told)
@@ -199,12 +198,13 @@ mod tests {
 
     #[test]
     fn the_story_of_a_slow_machine() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 2400);
         let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), Vec::new());
         for record in sample_runs::records(&header) {
             state.apply(&record);
             narrator.apply(&record, &state);
-            heard.push(narrator.sentence(&state, record.at));
+            heard.push(narrator.sentence(&state, record.at, language));
         }
         heard.dedup();
         let says = |part: &str| heard.iter().any(|sentence| sentence.contains(part));
@@ -217,6 +217,7 @@ mod tests {
 
     #[test]
     fn a_sentence_stays_until_it_is_read_or_outweighed() {
+        let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
         let mut narrator = Narrator::default();
         let at = |ms: u64| Time(ms * 1_000_000);
@@ -224,7 +225,7 @@ mod tests {
             let record = Record { at: at(ms), what };
             state.apply(&record);
             narrator.apply(&record, &state);
-            narrator.sentence(&state, record.at)
+            narrator.sentence(&state, record.at, language)
         };
         assert!(say(0, RecordKind::Retired { node: 0 }).starts_with("1's offer"));
         assert!(say(100, RecordKind::Retired { node: 1 }).starts_with("1's offer"));
@@ -240,6 +241,7 @@ mod tests {
 
     #[test]
     fn where_time_goes_slowly_there_is_time_to_read_what_would_be_passed_over() {
+        let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 1.0], 9));
         let mut narrator = Narrator::default();
         let at = |ms: u64| Time(ms * 1_000_000);
@@ -250,7 +252,7 @@ mod tests {
         }
         let mut says = |rate, ms| {
             state.set_rate(rate);
-            narrator.sentence(&state, at(ms))
+            narrator.sentence(&state, at(ms), language)
         };
         assert!(says(1.0, 250).starts_with("1's offer"));
         assert!(says(0.01, 210).starts_with("3's offer"));
@@ -260,6 +262,7 @@ mod tests {
 
     #[test]
     fn a_transfer_of_twice_the_atoms_outweighs_another() {
+        let language = Language::English;
         let state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 900));
         let mut narrator = Narrator::default();
         let mut say = |ms: u64, from, atoms| {
@@ -267,7 +270,7 @@ mod tests {
             let message = Message::Transfer(std::iter::once(0..atoms).collect());
             let what = RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
             narrator.apply(&Record { at, what }, &state);
-            narrator.sentence(&state, at)
+            narrator.sentence(&state, at, language)
         };
         assert!(say(0, 1, 20).ends_with("takes over 20 atoms from 2, which is still busy"));
         assert!(say(100, 1, 30).contains("takes over 20 atoms"));
@@ -277,13 +280,14 @@ mod tests {
 
     #[test]
     fn a_sentence_on_a_speed_follows_the_hand() {
+        let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 9));
         let mut narrator = Narrator::default();
         let mut set = |ms: u64, node, speed| {
             let record = Record { at: Time(ms * 1_000_000), what: RecordKind::SpeedSet { node, speed } };
             state.apply(&record);
             narrator.apply(&record, &state);
-            narrator.sentence(&state, record.at)
+            narrator.sentence(&state, record.at, language)
         };
         for (ms, speed) in [(0, 0.86), (50, 0.4), (100, 0.01)] {
             let expected = format!("Machine 2 now runs at {:.0} %: the others will make up for it", speed * 100.0);
@@ -298,20 +302,20 @@ mod tests {
     }
 
     /// What is heard of a run by this strategy whose last machine is slow, and what is left in the list at its end.
-    fn story(strategy: Strategy, handling: u64) -> (BTreeSet<String>, Vec<String>) {
+    fn story(strategy: Strategy, handling: u64, language: Language) -> (BTreeSet<String>, Vec<String>) {
         let plain = sample_runs::header(&[1.0, 1.0, 1.0, 1.0, 0.1], 2000);
         let rules = Rules { strategy, part: strategy.usual_part(plain.division, 5), ..plain.rules };
         let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
         let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), BTreeSet::new());
         for record in sample_runs::records(&header) {
             // How things stood before it.
-            heard.insert(narrator.sentence(&state, record.at));
+            heard.insert(narrator.sentence(&state, record.at, language));
             state.apply(&record);
             narrator.apply(&record, &state);
-            heard.insert(narrator.sentence(&state, record.at));
+            heard.insert(narrator.sentence(&state, record.at, language));
         }
         assert!(heard.iter().all(|sentence| sentence.chars().count() <= 105), "{heard:#?}");
-        let listed: Vec<_> = narrator.events().map(|(_, sentence)| sentence.to_owned()).collect();
+        let listed: Vec<_> = narrator.events().map(|(_, event)| event.sentence(language)).collect();
         assert!(listed.iter().all(|sentence| sentence.chars().count() <= 95), "{listed:#?}");
         (heard, listed)
     }
@@ -327,7 +331,8 @@ mod tests {
 
     #[test]
     fn in_a_farm_nodes_ask_and_their_parts_are_one_event() {
-        let (heard, listed) = story(Strategy::Farm, 0);
+        let language = Language::English;
+        let (heard, listed) = story(Strategy::Farm, 0, language);
         assert_heard(
             &heard,
             &[
@@ -343,7 +348,8 @@ mod tests {
 
     #[test]
     fn a_slow_parent_is_told_of() {
-        let (heard, listed) = story(Strategy::Farm, 40);
+        let language = Language::English;
+        let (heard, listed) = story(Strategy::Farm, 40, language);
         assert_heard(&heard, &[" messages wait at the parent, which needs 40 ms for each"]);
         let jams = listed.iter().filter(|event| event.contains("messages wait")).count();
         assert!((1..40).contains(&jams), "{listed:#?}");
@@ -351,7 +357,8 @@ mod tests {
 
     #[test]
     fn with_fixed_bands_all_wait_for_the_slow_one() {
-        let (heard, listed) = story(Strategy::Static, 0);
+        let language = Language::English;
+        let (heard, listed) = story(Strategy::Static, 0, language);
         assert_heard(
             &heard,
             &[
@@ -361,14 +368,18 @@ mod tests {
             ],
         );
         assert!(listed.iter().any(|event| event == "1, 2, 3 and 4 are done and wait: nobody shares with them"));
-        let (heard, _) = story(Strategy::StaticEstimate, 0);
-        assert_heard(&heard, &[event_sentences::estimating(), "a band that should cost the same", "All wait for 5"]);
-        let (heard, _) = story(Strategy::Serial, 0);
+        let (heard, _) = story(Strategy::StaticEstimate, 0, language);
+        assert_heard(
+            &heard,
+            &[&Happening::Estimating.sentence(Language::English), "a band that should cost the same", "All wait for 5"],
+        );
+        let (heard, _) = story(Strategy::Serial, 0, language);
         assert_heard(&heard, &["one machine the whole picture", "1 computes alone: "]);
     }
 
     #[test]
     fn threads_steal() {
+        let language = Language::English;
         let header = Header { driver: Driver::WorkStealing, ..sample_runs::header(&[1.0, 1.0, 0.1], 600) };
         let mut state = RunState::new(&header);
         let mut narrator = Narrator::default();
@@ -378,17 +389,18 @@ mod tests {
             let record = Record { at, what: RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
             state.apply(&record);
             narrator.apply(&record, &state);
-            narrator.sentence(&state, at)
+            narrator.sentence(&state, at, language)
         };
         assert_eq!(say(0, 0, 96), "3 steals 96 atoms from 1");
         assert_eq!(say(9000, 1, 1), "3 steals 1 atom from 2");
-        let listed: Vec<_> = narrator.events().map(|(_, sentence)| sentence).collect();
+        let listed: Vec<_> = narrator.events().map(|(_, event)| event.sentence(Language::English)).collect();
         assert_eq!(listed, ["3 steals 96 atoms from 1", "3 steals few atoms at a time from 2: 1 atom"]);
     }
 
     #[test]
     fn before_virtual_time_begins_something_is_said() {
+        let language = Language::English;
         let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
-        assert_eq!(Narrator::default().sentence(&state, Time::ZERO), event_sentences::before_virtual_time());
+        assert_eq!(Narrator::default().sentence(&state, Time::ZERO, language), before_virtual_time(language));
     }
 }

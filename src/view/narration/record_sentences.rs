@@ -1,10 +1,9 @@
 //! What a record says in a sentence, and why it came so: for whoever goes through a run event by event.
 
-use super::event_sentences;
-use super::failure_sentences;
+use super::happening::Happening;
 use super::status::PIPE;
 use crate::balance::{NodeId, Party, Remedy};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
@@ -13,120 +12,140 @@ use crate::view::text::format::{atoms_words, count, duration, node_name, party_n
 use crate::view::text::tooltips::flight_words;
 
 /// What happened, in a sentence; `state` already knows it.
-pub fn record_words(record: &Record, state: &RunState) -> String {
+pub fn record_words(record: &Record, state: &RunState, language: Language) -> String {
+    if let Some(happening) = Happening::of(record, state) {
+        return happening.sentence(language);
+    }
     match &record.what {
         RecordKind::Sent { id, .. } => match state.flight(*id) {
-            Some(flight) => sent_words(flight, state),
-            None => word!("A message leaves", "Parte uma mensagem").into(),
+            Some(flight) => sent_words(flight, state, language),
+            None => word!(language, "A message leaves", "Parte uma mensagem").into(),
         },
         RecordKind::Received { id, by } => {
             let by = match by {
-                Party::Parent => word!("The parent", "O pai").into(),
+                Party::Parent => word!(language, "The parent", "O pai").into(),
                 Party::Node(node) => node_name(*node).to_string(),
             };
-            match state.flight(*id).map(flight_words) {
-                Some(what) => say!("{by} handles what has arrived: {what}", "{by} atende o que chegou: {what}"),
-                None => say!("{by} handles a message", "{by} atende uma mensagem"),
+            match state.flight(*id).map(|flight| flight_words(flight, language)) {
+                Some(what) => {
+                    say!(language, "{by} handles what has arrived: {what}", "{by} atende o que chegou: {what}")
+                }
+                None => say!(language, "{by} handles a message", "{by} atende uma mensagem"),
             }
         }
-        RecordKind::Estimating => event_sentences::estimating().into(),
-        RecordKind::Estimated { .. } => word!("The parent has sampled the picture", "O pai amostrou a imagem").into(),
+        RecordKind::Estimated { .. } => {
+            word!(language, "The parent has sampled the picture", "O pai amostrou a imagem").into()
+        }
         RecordKind::AtomStarted { node, atom } => {
             let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
-            say!("{name} begins atom {atom}", "{name} começa o átomo {atom}")
+            say!(language, "{name} begins atom {atom}", "{name} começa o átomo {atom}")
         }
         RecordKind::AtomDone { node, atom, cost } => {
-            let (name, atom, cost) = (node_name(*node), count(atom.saturating_add(1)), duration(*cost));
+            let (name, atom, cost) = (node_name(*node), count(atom.saturating_add(1)), duration(*cost, language));
             say!(
+                language,
                 "{name} has traced atom {atom}, at a cost of {cost}",
                 "{name} calculou o átomo {atom}, ao custo de {cost}"
             )
         }
-        RecordKind::SpeedSet { node, speed } => {
-            let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
-            event_sentences::speed(state, *node, before, *speed)
-        }
-        RecordKind::Paused { node } => event_sentences::paused(state, *node),
-        RecordKind::Resumed { node } => event_sentences::resumed(state, *node),
-        RecordKind::LatencySet { latency } => event_sentences::latency(state, *latency),
-        RecordKind::Condition { node, .. } => failure_sentences::condition(state, *node),
         RecordKind::Link { one, other, cut } => {
-            let (one, other) = (party_name(*one), party_name(*other));
+            let (one, other) = (party_name(*one, language), party_name(*other, language));
             if *cut {
-                say!("The link between {one} and {other} is cut", "A ligação entre {one} e {other} foi cortada")
+                say!(
+                    language,
+                    "The link between {one} and {other} is cut",
+                    "A ligação entre {one} e {other} foi cortada"
+                )
             } else {
-                say!("The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
+                say!(language, "The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
             }
         }
-        RecordKind::Delayed { from, to, until } => failure_sentences::delayed((*from, *to), until.since(record.at)),
-        RecordKind::Lost { .. } => word!("A message is lost", "Uma mensagem se perde").into(),
+        RecordKind::Lost { .. } => word!(language, "A message is lost", "Uma mensagem se perde").into(),
         RecordKind::AtomFailed { node, atom } => {
             let (name, atom) = (node_name(*node), count(atom.saturating_add(1)));
-            say!("{name} fails to trace atom {atom}", "{name} não consegue calcular o átomo {atom}")
+            say!(language, "{name} fails to trace atom {atom}", "{name} não consegue calcular o átomo {atom}")
         }
         RecordKind::GivenUp { atom } => {
             let atom = count(atom.saturating_add(1));
             say!(
+                language,
                 "Atom {atom} cannot be traced: the run has failed",
                 "O átomo {atom} não pode ser calculado: a execução falhou"
             )
         }
-        RecordKind::Retired { node } => event_sentences::retired(state, &[*node]),
-        RecordKind::Finished => event_sentences::complete().into(),
+        RecordKind::Estimating
+        | RecordKind::SpeedSet { .. }
+        | RecordKind::Paused { .. }
+        | RecordKind::Resumed { .. }
+        | RecordKind::LatencySet { .. }
+        | RecordKind::Condition { .. }
+        | RecordKind::Delayed { .. }
+        | RecordKind::Retired { .. }
+        | RecordKind::Finished => String::new(),
     }
 }
 
-fn sent_words(flight: &Flight, state: &RunState) -> String {
+fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
     match (flight.from, flight.to, &flight.cargo) {
         (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
             let atoms = flight.cargo.atoms();
-            let why = share_words(state, from, to, atoms).map(|why| format!(": {why}")).unwrap_or_default();
-            format!("{}{why}", event_sentences::transfer(state, from, to, atoms))
+            let why = share_words(state, from, to, atoms, language).map(|why| format!(": {why}")).unwrap_or_default();
+            format!("{}{why}", Happening::transfer(state, from, to, atoms).sentence(language))
         }
-        (Party::Node(from), _, Cargo::Offer { who }) if from == *who => event_sentences::offer(
-            state,
-            *who,
-            true,
-            state.nodes().get(usize::from(from)).map_or(0, |node| node.offered),
-        ),
+        (Party::Node(from), _, Cargo::Offer { who }) if from == *who => {
+            let done = state.nodes().get(usize::from(from)).map_or(0, |node| node.offered);
+            Happening::offer(state, *who, true, done).sentence(language)
+        }
         (Party::Node(from), Party::Node(to), Cargo::Offer { who }) => {
             let left = state.nodes().get(usize::from(from)).map_or(0, |node| waiting(node.left()));
             let why = if left == 0 {
-                word!("no atom waits with it", "nenhum átomo espera nela")
+                word!(language, "no atom waits with it", "nenhum átomo espera nela")
             } else {
-                word!("what it could give is not worth it", "o que poderia dar não vale a pena")
+                word!(language, "what it could give is not worth it", "o que poderia dar não vale a pena")
             };
             let [from, who, to] = [from, *who, to].map(node_name);
-            say!("{from} passes the offer of {who} on to {to}: {why}", "{from} repassa a oferta de {who} a {to}: {why}")
+            say!(
+                language,
+                "{from} passes the offer of {who} on to {to}: {why}",
+                "{from} repassa a oferta de {who} a {to}: {why}"
+            )
         }
-        _ => flight_words(flight),
+        _ => flight_words(flight, language),
     }
 }
 
 /// Why a transfer, the last thing that has happened, has so many atoms (§7); `None` where nobody has weighed anything.
-pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Option<String> {
+pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, language: Language) -> Option<String> {
     if !matches!(state.sharing(), Sharing::By(_)) {
         return None;
     }
     if state.has(Remedy::Speed) {
-        return Some(word!("by their speeds both end together", "por suas velocidades, terminam juntas").into());
+        return Some(
+            word!(language, "by their speeds both end together", "por suas velocidades, terminam juntas").into(),
+        );
     }
     let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
     let (own, offered, waits) = (owner?.done, offerer?.offered, waiting(owner?.left()) + atoms);
     let (from, to) = (node_name(from), node_name(to));
-    let (atoms, verb) = (atoms_words(waits), if waits == 1 { "esperava" } else { "esperavam" });
-    let waits = say!("of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
+    let (atoms, verb) = (atoms_words(waits, language), if waits == 1 { "esperava" } else { "esperavam" });
+    let waits = say!(language, "of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
     Some(match (own, offered) {
         (0, 0) => {
-            say!("{waits}, half, since neither had traced any", "{waits}, a metade, pois nenhuma tinha calculado nada")
+            say!(
+                language,
+                "{waits}, half, since neither had traced any",
+                "{waits}, a metade, pois nenhuma tinha calculado nada"
+            )
         }
         (_, 0) => say!(
+            language,
             "{waits}, one for a trial, since machine {to} had traced none",
             "{waits}, um como teste, pois a máquina {to} não tinha calculado nenhum"
         ),
         _ => {
             let [own, offered, sum] = [own, offered, own.saturating_add(offered)].map(count);
             say!(
+                language,
                 "{waits}, {offered}/{sum}: machine {to} had traced {offered}, machine {from} {own}",
                 "{waits}, {offered}/{sum}: a máquina {to} tinha calculado {offered}, a máquina {from}, {own}"
             )
@@ -147,12 +166,13 @@ mod tests {
 
     #[test]
     fn every_record_is_told_and_a_share_is_what_its_reason_says() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 0.7, 0.9, 0.5, 0.1], 900);
         let mut state = RunState::new(&header);
         let mut shares = 0;
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            let words = record_words(&record, &state);
+            let words = record_words(&record, &state, language);
             assert!(!words.is_empty() && words.chars().count() < 190, "{words}");
             if let RecordKind::Sent {
                 from: Party::Node(from),
@@ -175,12 +195,13 @@ mod tests {
 
     #[test]
     fn whoever_passes_an_offer_on_says_why() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 300);
         let mut state = RunState::new(&header);
         let mut told = Vec::new();
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            told.push(record_words(&record, &state));
+            told.push(record_words(&record, &state, language));
         }
         assert!(told.iter().any(|words| words.ends_with(": no atom waits with it")), "{told:#?}");
         assert!(told.iter().any(|words| words.starts_with("1 handles what has arrived: ")), "{told:#?}");

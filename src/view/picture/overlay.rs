@@ -1,7 +1,7 @@
 //! The render in the colours of what else one wants to know of it: who traced it, what it cost, or when it came.
 
 use super::false_colour::ramp;
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Frame, srgb8};
 use crate::view::state::atom_state::AtomState;
@@ -24,11 +24,11 @@ impl Layer {
     pub const ALL: [Self; 3] = [Self::Owners, Self::Costs, Self::Arrival];
 
     /// What it shows, in a few words.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
-            Self::Owners => word!("Who traced it", "Quem calculou"),
-            Self::Costs => word!("What it cost", "Quanto custou"),
-            Self::Arrival => word!("When it came", "Quando chegou"),
+            Self::Owners => word!(language, "Who traced it", "Quem calculou"),
+            Self::Costs => word!(language, "What it cost", "Quanto custou"),
+            Self::Arrival => word!(language, "When it came", "Quando chegou"),
         }
     }
 
@@ -39,11 +39,11 @@ impl Layer {
     }
 
     /// What its darkest and its lightest colour mean, if it has such.
-    pub fn ends(self) -> Option<[&'static str; 2]> {
+    pub fn ends(self, language: Language) -> Option<[&'static str; 2]> {
         match self {
             Self::Owners => None,
-            Self::Costs => Some(word!(["cheap", "dear"], ["barato", "caro"])),
-            Self::Arrival => Some(word!(["first", "last"], ["antes", "depois"])),
+            Self::Costs => Some(word!(language, ["cheap", "dear"], ["barato", "caro"])),
+            Self::Arrival => Some(word!(language, ["first", "last"], ["antes", "depois"])),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::text::format::count;
 
@@ -119,23 +119,23 @@ impl Playback {
 }
 
 /// A rate in words: `1 000 × slower`, `2 × faster`.
-pub fn rate_of_time_words(rate: f64) -> String {
+pub fn rate_of_time_words(rate: f64, language: Language) -> String {
     let times = count((1.0 / rate).round() as u32);
     if rate.is_infinite() {
-        word!("as fast as it can", "o mais rápido possível").into()
+        word!(language, "as fast as it can", "o mais rápido possível").into()
     } else if rate < 1.0 {
-        say!("{times} × slower", "{times} × mais lento")
+        say!(language, "{times} × slower", "{times} × mais lento")
     } else if rate > 1.0 {
-        say!("{rate} × faster", "{rate} × mais rápido")
+        say!(language, "{rate} × faster", "{rate} × mais rápido")
     } else {
-        word!("in its own time", "em seu próprio tempo").into()
+        word!(language, "in its own time", "em seu próprio tempo").into()
     }
 }
 
 /// The same where there is little room: `1/1 000 ×`, `2 ×`.
-pub fn short_rate_words(rate: f64) -> String {
+pub fn short_rate_words(rate: f64, language: Language) -> String {
     if rate.is_infinite() {
-        word!("fastest", "máximo").into()
+        word!(language, "fastest", "máximo").into()
     } else if rate < 1.0 {
         format!("1/{} ×", count((1.0 / rate).round() as u32))
     } else {
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn rates_are_told_in_words() {
-        let said = [1e-6, 0.5, 1.0, 2.0, f64::INFINITY].map(rate_of_time_words);
+        let said = [1e-6, 0.5, 1.0, 2.0, f64::INFINITY].map(|rate| rate_of_time_words(rate, Language::English));
         let expected =
             ["1\u{a0}000\u{a0}000 × slower", "2 × slower", "in its own time", "2 × faster", "as fast as it can"];
         assert_eq!(said, expected);

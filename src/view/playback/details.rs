@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::snapshots::{Snapshot, SnapshotCache};
 use crate::balance::{NodeId, Party};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::{Atom, push_atom};
 use crate::record::RecordKind;
 use crate::runlog::RunLog;
@@ -46,7 +46,7 @@ pub struct Highlight {
 
 impl Details {
     /// Looks through the run for what is known of `about`.
-    pub fn of(about: Subject, log: &RunLog, lanes: &Lanes, past: &mut SnapshotCache) -> Self {
+    pub fn of(about: Subject, log: &RunLog, lanes: &Lanes, past: &mut SnapshotCache, language: Language) -> Self {
         let mut dossier = Self { about, flight: None, why: None, bar: None };
         match about {
             Subject::Node(_) => {}
@@ -60,7 +60,7 @@ impl Details {
                 if let (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) = (*from, *to, &flight.cargo) {
                     let mut moment = Snapshot::new(&log.header);
                     past.go(log, index + 1, &mut moment);
-                    dossier.why = share_words(&moment.state, from, to, flight.cargo.atoms());
+                    dossier.why = share_words(&moment.state, from, to, flight.cargo.atoms(), language);
                 }
                 dossier.flight = Some(flight);
             }
@@ -108,22 +108,24 @@ impl Details {
 
     /// What is said of it at `now`: a title, and a line of what else there is. Times are told as exactly as
     /// [`time_words`] does at the rate `grain`.
-    pub fn words(&self, state: &RunState, now: Time, grain: f64) -> (String, String) {
+    pub fn words(&self, state: &RunState, now: Time, grain: f64, language: Language) -> (String, String) {
         match self.about {
             Subject::Node(node) => {
-                let facts = node_facts(state, node, now);
+                let facts = node_facts(state, node, now, language);
                 let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
                 let said = [Fact::Offers, Fact::Gave, Fact::Got, Fact::Asked, Fact::Stole, Fact::Lost];
-                let shared = said.iter().filter_map(|fact| Some((fact.name(), of(*fact)?)));
+                let shared = said.iter().filter_map(|fact| Some((fact.name(language), of(*fact)?)));
                 let shared: String = shared.map(|(what, value)| format!(", {what}: {value}")).collect();
-                let value = |fact| of(fact).unwrap_or(word!("unknown", "desconhecido"));
+                let value = |fact| of(fact).unwrap_or(word!(language, "unknown", "desconhecido"));
                 let (name, does, speed) = (node_name(node), value(Fact::State), value(Fact::Speed));
                 let [done, left, idle] = [Fact::Done, Fact::Left, Fact::Idle].map(value);
                 let title = say!(
+                    language,
                     "Machine {name} is {does}, at a speed of {speed}",
                     "A máquina {name} está {does}, à velocidade de {speed}"
                 );
                 let more = say!(
+                    language,
                     "{done} done, {left} left, idle {idle} of its time{shared}",
                     "calculou {done}, ainda tem {left}, ociosa {idle} do tempo{shared}"
                 );
@@ -132,35 +134,49 @@ impl Details {
             Subject::Atom(atom) => {
                 let pixels = state.division().pixels(atom);
                 let [first, last] = [pixels.start, pixels.end.saturating_sub(1)].map(count);
-                let place =
-                    say!("pixels {first} to {last} in scan order", "pixels {first} a {last} na ordem de varredura");
+                let place = say!(
+                    language,
+                    "pixels {first} to {last} in scan order",
+                    "pixels {first} a {last} na ordem de varredura"
+                );
                 let traced = self.bar.map(|(node, bar)| {
-                    let (name, took) = (node_name(node), duration(bar.to.since(bar.from)));
-                    let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01));
-                    let is = if bar.to <= now { word!("was", "o calculou") } else { word!("will be", "o calculará") };
+                    let (name, took) = (node_name(node), duration(bar.to.since(bar.from), language));
+                    let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01, language));
+                    let is = if bar.to <= now {
+                        word!(language, "was", "o calculou")
+                    } else {
+                        word!(language, "will be", "o calculará")
+                    };
                     say!(
+                        language,
                         " · machine {name} {is} at it from {from} to {to}, for {took} at its speed",
                         " · a máquina {name} {is} de {from} a {to}, {took} à sua velocidade"
                     )
                 });
-                (atom_words(state, atom, now), format!("{place}{}", traced.unwrap_or_default()))
+                (atom_words(state, atom, now, language), format!("{place}{}", traced.unwrap_or_default()))
             }
             Subject::Message(_) => match &self.flight {
                 None => {
-                    let title = word!("A message that is not known any more", "Uma mensagem que não se conhece mais");
+                    let title =
+                        word!(language, "A message that is not known any more", "Uma mensagem que não se conhece mais");
                     (title.into(), String::new())
                 }
                 Some(flight) => {
-                    let [sent, arrives] = [flight.sent, flight.arrives].map(|time| time_words(time, grain * 0.01));
-                    let took = duration(flight.arrives.since(flight.sent));
+                    let [sent, arrives] =
+                        [flight.sent, flight.arrives].map(|time| time_words(time, grain * 0.01, language));
+                    let took = duration(flight.arrives.since(flight.sent), language);
                     let why = self.why.as_ref().map(|why| format!("{why} · ")).unwrap_or_default();
-                    let arrived =
-                        if flight.arrives <= now { word!("arrived", "chegou") } else { word!("arrives", "chega") };
+                    let arrived = if flight.arrives <= now {
+                        word!(language, "arrived", "chegou")
+                    } else {
+                        word!(language, "arrives", "chega")
+                    };
                     let more = say!(
+                        language,
                         "{why}left at {sent}, {arrived} at {arrives}, {took} later",
                         "{why}saiu em {sent}, {arrived} em {arrives}, {took} depois"
                     );
-                    (flight_words(flight), more)
+                    (flight_words(flight, language), more)
                 }
             },
         }
@@ -176,14 +192,15 @@ mod tests {
 
     #[test]
     fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
+        let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 900);
         let RunView { latest: moment, lanes, .. } = RunView::of(&log);
-        let found = landmarks(&log);
+        let found = landmarks(&log, language);
         let biggest = found.iter().find(|mark| mark.words.starts_with("The biggest")).unwrap();
         let mut past = SnapshotCache::default();
-        let dossier = Details::of(biggest.about, &log, &lanes, &mut past);
+        let dossier = Details::of(biggest.about, &log, &lanes, &mut past, language);
         let lit = dossier.lit(&moment.state);
-        let (title, more) = dossier.words(&moment.state, moment.state.head(), 1.0);
+        let (title, more) = dossier.words(&moment.state, moment.state.head(), 1.0, language);
         let atoms: usize = lit.atoms.iter().map(Range::len).sum();
         assert!(lit.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(
@@ -194,12 +211,14 @@ mod tests {
 
     #[test]
     fn an_atom_lights_up_its_bar_and_its_machine() {
+        let language = Language::English;
         let log = sample_runs::log(&[1.0, 0.5], 40);
         let RunView { latest: moment, lanes, .. } = RunView::of(&log);
-        let dossier = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default());
+        let dossier = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default(), language);
         let lit = dossier.lit(&moment.state);
         assert_eq!((lit.atoms.len(), lit.bar.map(|(node, _)| vec![node])), (1, Some(lit.nodes.clone())));
-        let whole = Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default()).lit(&moment.state);
+        let whole =
+            Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default(), language).lit(&moment.state);
         let atoms: usize = whole.atoms.iter().map(Range::len).sum();
         assert_eq!(atoms as u32, moment.state.nodes()[0].done);
     }

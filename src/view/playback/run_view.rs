@@ -1,7 +1,6 @@
 //! Everything that is known of a run by now, whatever moment is shown.
 
 use super::snapshots::Snapshot;
-use crate::language::Language;
 use crate::record::Record;
 use crate::runlog::{Header, RunLog};
 use crate::view::state::lanes::Lanes;
@@ -16,15 +15,12 @@ pub struct RunView {
     pub signs: Markers,
     /// What each machine did and when.
     pub lanes: Lanes,
-    /// What its sentences are in.
-    pub language: Language,
 }
 
 impl RunView {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
-        let language = Language::spoken();
-        Self { latest: Snapshot::new(header), signs: Markers::default(), lanes: Lanes::new(header), language }
+        Self { latest: Snapshot::new(header), signs: Markers::default(), lanes: Lanes::new(header) }
     }
 
     /// All of a recorded run.

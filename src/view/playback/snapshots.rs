@@ -97,6 +97,7 @@ impl SnapshotCache {
 
 #[cfg(test)]
 mod tests {
+    use crate::language::Language;
     use proptest::prelude::*;
 
     use super::*;
@@ -105,11 +106,11 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     /// All that is seen of a moment at its own time.
-    fn seen(moment: &Snapshot, at: Time) -> String {
+    fn seen(moment: &Snapshot, at: Time, language: Language) -> String {
         let Snapshot { state, narrator, records } = moment;
         let flights: Vec<_> = state.flights().iter().filter(|flight| flight.gone() > at).collect();
         let events: Vec<_> = narrator.events().collect();
-        let sentence = narrator.sentence(state, at);
+        let sentence = narrator.sentence(state, at, language);
         format!("{records} {:?} {:?} {flights:?} {events:?} {sentence}", state.nodes(), state.places())
     }
 
@@ -118,6 +119,7 @@ mod tests {
         fn jumping_to_a_moment_and_going_there_show_the_same(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..900u32, jumps in prop::collection::vec(0.0..1.0f64, 1..9),
         ) {
+        let language = Language::English;
             let log = sample_runs::log(&speeds, atoms);
             let mut past = SnapshotCache::default();
             let mut jumped = Snapshot::new(&log.header);
@@ -127,12 +129,13 @@ mod tests {
                 let mut went = Snapshot::new(&log.header);
                 log.records().iter().take(records).for_each(|record| went.apply(record));
                 let at = went.state.head();
-                prop_assert_eq!(seen(&jumped, at), seen(&went, at));
+                prop_assert_eq!(seen(&jumped, at, language), seen(&went, at, language));
             }
         }
 
         #[test]
         fn what_comes_late_is_not_forgotten(atoms in 100..2000u32, late in 0..50usize, records in 0.0..1.0f64) {
+        let language = Language::English;
             let whole = sample_runs::log(&[1.0, 0.5, 0.1], atoms);
             let mut told = whole.records().to_vec();
             // One record is told when later ones already were.
@@ -151,7 +154,7 @@ mod tests {
             let at = went.state.head();
             let mut jumped = Snapshot::new(&log.header);
             past.go(&log, records, &mut jumped);
-            prop_assert_eq!(seen(&jumped, at), seen(&went, at));
+            prop_assert_eq!(seen(&jumped, at, language), seen(&went, at, language));
         }
     }
 

@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 use super::angles::arc;
 use super::layout::RingLayout;
 use crate::balance::Strategy;
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::analysis::summary::Summary;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, TextSize};
@@ -14,17 +14,17 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{duration, fraction, percent};
 
 /// The parent, how far the picture is, and whether it is busy.
-pub(crate) fn parent(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn parent(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>, language: Language) {
     let waiting = state.waiting(now);
     if waiting > 0 || state.is_estimating {
         marks.push(Mark::Disc { centre: plan.centre, radius: plan.parent, ink: Hue::Hairline.faint(0.6) });
     }
     // A single message is soon handled: its number would only flicker.
     let (caption, hue) = match waiting {
-        _ if state.is_estimating => (word!("estimating", "estimando").into(), Hue::Text),
-        0..2 if state.sharing == Sharing::Stealing => (word!("picture", "imagem").into(), Hue::Quiet),
-        0..2 => (word!("parent", "pai").into(), Hue::Quiet),
-        many => (say!("{many} waiting", "{many} na fila"), Hue::Text),
+        _ if state.is_estimating => (word!(language, "estimating", "estimando").into(), Hue::Text),
+        0..2 if state.sharing == Sharing::Stealing => (word!(language, "picture", "imagem").into(), Hue::Quiet),
+        0..2 => (word!(language, "parent", "pai").into(), Hue::Quiet),
+        many => (say!(language, "{many} waiting", "{many} na fila"), Hue::Text),
     };
     let (done, large) = (state.done() as f32 / state.atoms().max(1) as f32, large(plan));
     // Where the parent may be busy that is said wherever there is room; what it is called goes without saying.
@@ -46,16 +46,16 @@ pub(crate) fn parent(plan: &RingLayout, state: &RunState, now: Time, marks: &mut
 }
 
 /// The result of a finished run.
-pub(crate) fn result(plan: &RingLayout, outcome: &Summary, marks: &mut Vec<Mark>) {
+pub(crate) fn result(plan: &RingLayout, outcome: &Summary, marks: &mut Vec<Mark>, language: Language) {
     let (large, captions) = (large(plan) * 1.1, has_captions(plan));
     let (size, small) = (TextSize::Fit(large), TextSize::Small(plan.labels.text));
     // What explains them has no room within a small ring; the sentence below says it too.
     let lines = if captions { [-1.3, 0.65] } else { [-0.65, 0.65] };
-    text(plan, large * lines[0], duration(outcome.makespan), size, Hue::Text, marks);
+    text(plan, large * lines[0], duration(outcome.makespan, language), size, Hue::Text, marks);
     text(plan, large * lines[1], fraction(outcome.efficiency), size, Hue::Text, marks);
     if captions {
-        text(plan, -large * 0.45, word!("start to finish", "início ao fim").into(), small, Hue::Quiet, marks);
-        text(plan, large * 1.5, word!("efficiency", "eficiência").into(), small, Hue::Quiet, marks);
+        text(plan, -large * 0.45, word!(language, "start to finish", "início ao fim").into(), small, Hue::Quiet, marks);
+        text(plan, large * 1.5, word!(language, "efficiency", "eficiência").into(), small, Hue::Quiet, marks);
     }
 }
 

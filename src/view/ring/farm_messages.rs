@@ -142,6 +142,7 @@ fn beside(plan: &RingLayout, node: NodeId, way: f32, [width, height]: Point, sid
 
 #[cfg(test)]
 mod tests {
+    use crate::language::Language;
     use std::collections::BTreeSet;
     use std::time::Duration;
 
@@ -171,8 +172,8 @@ mod tests {
         }
     }
 
-    fn texts(state: &RunState, now: Time, size: Point) -> Vec<String> {
-        let marks = ring(state, &RingOverlay::default(), now, size);
+    fn texts(state: &RunState, now: Time, size: Point, language: Language) -> Vec<String> {
+        let marks = ring(state, &RingOverlay::default(), now, size, language);
         marks
             .into_iter()
             .filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(text) } else { None })
@@ -181,9 +182,12 @@ mod tests {
 
     #[test]
     fn requests_parts_and_their_end_are_drawn_in_a_farm_and_nowhere_else() {
+        let language = Language::English;
         for (strategy, is_farm) in [(Strategy::Farm, true), (Strategy::Static, false), (Strategy::Ring, false)] {
             let mut seen = BTreeSet::new();
-            moments(&header(strategy, &[1.0, 1.0, 0.2], 0), |state, now| seen.extend(texts(state, now, SIZE)));
+            moments(&header(strategy, &[1.0, 1.0, 0.2], 0), |state, now| {
+                seen.extend(texts(state, now, SIZE, language))
+            });
             for text in ["?", "×5", "×0"] {
                 assert_eq!(seen.contains(text), is_farm, "{text} {strategy} {seen:?}");
             }
@@ -192,11 +196,14 @@ mod tests {
 
     #[test]
     fn what_is_pointed_at_is_told() {
+        let language = Language::English;
         let mut told = BTreeSet::new();
         moments(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
-            let plan = RingLayout::new(3, SIZE);
+            let plan = RingLayout::new(3, SIZE, language);
             for token in tokens(&plan, state, now) {
-                told.extend(message_at(state, now, SIZE, token.centre).map(flight_words));
+                told.extend(
+                    message_at(state, now, SIZE, token.centre, language).map(|flight| flight_words(flight, language)),
+                );
             }
         });
         for words in
@@ -208,11 +215,12 @@ mod tests {
 
     #[test]
     fn what_waits_at_a_slow_parent_is_counted_and_drawn() {
+        let language = Language::English;
         let (mut most, mut said, mut activities) = (0, BTreeSet::new(), BTreeSet::new());
         moments(&header(Strategy::Farm, &[1.0; 8], 20), |state, now| {
             let waiting = state.waiting(now);
             most = most.max(waiting);
-            let drawn = texts(state, now, [640.0, 490.0]);
+            let drawn = texts(state, now, [640.0, 490.0], language);
             assert_eq!(drawn.iter().any(|text| *text == format!("{waiting} waiting")), waiting > 1, "{drawn:?}");
             said.extend(drawn);
             activities.extend((0..8).map(|node| format!("{:?}", state.activity(node, now))));
@@ -228,9 +236,11 @@ mod tests {
 
     #[test]
     fn everything_stays_inside_whatever_the_size() {
+        let language = Language::English;
         for (nodes, size) in [(1, [240.0, 240.0]), (8, SIZE), (8, [380.0, 260.0]), (32, [640.0, 400.0])] {
             moments(&header(Strategy::FarmBySpeed, &vec![1.0; nodes], 5), |state, now| {
-                let (plan, inside) = (RingLayout::new(nodes, size), |at: f32, most: f32| (0.0..=most).contains(&at));
+                let (plan, inside) =
+                    (RingLayout::new(nodes, size, language), |at: f32, most: f32| (0.0..=most).contains(&at));
                 for FarmDisc { centre: [x, y], half: [w, h], .. } in tokens(&plan, state, now) {
                     assert!(inside(x - w, size[0]) && inside(x + w, size[0]), "{x} {w}");
                     assert!(inside(y - h, size[1]) && inside(y + h, size[1]), "{y} {h}");
@@ -241,9 +251,10 @@ mod tests {
 
     #[test]
     fn a_parent_that_estimates_says_so() {
+        let language = Language::English;
         let mut said = Vec::new();
         moments(&header(Strategy::StaticEstimate, &[1.0; 3], 0), |state, now| {
-            said.push(texts(state, now, SIZE).contains(&"estimating".to_owned()));
+            said.push(texts(state, now, SIZE, language).contains(&"estimating".to_owned()));
         });
         said.dedup();
         assert_eq!(said, [true, false]);

@@ -3,7 +3,7 @@
 use super::labels::{Form, LABELLED, SECOND};
 use super::layout::RingLayout;
 use crate::balance::NodeId;
-use crate::language::say;
+use crate::language::{Language, say};
 use crate::time::Time;
 use crate::view::draw::display_list::{Hue, Mark, TextSize};
 use crate::view::state::node_state::{Activity, NodeState};
@@ -18,17 +18,18 @@ pub(crate) fn label(
     activity: Activity,
     now: Time,
     marks: &mut Vec<Mark>,
+    language: Language,
 ) {
     let labels = &plan.labels;
-    let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail);
+    let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail, language);
     let [x, y] = [plan.centre[0] + dx, plan.centre[1] + dy];
     let ink = if activity.is_out() { Hue::Quiet } else { Hue::Text }.full();
     let (size, small) = (labels.size(), TextSize::Small(labels.text));
     let [first, second] = match labels.form {
         Form::Nothing => return,
         Form::Number => [number(state, of, activity), String::new()],
-        Form::OneLine => [words(state, of, activity, now)[0].clone(), String::new()],
-        Form::TwoLines => words(state, of, activity, now),
+        Form::OneLine => [words(state, of, activity, now, language)[0].clone(), String::new()],
+        Form::TwoLines => words(state, of, activity, now, language),
     };
     let top = if second.is_empty() { y } else { y - small.line() / 2.0 };
     marks.push(Mark::Label { at: [x, top], anchor, text: first, size, ink });
@@ -45,20 +46,20 @@ pub(crate) fn is_labelled(plan: &RingLayout, is_selected: bool) -> bool {
 
 /// What is said of a node: what it still has to do, and what matters most of how it does it; at the end, what it has
 /// done.
-fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time) -> [String; 2] {
+fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time, language: Language) -> [String; 2] {
     let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
     let [left, done] = [of.left(), of.done].map(short);
-    let (left, done) = (say!("{left} left", "{rest} {left}"), say!("{done} done", "{done} {made}"));
+    let (left, done) = (say!(language, "{left} left", "{rest} {left}"), say!(language, "{done} done", "{done} {made}"));
     match activity {
         _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
-        Activity::Waiting | Activity::Spare => [activity_word(activity).into(), String::new()],
-        _ if activity.is_out() => [done, activity_word(activity).into()],
+        Activity::Waiting | Activity::Spare => [activity_word(activity, language).into(), String::new()],
+        _ if activity.is_out() => [done, activity_word(activity, language).into()],
         Activity::Computing => {
-            let rate = rate_words(of.rate(now));
+            let rate = rate_words(of.rate(now), language);
             let both = format!("{} · {rate}", fraction(of.speed));
             [left, if of.speed < 0.995 && both.chars().count() <= SECOND { both } else { rate }]
         }
-        _ => [left, activity_word(activity).into()],
+        _ => [left, activity_word(activity, language).into()],
     }
 }
 
@@ -90,6 +91,7 @@ mod tests {
     proptest! {
         #[test]
         fn labels_are_no_longer_than_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
+        let language = Language::English;
             let mut state = RunState::new(&sample_runs::header(&[1.0], 9));
             for ms in 0..done % 3000 {
                 state.nodes[0].atom_done(true, Time(u64::from(ms) * 1_000_000));
@@ -97,8 +99,8 @@ mod tests {
             let mut of = state.nodes[0].clone();
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
             for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
-                let [first, second] = words(&state, &of, activity, Time::from_secs(2.0)).map(|line| line.chars().count());
-                prop_assert!(first <= longest() && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO));
+                let [first, second] = words(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
+                prop_assert!(first <= longest(language) && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO, language));
                 prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER);
             }
         }
@@ -106,6 +108,7 @@ mod tests {
 
     #[test]
     fn the_second_line_says_what_matters() {
+        let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.1], 300));
         let mut apply = |ms: u64, what| state.apply(&Record { at: Time(ms * 1_000_000), what });
         for (id, node) in [(0, 0), (1, 1)] {
@@ -122,7 +125,7 @@ mod tests {
         }
         let said = |state: &RunState, node: NodeId| {
             let now = Time::from_secs(1.0);
-            words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now).join(", ")
+            words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
         assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
         state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });

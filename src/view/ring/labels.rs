@@ -3,7 +3,7 @@
 //! The room depends on the size and the number of nodes alone, never on what is said, so that nothing jumps.
 
 use super::angles::direction;
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::view::draw::display_list::{Anchor, Point, TextSize};
 
 /// How labels look in a ring of some size.
@@ -34,8 +34,8 @@ const USUAL: f32 = 500.0;
 const EDGE: f32 = 2.0;
 
 /// The most letters in a first line, as in `6 144 left`, in a second one, as in `10 % · 62/s`, and in a number.
-pub(crate) fn longest() -> usize {
-    word!(10, 12)
+pub(crate) fn longest(language: Language) -> usize {
+    word!(language, 10, 12)
 }
 pub(crate) const SECOND: usize = 12;
 pub(crate) const NUMBER: usize = 5;
@@ -55,15 +55,15 @@ impl Form {
 
 impl Labels {
     /// The most that there is room for, and the rail's radius that leaves this room.
-    pub(crate) fn fit(nodes: usize, [width, height]: Point) -> (Self, f32) {
+    pub(crate) fn fit(nodes: usize, [width, height]: Point, language: Language) -> (Self, f32) {
         let room = width.min(height);
         let rail = |labels: Self| {
-            let [beside, above] = labels.room();
+            let [beside, above] = labels.room(language);
             (height / 2.0 - above).min(width / 2.0 - beside)
         };
         let fits = |labels: &Self| {
             let ([least, part], rail) = (labels.form.least(), rail(*labels));
-            room >= least && rail >= part * room && labels.are_apart(nodes, rail)
+            room >= least && rail >= part * room && labels.are_apart(nodes, rail, language)
         };
         let text = (room / USUAL).clamp(1.0, 1.4);
         let forms = [(Form::TwoLines, text), (Form::OneLine, 1.0), (Form::Number, 1.0)];
@@ -83,11 +83,11 @@ impl Labels {
     }
 
     /// What a label takes at most.
-    fn extent(&self) -> Point {
+    fn extent(&self, language: Language) -> Point {
         let (size, second) = (self.size(), TextSize::Small(self.text));
         match self.form {
-            Form::TwoLines => [size.width(longest()).max(second.width(SECOND)), size.line() + second.line()],
-            Form::OneLine => [size.width(longest()), size.line()],
+            Form::TwoLines => [size.width(longest(language)).max(second.width(SECOND)), size.line() + second.line()],
+            Form::OneLine => [size.width(longest(language)), size.line()],
             Form::Number => [size.width(NUMBER), size.line()],
             Form::Nothing => [0.0, 0.0],
         }
@@ -103,14 +103,14 @@ impl Labels {
     }
 
     /// What the labels need beside the rail, and above it.
-    fn room(&self) -> [f32; 2] {
-        self.extent().map(|extent| self.gap() + extent + EDGE)
+    fn room(&self, language: Language) -> [f32; 2] {
+        self.extent(language).map(|extent| self.gap() + extent + EDGE)
     }
 
     /// The place of a label seen from the centre: as near to the rail as its height allows. To the right of the ring a
     /// text begins at its place, to the left it ends there, so that it may have any length.
-    pub(crate) fn place(&self, angle: f32, rail: f32) -> (Point, Anchor) {
-        let (radius, half) = (rail + self.gap(), self.extent()[1] / 2.0);
+    pub(crate) fn place(&self, angle: f32, rail: f32, language: Language) -> (Point, Anchor) {
+        let (radius, half) = (rail + self.gap(), self.extent(language)[1] / 2.0);
         let (cos, sin) = (angle.cos(), angle.sin());
         if cos.abs() <= 0.2 {
             let away = (radius + half) / sin.abs();
@@ -123,10 +123,10 @@ impl Labels {
     }
 
     /// Whether no two labels touch even if all are as long as they get.
-    fn are_apart(&self, nodes: usize, rail: f32) -> bool {
-        let [width, height] = self.extent();
+    fn are_apart(&self, nodes: usize, rail: f32, language: Language) -> bool {
+        let [width, height] = self.extent(language);
         let reach = |node: usize| {
-            let ([x, y], anchor) = self.place(direction(node, nodes), rail);
+            let ([x, y], anchor) = self.place(direction(node, nodes), rail, language);
             (anchor.left(x, width), y)
         };
         !(2..=LABELLED).contains(&nodes)
@@ -143,15 +143,16 @@ mod tests {
 
     #[test]
     fn there_are_labels_at_all_sizes_and_two_lines_where_there_is_room() {
+        let language = Language::English;
         for nodes in 1..=32 {
             for size in [[240.0, 240.0], [240.0, 900.0], [1000.0, 240.0], [330.0, 300.0]] {
-                assert_ne!(Labels::fit(nodes, size).0.form, Form::Nothing, "{nodes} nodes at {size:?}");
+                assert_ne!(Labels::fit(nodes, size, language).0.form, Form::Nothing, "{nodes} nodes at {size:?}");
             }
-            assert_eq!(Labels::fit(nodes, [640.0, 490.0]).0.form, Form::TwoLines, "{nodes} nodes");
+            assert_eq!(Labels::fit(nodes, [640.0, 490.0], language).0.form, Form::TwoLines, "{nodes} nodes");
             if nodes <= 12 {
-                assert_eq!(Labels::fit(nodes, [480.0, 480.0]).0.form, Form::TwoLines, "{nodes} nodes");
+                assert_eq!(Labels::fit(nodes, [480.0, 480.0], language).0.form, Form::TwoLines, "{nodes} nodes");
             }
         }
-        assert_eq!(Labels::fit(8, [180.0, 180.0]).0.form, Form::Nothing);
+        assert_eq!(Labels::fit(8, [180.0, 180.0], language).0.form, Form::Nothing);
     }
 }

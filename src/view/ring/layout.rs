@@ -5,6 +5,7 @@ use std::f32::consts::{PI, TAU};
 use super::angles::direction;
 use super::labels::Labels;
 use crate::balance::{NodeId, Party};
+use crate::language::Language;
 use crate::view::draw::display_list::Point;
 
 /// Where everything is, for a number of nodes and a size.
@@ -30,8 +31,8 @@ impl RingLayout {
     pub(crate) const TRACK: f32 = 1.2;
 
     /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
-    pub(crate) fn new(nodes: usize, [width, height]: Point) -> Self {
-        let (labels, rail) = Labels::fit(nodes, [width, height]);
+    pub(crate) fn new(nodes: usize, [width, height]: Point, language: Language) -> Self {
+        let (labels, rail) = Labels::fit(nodes, [width, height], language);
         let rail = rail.max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
@@ -124,7 +125,8 @@ mod tests {
 
     #[test]
     fn an_offer_runs_anticlockwise_to_the_left_neighbour() {
-        let plan = RingLayout::new(8, SIZE);
+        let language = Language::English;
+        let plan = RingLayout::new(8, SIZE, language);
         let top = plan.at(plan.angle(0) - plan.step() / 2.0, plan.rail);
         assert!(top[0] < plan.centre[0] && top[1] < plan.centre[1]);
         let arrived = plan.at(plan.angle(0) - plan.step(), plan.rail);
@@ -134,8 +136,9 @@ mod tests {
 
     #[test]
     fn nodes_do_not_touch() {
+        let language = Language::English;
         for nodes in 2..=48 {
-            let plan = RingLayout::new(nodes, SIZE);
+            let plan = RingLayout::new(nodes, SIZE, language);
             let ([x, y], [u, v]) = (plan.seat(0), plan.seat(1));
             assert!((x - u).hypot(y - v) > 2.6 * plan.node, "{nodes}");
         }
@@ -143,7 +146,8 @@ mod tests {
 
     #[test]
     fn parcels_go_round_the_parent() {
-        let plan = RingLayout::new(8, SIZE);
+        let language = Language::English;
+        let plan = RingLayout::new(8, SIZE, language);
         for to in 1..8 {
             let (from, to) = (plan.seat(0), plan.seat(to));
             let bend = plan.bend(from, to);

@@ -72,12 +72,14 @@ fn ends(plan: &RingLayout, flight: &Flight) -> [Point; 2] {
 mod tests {
     use super::*;
     use crate::balance::{Condition, Strategy};
+    use crate::language::Language;
     use crate::scenario::Command;
     use crate::sim::Sim;
     use crate::view::tests::sample_runs;
 
     #[test]
     fn what_is_lost_and_who_is_woken_is_seen() {
+        let language = Language::English;
         let mut header = sample_runs::header(&[1.0; 4], 900);
         header.rules.strategy = Strategy::Adaptive;
         let slow = Command::Speed { node: 3, speed: 0.01 };
@@ -88,7 +90,7 @@ mod tests {
         let (mut crossed, mut sparked, mut copied) = (0, 0, 0);
         Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
             state.apply(&record);
-            let plan = RingLayout::new(4, [520.0, 480.0]);
+            let plan = RingLayout::new(4, [520.0, 480.0], language);
             let drawn = |draw: fn(&RingLayout, &RunState, Time, &mut Vec<Mark>)| {
                 let mut marks = Vec::new();
                 draw(&plan, &state, record.at, &mut marks);

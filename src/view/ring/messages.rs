@@ -247,17 +247,19 @@ const CLEAR: f32 = 0.45;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::Language;
     use crate::view::tests::sample_runs;
 
     #[test]
     fn no_offer_lies_on_what_is_said_of_a_node() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 1.0, 1.0, 1.0, 0.1], 600);
         let mut state = RunState::new(&header);
         let mut most = 0;
         for record in sample_runs::records(&header) {
             state.apply(&record);
             for size in [[560.0, 250.0], [330.0, 300.0], [640.0, 490.0], [1200.0, 900.0]] {
-                let plan = RingLayout::new(header.speeds.len(), size);
+                let plan = RingLayout::new(header.speeds.len(), size, language);
                 let tokens = tokens(&plan, &state, record.at);
                 most = most.max(tokens.len());
                 for OfferDisc { centre: [x, y], radius, .. } in tokens {

@@ -22,6 +22,7 @@ use super::state::flight::Flight;
 use super::state::run_state::RunState;
 use super::state::scheduler::Sharing;
 use crate::balance::NodeId;
+use crate::language::Language;
 use crate::time::Time;
 use angles::arc;
 use label_text::{is_labelled, label};
@@ -51,8 +52,8 @@ pub enum RingSpot {
 }
 
 /// The ring at `now`, for an area of `size` whose corner is at 0, 0; the text sizes are taken to be in its units.
-pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point) -> Vec<Mark> {
-    let plan = RingLayout::new(state.nodes().len(), size);
+pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point, language: Language) -> Vec<Mark> {
+    let plan = RingLayout::new(state.nodes().len(), size, language);
     let mut marks = Vec::new();
     if state.sharing.is_ring() {
         rail(&plan, &mut marks);
@@ -67,12 +68,12 @@ pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point) -> 
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
         machine(&plan, (node, of), activity, is_selected || overlay.lit.contains(&node), &mut marks);
         if is_labelled(&plan, is_selected) {
-            label(&plan, state, (node, of), activity, now, &mut marks);
+            label(&plan, state, (node, of), activity, now, &mut marks, language);
         }
     }
     match overlay.outcome {
-        Some(outcome) => centre::result(&plan, &outcome, &mut marks),
-        None => centre::parent(&plan, state, now, &mut marks),
+        Some(outcome) => centre::result(&plan, &outcome, &mut marks, language),
+        None => centre::parent(&plan, state, now, &mut marks, language),
     }
     farm_messages::draw(&plan, state, now, &mut marks);
     lost_messages::sparks(&plan, state, now, &mut marks);
@@ -82,8 +83,8 @@ pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point) -> 
 }
 
 /// What of a ring of `nodes` in an area of `size` is at `point`.
-pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<RingSpot> {
-    let plan = RingLayout::new(nodes, size);
+pub fn ring_at(nodes: usize, size: Point, point: Point, language: Language) -> Option<RingSpot> {
+    let plan = RingLayout::new(nodes, size, language);
     let from = |[x, y]: Point| (point[0] - x).hypot(point[1] - y);
     let away = |node: &NodeId| from(plan.seat(*node));
     let nearest = (0..nodes as NodeId).min_by(|one, other| away(one).total_cmp(&away(other)));
@@ -94,8 +95,8 @@ pub fn ring_at(nodes: usize, size: Point, point: Point) -> Option<RingSpot> {
 }
 
 /// The message that is drawn at `point` at `now`, in an area of `size`: atoms, an offer, a request, or its answer.
-pub fn message_at(state: &RunState, now: Time, size: Point, point: Point) -> Option<&Flight> {
-    let plan = RingLayout::new(state.nodes().len(), size);
+pub fn message_at(state: &RunState, now: Time, size: Point, point: Point, language: Language) -> Option<&Flight> {
+    let plan = RingLayout::new(state.nodes().len(), size, language);
     messages::parcel_at(&plan, state, now, point)
         .or_else(|| farm_messages::token_at(&plan, state, now, point))
         .or_else(|| messages::offer_at(&plan, state, now, point))
@@ -207,11 +208,12 @@ mod tests {
             speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
             width in 240.0..1000.0f32, height in 240.0..1000.0f32,
         ) {
+        let language = Language::English;
             let (state, now) = moment(&speeds, part);
             for later in 0..8 {
                 let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
                 let now = now + Duration::from_millis(150 * later);
-                for point in ring(&state, &overlay, now, [width, height]).iter().flat_map(places) {
+                for point in ring(&state, &overlay, now, [width, height], language).iter().flat_map(places) {
                     prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
                 }
             }
@@ -222,15 +224,16 @@ mod tests {
             speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
             width in 240.0..1000.0f32, height in 240.0..1000.0f32,
         ) {
+        let language = Language::English;
             let (state, now) = moment(&speeds, part);
             let selected = selected % speeds.len() as u16;
             let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
-            let plan = RingLayout::new(speeds.len(), [width, height]);
+            let plan = RingLayout::new(speeds.len(), [width, height], language);
             let [x, y] = plan.centre;
             let nearest = |[left, top, right, bottom]: [f32; 4]| {
                 (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
             };
-            let mut labels = labels(&ring(&state, &overlay, now, [width, height]));
+            let mut labels = labels(&ring(&state, &overlay, now, [width, height], language));
             // What stands in the centre.
             labels.retain(|&label| nearest(label) > plan.parent);
             let least = if speeds.len() <= 16 { speeds.len() } else { 1 };
@@ -248,45 +251,49 @@ mod tests {
 
         #[test]
         fn whatever_is_pointed_at_is_found(nodes in 1..33usize, width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
-            let (size, plan) = ([width, height], RingLayout::new(nodes, [width, height]));
+        let language = Language::English;
+            let (size, plan) = ([width, height], RingLayout::new(nodes, [width, height], language));
             for node in 0..nodes as NodeId {
-                prop_assert_eq!(ring_at(nodes, size, plan.seat(node)), Some(RingSpot::Node(node)));
+                prop_assert_eq!(ring_at(nodes, size, plan.seat(node), language), Some(RingSpot::Node(node)));
             }
-            prop_assert_eq!(ring_at(nodes, size, plan.centre), Some(RingSpot::Parent));
-            prop_assert_eq!(ring_at(nodes, size, [1.0, 1.0]), None);
-            prop_assert_eq!(ring_at(nodes, size, plan.at(0.3, plan.interior() * 0.9)), None);
+            prop_assert_eq!(ring_at(nodes, size, plan.centre, language), Some(RingSpot::Parent));
+            prop_assert_eq!(ring_at(nodes, size, [1.0, 1.0], language), None);
+            prop_assert_eq!(ring_at(nodes, size, plan.at(0.3, plan.interior() * 0.9), language), None);
         }
     }
 
     #[test]
     fn a_parcel_is_found_where_it_is_drawn() {
+        let language = Language::English;
         let (state, now) = moment(&[1.0, 1.0, 0.1], 0.7);
-        let marks = ring(&state, &RingOverlay::default(), now, SIZE);
+        let marks = ring(&state, &RingOverlay::default(), now, SIZE, language);
         let label = |mark: &Mark| match mark {
             Mark::Label { at, text, .. } if text.starts_with('×') => Some((*at, text.clone())),
             _ => None,
         };
         let (at, text) = marks.iter().rev().find_map(label).expect("a parcel");
-        let flight = message_at(&state, now, SIZE, at).expect("the parcel");
+        let flight = message_at(&state, now, SIZE, at, language).expect("the parcel");
         assert_eq!(text, format!("×{}", flight.cargo.atoms()));
-        assert_eq!(message_at(&state, now, SIZE, [1.0, 1.0]), None);
+        assert_eq!(message_at(&state, now, SIZE, [1.0, 1.0], language), None);
     }
 
     #[test]
     fn an_offer_is_found_where_its_token_runs() {
+        let language = Language::English;
         let found = |part: u32| {
             let (state, now) = moment(&[1.0, 1.0, 0.1], f64::from(part) / 20.0);
             let offer = |mark: &Mark| {
                 let Mark::Label { at, ink: Ink { hue: Hue::OnNode(who), .. }, .. } = *mark else { return false };
-                message_at(&state, now, SIZE, at).is_some_and(|flight| flight.cargo == Cargo::Offer { who })
+                message_at(&state, now, SIZE, at, language).is_some_and(|flight| flight.cargo == Cargo::Offer { who })
             };
-            ring(&state, &RingOverlay::default(), now, SIZE).iter().any(offer)
+            ring(&state, &RingOverlay::default(), now, SIZE, language).iter().any(offer)
         };
         assert!((1..20).any(found));
     }
 
     #[test]
     fn a_pause_the_selection_and_the_pipe_are_seen() {
+        let language = Language::English;
         let (mut state, now) = moment(&[1.0, 1.0, 0.1], 0.4);
         // The bands have left each other by then, and so have their counts.
         let now = now + Duration::from_millis(400);
@@ -296,7 +303,7 @@ mod tests {
             marks.iter().filter(has).count()
         };
         let draw = |state: &RunState, selected| {
-            ring(state, &RingOverlay { selected, ..RingOverlay::default() }, now, [640.0, 490.0])
+            ring(state, &RingOverlay { selected, ..RingOverlay::default() }, now, [640.0, 490.0], language)
         };
         let paused = draw(&state, None);
         assert!(texts(&paused).contains(&"paused"));
@@ -306,15 +313,16 @@ mod tests {
         assert!(!texts(&going).contains(&"paused"));
         assert_eq!([boxes(&paused, Ordering::Greater), boxes(&going, Ordering::Greater)], [2, 0], "bars");
         assert_eq!([boxes(&paused, Ordering::Equal), boxes(&going, Ordering::Equal)], [6, 6], "slots");
-        let small = ring(&state, &RingOverlay::default(), now, [240.0, 240.0]);
+        let small = ring(&state, &RingOverlay::default(), now, [240.0, 240.0], language);
         assert_eq!(boxes(&small, Ordering::Equal), 0, "too small to be seen");
     }
 
     #[test]
     fn who_has_retired_looks_unlike_who_is_idle() {
+        let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 60));
         state.nodes[0].band_at = Some(Time::ZERO);
-        let draw = |state: &RunState| ring(state, &RingOverlay::default(), Time::ZERO, SIZE);
+        let draw = |state: &RunState| ring(state, &RingOverlay::default(), Time::ZERO, SIZE, language);
         let idle = draw(&state);
         state.nodes[0].retired = true;
         let retired = draw(&state);
@@ -325,13 +333,14 @@ mod tests {
 
     #[test]
     fn every_state_of_a_machine_has_a_sign_and_a_word_of_its_own() {
+        let language = Language::English;
         let mut header = sample_runs::header(&[1.0; 4], 60);
         header.rules.strategy = Strategy::Adaptive;
         let draw = |spares, whats: &[RecordKind]| {
             let mut state = RunState::new(&Header { spares, ..header.clone() });
             state.nodes[3].band_at = Some(Time::ZERO);
             whats.iter().for_each(|what| state.apply(&Record { at: Time::ZERO, what: what.clone() }));
-            ring(&state, &RingOverlay::default(), Time::ZERO, [640.0, 490.0])
+            ring(&state, &RingOverlay::default(), Time::ZERO, [640.0, 490.0], language)
         };
         let becomes = |condition| vec![RecordKind::Condition { node: 3, condition }];
         let seen = [
@@ -363,12 +372,13 @@ mod tests {
 
     #[test]
     fn parcels_show_their_counts() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
         let mut state = RunState::new(&header);
         let mut seen = BTreeSet::new();
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            let marks = ring(&state, &RingOverlay::default(), record.at, SIZE);
+            let marks = ring(&state, &RingOverlay::default(), record.at, SIZE, language);
             seen.extend(texts(&marks).into_iter().filter(|text| text.starts_with('×')).map(str::to_owned));
         }
         assert!(seen.contains("×100"), "bands {seen:?}");
@@ -377,6 +387,7 @@ mod tests {
 
     #[test]
     fn the_result_takes_the_centre() {
+        let language = Language::English;
         let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 30));
         let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
         let outcome = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
@@ -385,6 +396,7 @@ mod tests {
             &RingOverlay { outcome: Some(outcome), ..RingOverlay::default() },
             Time::from_secs(21.0),
             SIZE,
+            language,
         );
         assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
     }

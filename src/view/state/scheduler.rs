@@ -1,7 +1,7 @@
 //! How a run's atoms are shared, in plain words.
 
 use crate::balance::Strategy;
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::runlog::{Driver, Header};
 
 /// How a run's atoms are shared: by a strategy of ours, or by a library of today.
@@ -32,66 +32,76 @@ impl Sharing {
     }
 
     /// What it is called.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::By(Strategy::Serial) => "Serial",
-            Self::By(Strategy::Static) => word!("Equal bands", "Estática"),
-            Self::By(Strategy::StaticEstimate) => word!("Estimated bands", "Estática estimada"),
-            Self::By(Strategy::Farm) => word!("Farm", "Dinâmica"),
-            Self::By(Strategy::FarmBySpeed) => word!("Farm by speed", "Dinâmica por velocidade"),
-            Self::By(Strategy::Ring) => word!("Ring", "Anel"),
-            Self::By(Strategy::Adaptive) => word!("Adaptive ring", "Anel adaptativo"),
-            Self::Stealing => word!("Work stealing (rayon)", "Roubo de trabalho (rayon)"),
+            Self::By(Strategy::Static) => word!(language, "Equal bands", "Estática"),
+            Self::By(Strategy::StaticEstimate) => word!(language, "Estimated bands", "Estática estimada"),
+            Self::By(Strategy::Farm) => word!(language, "Farm", "Dinâmica"),
+            Self::By(Strategy::FarmBySpeed) => word!(language, "Farm by speed", "Dinâmica por velocidade"),
+            Self::By(Strategy::Ring) => word!(language, "Ring", "Anel"),
+            Self::By(Strategy::Adaptive) => word!(language, "Adaptive ring", "Anel adaptativo"),
+            Self::Stealing => word!(language, "Work stealing (rayon)", "Roubo de trabalho (rayon)"),
         }
     }
 
     /// The same where there is little room.
-    pub fn short_name(self) -> &'static str {
+    pub fn short_name(self, language: Language) -> &'static str {
         match self {
-            Self::Stealing => word!("Work stealing", "Roubo de trabalho"),
-            _ => self.name(),
+            Self::Stealing => word!(language, "Work stealing", "Roubo de trabalho"),
+            _ => self.name(language),
         }
     }
 
     /// What happens, in one short line.
-    pub fn hint(self) -> &'static str {
+    pub fn hint(self, language: Language) -> &'static str {
         match self {
-            Self::By(Strategy::Serial) => word!("The first machine does everything", "A primeira máquina faz tudo"),
+            Self::By(Strategy::Serial) => {
+                word!(language, "The first machine does everything", "A primeira máquina faz tudo")
+            }
             Self::By(Strategy::Static) => {
-                word!("A band each; all wait for the slowest", "Uma faixa cada; todas esperam a mais lenta")
+                word!(language, "A band each; all wait for the slowest", "Uma faixa cada; todas esperam a mais lenta")
             }
             Self::By(Strategy::StaticEstimate) => {
-                word!("Bands by what they seem to cost", "Faixas pelo que parecem custar")
+                word!(language, "Bands by what they seem to cost", "Faixas pelo que parecem custar")
             }
-            Self::By(Strategy::Farm) => word!("Whoever is done asks the parent", "Quem termina pede mais ao pai"),
+            Self::By(Strategy::Farm) => {
+                word!(language, "Whoever is done asks the parent", "Quem termina pede mais ao pai")
+            }
             Self::By(Strategy::FarmBySpeed) => {
-                word!("The same; the slow get smaller parts", "Idem; as lentas recebem partes menores")
+                word!(language, "The same; the slow get smaller parts", "Idem; as lentas recebem partes menores")
             }
             Self::By(Strategy::Ring) => {
-                word!("Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
+                word!(language, "Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
             }
             Self::By(Strategy::Adaptive) => {
-                word!("Wakes helpers, survives losses", "Acorda quem ajuda, sobrevive a perdas")
+                word!(language, "Wakes helpers, survives losses", "Acorda quem ajuda, sobrevive a perdas")
             }
-            Self::Stealing => word!("Threads take atoms from each other", "As threads tomam átomos umas das outras"),
+            Self::Stealing => {
+                word!(language, "Threads take atoms from each other", "As threads tomam átomos umas das outras")
+            }
         }
     }
 
     /// What those are called that do the work, beside what they are organised in.
-    pub fn machines(self, machines: usize) -> String {
+    pub fn machines(self, machines: usize, language: Language) -> String {
         let are = match self {
-            _ if machines == 1 => return word!("1 machine", "1 máquina").into(),
-            Self::By(Strategy::Serial) => word!("machines, one of which works", "máquinas, das quais uma trabalha"),
-            Self::By(Strategy::Static) => word!("machines with equal bands", "máquinas com faixas iguais"),
+            _ if machines == 1 => return word!(language, "1 machine", "1 máquina").into(),
+            Self::By(Strategy::Serial) => {
+                word!(language, "machines, one of which works", "máquinas, das quais uma trabalha")
+            }
+            Self::By(Strategy::Static) => word!(language, "machines with equal bands", "máquinas com faixas iguais"),
             Self::By(Strategy::StaticEstimate) => {
-                word!("machines with estimated bands", "máquinas com faixas estimadas")
+                word!(language, "machines with estimated bands", "máquinas com faixas estimadas")
             }
             Self::By(Strategy::Farm | Strategy::FarmBySpeed) => {
-                word!("machines in a farm", "máquinas que pedem ao pai")
+                word!(language, "machines in a farm", "máquinas que pedem ao pai")
             }
-            Self::By(Strategy::Ring) => word!("machines in a ring", "máquinas em anel"),
-            Self::By(Strategy::Adaptive) => word!("machines in an adaptive ring", "máquinas em anel adaptativo"),
-            Self::Stealing => word!("threads of rayon", "threads do rayon"),
+            Self::By(Strategy::Ring) => word!(language, "machines in a ring", "máquinas em anel"),
+            Self::By(Strategy::Adaptive) => {
+                word!(language, "machines in an adaptive ring", "máquinas em anel adaptativo")
+            }
+            Self::Stealing => word!(language, "threads of rayon", "threads do rayon"),
         };
         format!("{machines} {are}")
     }

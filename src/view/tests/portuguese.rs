@@ -92,16 +92,9 @@ const ENGLISH: [&str; 40] = [
     "stopped",
 ];
 
-fn in_language(language: Language, say: impl FnOnce() -> Said) -> Said {
-    language.speak();
-    let said = say();
-    Language::English.speak();
-    said
-}
-
 /// Says the same in both languages, and compares.
-fn compare(say: impl Fn() -> Said) {
-    let [english, portuguese] = [Language::English, Language::Portuguese].map(|language| in_language(language, &say));
+fn compare(say: impl Fn(Language) -> Said) {
+    let [english, portuguese] = [Language::English, Language::Portuguese].map(say);
     assert_eq!(english.len(), portuguese.len());
     let mut wrong = Vec::new();
     for ((room, english), (_, portuguese)) in english.iter().zip(&portuguese) {
@@ -197,21 +190,21 @@ fn runs() -> Vec<RunLog> {
 }
 
 /// What is said of a run while it goes on.
-fn told(log: &RunLog) -> Said {
+fn told(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let mut moment = Snapshot::new(&log.header);
-    said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO)));
+    said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO, language)));
     for (index, record) in log.records().iter().enumerate() {
         moment.apply(record);
         let (state, narrator, now) = (&moment.state, &moment.narrator, record.at);
-        said.push((Room::Some, record_words(record, state)));
-        said.push((Room::Heard, narrator.sentence(state, now)));
+        said.push((Room::Some, record_words(record, state, language)));
+        said.push((Room::Heard, narrator.sentence(state, now, language)));
         if !matches!(record.what, RecordKind::AtomStarted { .. }) {
-            said.push((Room::Heard, standing(state)));
-            said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.to_owned())));
+            said.push((Room::Heard, standing(state, language)));
+            said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.sentence(language))));
         }
         if index % 37 == 0 {
-            said.extend(hovered(&moment, now));
+            said.extend(hovered(&moment, now, language));
         }
     }
     said
@@ -226,40 +219,45 @@ fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
 }
 
 /// What is said of what somebody points at, and what stands in the drawing.
-fn hovered(moment: &Snapshot, now: Time) -> Said {
+fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
     let (state, mut said) = (&moment.state, Vec::new());
     let nodes = 0..state.nodes().len() as NodeId;
-    for (what, words) in nodes.flat_map(|node| node_words(state, node, now)).chain(parent_words(state, now)) {
+    for (what, words) in
+        nodes.flat_map(|node| node_words(state, node, now, language)).chain(parent_words(state, now, language))
+    {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
     // Offers are drawn where they are: as many in both languages.
-    let drawn = ring(state, &RingOverlay::default(), now, [1200.0, 1200.0]);
+    let drawn = ring(state, &RingOverlay::default(), now, [1200.0, 1200.0], language);
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
-    said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now))));
-    said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight))));
-    said.extend(small_print(state).into_iter().map(|line| (Room::Same, line)));
+    said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
+    said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));
+    said.extend(small_print(state, language).into_iter().map(|line| (Room::Same, line)));
     said
 }
 
 /// What is said of a run when it is over.
-fn summed_up(log: &RunLog) -> Said {
+fn summed_up(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let RunView { latest: moment, signs, lanes, .. } = RunView::of(log);
     let (state, mut past) = (&moment.state, SnapshotCache::default());
-    said.extend(signs.all().iter().map(|sign| (Room::Same, sign.words.clone())));
-    let found = landmarks(log);
+    said.extend(signs.all().iter().map(|sign| (Room::Same, sign.happening.sentence(language))));
+    let found = landmarks(log, language);
     let abouts =
         found.iter().map(|mark| mark.about).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
     for about in abouts.collect::<Vec<_>>() {
-        let (title, more) = Details::of(about, log, &lanes, &mut past).words(state, state.head(), 1.0);
+        let (title, more) =
+            Details::of(about, log, &lanes, &mut past, language).words(state, state.head(), 1.0, language);
         said.extend([(Room::Some, title), (Room::Some, more)]);
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
     let tally = Metrics::of(log);
     if let (Some(makespan), Some(ideal), Some(efficiency)) = (tally.makespan(), tally.ideal(), tally.efficiency()) {
         let outcome = Summary { makespan, ideal, efficiency, spread: tally.finish_spread() };
-        said.push((Room::Same, result_words(state, &outcome)));
-        said.extend(figures(&outcome).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))));
+        said.push((Room::Same, result_words(state, &outcome, language)));
+        said.extend(
+            figures(&outcome, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+        );
     }
     said
 }
@@ -268,36 +266,38 @@ fn summed_up(log: &RunLog) -> Said {
 fn runs_are_told_in_portuguese() {
     let runs = runs();
     assert!(runs.iter().filter(|log| Metrics::of(log).makespan().is_some()).count() > 30);
-    compare(|| runs.iter().flat_map(told).collect());
-    compare(|| runs.iter().flat_map(summed_up).collect());
+    compare(|language| runs.iter().flat_map(|log| told(log, language)).collect());
+    compare(|language| runs.iter().flat_map(|log| summed_up(log, language)).collect());
 }
 
 #[test]
 fn names_and_numbers_are_portuguese() {
-    compare(|| {
+    compare(|language| {
         let mut said: Vec<String> = Vec::new();
         for sharing in Sharing::ALL {
             said.extend([
-                sharing.name().to_owned(),
-                sharing.hint().to_owned(),
-                sharing.machines(8),
-                sharing.machines(1),
+                sharing.name(language).to_owned(),
+                sharing.hint(language).to_owned(),
+                sharing.machines(8, language),
+                sharing.machines(1, language),
             ]);
         }
-        said.extend(RATES.into_iter().flat_map(|rate| [rate_of_time_words(rate), short_rate_words(rate)]));
+        said.extend(
+            RATES.into_iter().flat_map(|rate| [rate_of_time_words(rate, language), short_rate_words(rate, language)]),
+        );
         said.extend(
             Layer::ALL
                 .into_iter()
-                .flat_map(|layer| [layer.name(), layer.ends().map_or("", |ends| ends[1])])
+                .flat_map(|layer| [layer.name(language), layer.ends(language).map_or("", |ends| ends[1])])
                 .map(str::to_owned),
         );
-        said.extend(StepUnit::ALL.map(|step| step.name().to_owned()));
-        said.extend([0.4, 1.0, 2.5].map(|times| times_words(times, 1.0)));
+        said.extend(StepUnit::ALL.map(|step| step.name(language).to_owned()));
+        said.extend([0.4, 1.0, 2.5].map(|times| times_words(times, 1.0, language)));
         let adaptive = Quality { samples: 4, threshold: 0.02, cutoff: 0.001, ..Quality::default() };
-        said.extend([Quality::default(), adaptive].iter().map(quality_words));
+        said.extend([Quality::default(), adaptive].iter().map(|quality| quality_words(quality, language)));
         let size = Size::new(640, 480).expect("a possible size");
         let difference = Difference { rmse: 0.0123, wrong_pixels: 1000, worst_ssim: 0.5 };
-        let lines = measured_lines(Duration::from_millis(1234), size, &difference, size);
+        let lines = measured_lines(Duration::from_millis(1234), size, &difference, size, language);
         said.extend(lines.into_iter().flat_map(|(what, words)| [what.to_owned(), words]));
         let tradeoff = Tradeoff {
             points: vec![(0.5, 0.1), (2.0, 0.02)],
@@ -306,7 +306,7 @@ fn names_and_numbers_are_portuguese() {
             present: Some(0),
             ..Tradeoff::default()
         };
-        said.extend(labels_of(tradeoff.drawn([640.0, 480.0]).marks));
+        said.extend(labels_of(tradeoff.drawn([640.0, 480.0], language).marks));
         said.into_iter().map(|words| (Room::Same, words)).collect()
     });
 }
@@ -332,31 +332,34 @@ fn states_fit_below_a_machine() {
         Activity::Spare,
         Activity::Done,
     ];
-    compare(|| all.map(|activity| (Room::Same, activity_word(activity).to_owned())).to_vec());
-    Language::Portuguese.speak();
-    assert!(all.iter().all(|activity| activity_word(*activity).chars().count() <= labels::SECOND));
+    compare(|language| all.map(|activity| (Room::Same, activity_word(activity, language).to_owned())).to_vec());
+    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND;
+    assert!(all.iter().all(|activity| short(*activity)));
 }
 
 #[test]
 fn scenes_and_pixels_are_told_in_portuguese() {
     let size = Size::new(24, 18).expect("a small picture");
-    compare(|| {
+    compare(|language| {
         let mut said = Vec::new();
         for (_, text) in BUILT_IN {
             let scene = Scene::parse(text).expect("a built-in scene");
             let tracer = Tracer::new(&scene, size, Quality::default());
-            let lines = needs_lines(&tracer.compiled(), &tracer.levels());
+            let lines = needs_lines(&tracer.compiled(), &tracer.levels(), language);
             said.extend(lines.into_iter().flat_map(|(what, words)| [what.to_owned(), words]));
-            said.extend(needs_warnings(&tracer.compiled()));
+            said.extend(needs_warnings(&tracer.compiled(), language));
             for pixel in (0..size.pixels()).step_by(41) {
                 let place = [pixel % size.width(), pixel / size.width()];
                 let pixel = Inspected::new(&tracer, &scene, place).expect("a pixel of the picture");
-                said.extend(pixel.sentences().into_iter().chain(pixel.ray_sentences()));
-                said.extend([pixel.term_words(), pixel.span_words()]);
-                let tree = pixel.ray_tree(300.0);
+                said.extend(pixel.sentences(language).into_iter().chain(pixel.ray_sentences(language)));
+                said.extend([pixel.term_words(language), pixel.span_words(language)]);
+                let tree = pixel.ray_tree(300.0, language);
                 said.extend(tree.spots.into_iter().map(|spot| spot.name));
-                let marks =
-                    tree.marks.into_iter().chain(pixel.spans(400.0, 9).marks).chain(pixel.draw_terms(400.0).marks);
+                let marks = tree
+                    .marks
+                    .into_iter()
+                    .chain(pixel.spans(400.0, 9, language).marks)
+                    .chain(pixel.draw_terms(400.0, language).marks);
                 said.extend(labels_of(marks.collect()));
             }
         }

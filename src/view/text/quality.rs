@@ -3,38 +3,39 @@
 use std::time::Duration;
 
 use super::format::{counted, duration};
-use crate::language::{comma, decimal, say, word};
+use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::{Difference, Quality, Size};
 
 /// What a quality is, for a sentence.
-pub fn quality_words(quality: &Quality) -> String {
-    let lines = quality_lines(quality);
+pub fn quality_words(quality: &Quality, language: Language) -> String {
+    let lines = quality_lines(quality, language);
     lines.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
 /// What a quality is, knob by knob.
-pub fn quality_lines(quality: &Quality) -> Vec<(&'static str, String)> {
+pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str, String)> {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
-    let error = comma(threshold.to_string());
+    let error = comma(language, threshold.to_string());
     let taken = match (samples, threshold) {
-        (1, _) => word!("1 sample a pixel", "1 amostra por pixel").into(),
-        (_, 0.0) => say!("{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
+        (1, _) => word!(language, "1 sample a pixel", "1 amostra por pixel").into(),
+        (_, 0.0) => say!(language, "{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
         _ => say!(
+            language,
             "up to {samples} × {samples} samples a pixel, until the error is {error}",
             "até {samples} × {samples} amostras por pixel, até o erro ser {error}"
         ),
     };
-    let part = error_words(100.0 * cutoff);
+    let part = error_words(100.0 * cutoff, language);
     let left_out = if cutoff > 0.0 {
-        say!("weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
+        say!(language, "weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
     } else {
-        word!("no weak rays left out", "nenhum raio fraco omitido").into()
+        word!(language, "no weak rays left out", "nenhum raio fraco omitido").into()
     };
-    let levels = counted(max_depth, word!("level", "nível"));
+    let levels = counted(max_depth, word!(language, "level", "nível"), language);
     vec![
-        (word!("Samples", "Amostras"), taken),
-        (word!("Rays", "Raios"), say!("{levels} of rays", "{levels} de raios")),
-        (word!("Cutoff", "Corte"), left_out),
+        (word!(language, "Samples", "Amostras"), taken),
+        (word!(language, "Rays", "Raios"), say!(language, "{levels} of rays", "{levels} de raios")),
+        (word!(language, "Cutoff", "Corte"), left_out),
     ]
 }
 
@@ -45,26 +46,33 @@ pub fn measured_lines(
     size: Size,
     difference: &Difference,
     measured: Size,
+    language: Language,
 ) -> Vec<(&'static str, String)> {
-    let wrong = decimal(100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
-    let (took, width, height) = (duration(time), size.width(), size.height());
-    let worst = decimal(difference.worst_ssim, 3);
+    let wrong = decimal(language, 100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
+    let (took, width, height) = (duration(time, language), size.width(), size.height());
+    let worst = decimal(language, difference.worst_ssim, 3);
     vec![
         (
-            word!("Time", "Tempo"),
+            word!(language, "Time", "Tempo"),
             say!(
+                language,
                 "{took} of one core for {width} × {height} pixels",
                 "{took} de um núcleo para {width} × {height} pixels"
             ),
         ),
-        (word!("Error", "Erro"), error_words(difference.rmse)),
+        (word!(language, "Error", "Erro"), error_words(difference.rmse, language)),
         (
-            word!("Wrong", "Errados"),
-            say!("{wrong} % of the pixels, so much that it can be seen", "{wrong} % dos pixels, tanto que se vê"),
+            word!(language, "Wrong", "Errados"),
+            say!(
+                language,
+                "{wrong} % of the pixels, so much that it can be seen",
+                "{wrong} % dos pixels, tanto que se vê"
+            ),
         ),
         (
-            word!("Worst", "Pior"),
+            word!(language, "Worst", "Pior"),
             say!(
+                language,
                 "{worst} is how similar the worst block is; 1 is the same (SSIM)",
                 "{worst} é a semelhança do pior bloco; 1 é igual (SSIM)"
             ),
@@ -73,24 +81,24 @@ pub fn measured_lines(
 }
 
 /// An error in two digits.
-pub fn error_words(error: f64) -> String {
+pub fn error_words(error: f64, language: Language) -> String {
     if error <= 0.0 {
         return "0".into();
     }
     let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
-    decimal(error, decimals)
+    decimal(language, error, decimals)
 }
 
 /// How long one takes beside another.
-pub fn times_words(time: f64, than: f64) -> String {
+pub fn times_words(time: f64, than: f64, language: Language) -> String {
     let times = time / than;
-    let [faster, longer] = [1.0 / times, times].map(|times| decimal(times, 1));
+    let [faster, longer] = [1.0 / times, times].map(|times| decimal(language, times, 1));
     if !times.is_finite() || (0.95..1.05).contains(&times) {
-        word!("about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
+        word!(language, "about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
     } else if times < 1.0 {
-        say!("{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
+        say!(language, "{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
     } else {
-        say!("{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
+        say!(language, "{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
     }
 }
 
@@ -100,27 +108,31 @@ mod tests {
 
     #[test]
     fn a_quality_is_told_in_words() {
+        let language = Language::English;
         assert_eq!(
-            quality_words(&Quality::default()),
+            quality_words(&Quality::default(), language),
             "1 sample a pixel, 10 levels of rays, weak rays left out up to 0.39 % of a pixel"
         );
         let best = Quality { samples: 8, max_depth: 1, cutoff: 0.0, ..Quality::default() };
-        assert_eq!(quality_words(&best), "8 × 8 samples a pixel, 1 level of rays, no weak rays left out");
+        assert_eq!(quality_words(&best, language), "8 × 8 samples a pixel, 1 level of rays, no weak rays left out");
         let adaptive = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         assert!(
-            quality_words(&adaptive).starts_with("up to 4 × 4 samples a pixel, until the error is 0.02, 10 levels")
+            quality_words(&adaptive, language)
+                .starts_with("up to 4 × 4 samples a pixel, until the error is 0.02, 10 levels")
         );
     }
 
     #[test]
     fn errors_have_two_digits() {
-        let said = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0].map(error_words);
+        let said = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0].map(|error| error_words(error, Language::English));
         assert_eq!(said, ["0", "0.000012", "0.012", "0.096", "0.50", "12"]);
     }
 
     #[test]
     fn times_are_told_the_way_that_people_do() {
-        let said = [(1.0, 1.01), (1.0, 2.5), (3.0, 1.0), (0.0, 0.0)].map(|(one, other)| times_words(one, other));
+        let language = Language::English;
+        let said =
+            [(1.0, 1.01), (1.0, 2.5), (3.0, 1.0), (0.0, 0.0)].map(|(one, other)| times_words(one, other, language));
         let now = "as what is set now";
         assert_eq!(
             said,
@@ -135,9 +147,10 @@ mod tests {
 
     #[test]
     fn what_came_of_it_is_told_with_its_units() {
+        let language = Language::English;
         let difference = Difference { rmse: 0.0123, wrong_pixels: 30, worst_ssim: 0.5 };
         let size = |width, height| Size::new(width, height).unwrap();
-        let said = measured_lines(Duration::from_millis(1234), size(640, 480), &difference, size(20, 15));
+        let said = measured_lines(Duration::from_millis(1234), size(640, 480), &difference, size(20, 15), language);
         let said: Vec<String> = said.into_iter().map(|(what, words)| format!("{what}: {words}")).collect();
         assert_eq!(said[0], "Time: 1.2 s of one core for 640 × 480 pixels");
         assert!(said[2].starts_with("Wrong: 10.0 % of the pixels") && said[3].contains("0.500"), "{said:?}");

@@ -3,54 +3,54 @@
 use super::format::{count, duration, fraction, node_name, time_words};
 use super::remedies::without;
 use crate::balance::Strategy;
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::sim::Change;
 use crate::view::state::scheduler::Sharing;
 
 /// A change in a few words.
-pub fn change_words(change: Change) -> String {
+pub fn change_words(change: Change, language: Language) -> String {
     match change {
-        Change::Strategy(strategy) => Sharing::By(strategy).name().to_owned(),
-        Change::Nodes(1) => word!("1 machine", "1 máquina").to_owned(),
-        Change::Nodes(nodes) => say!("{nodes} machines", "{nodes} máquinas"),
+        Change::Strategy(strategy) => Sharing::By(strategy).name(language).to_owned(),
+        Change::Nodes(1) => word!(language, "1 machine", "1 máquina").to_owned(),
+        Change::Nodes(nodes) => say!(language, "{nodes} machines", "{nodes} máquinas"),
         Change::Speed(node, speed) => {
             let (name, speed) = (node_name(node), fraction(speed));
-            say!("{name} at {speed}", "{name} a {speed}")
+            say!(language, "{name} at {speed}", "{name} a {speed}")
         }
         Change::SpeedAt(at, node, speed) => {
-            let (at, name, speed) = (time_words(at, 1.0), node_name(node), fraction(speed));
-            say!("{name} at {speed} from {at} on", "{name} a {speed} a partir de {at}")
+            let (at, name, speed) = (time_words(at, 1.0, language), node_name(node), fraction(speed));
+            say!(language, "{name} at {speed} from {at} on", "{name} a {speed} a partir de {at}")
         }
-        Change::Without(remedy) => without(remedy),
-        Change::Equal => word!("all at 100 %", "todas a 100 %").to_owned(),
+        Change::Without(remedy) => without(remedy, language),
+        Change::Equal => word!(language, "all at 100 %", "todas a 100 %").to_owned(),
         Change::Atom(pixels) => {
             let pixels = count(pixels);
-            say!("atoms of {pixels} pixels", "átomos de {pixels} pixels")
+            say!(language, "atoms of {pixels} pixels", "átomos de {pixels} pixels")
         }
         Change::Latency(latency) if latency.is_zero() => {
-            word!("messages take no time", "mensagens instantâneas").to_owned()
+            word!(language, "messages take no time", "mensagens instantâneas").to_owned()
         }
         Change::Latency(latency) => {
-            let latency = duration(latency);
-            say!("{latency} a message", "{latency} por mensagem")
+            let latency = duration(latency, language);
+            say!(language, "{latency} a message", "{latency} por mensagem")
         }
         Change::Handling(handling) if handling.is_zero() => {
-            word!("the parent is never busy", "o pai nunca está ocupado").to_owned()
+            word!(language, "the parent is never busy", "o pai nunca está ocupado").to_owned()
         }
         Change::Handling(handling) => {
-            let handling = duration(handling);
-            say!("the parent takes {handling} a message", "o pai leva {handling} por mensagem")
+            let handling = duration(handling, language);
+            say!(language, "the parent takes {handling} a message", "o pai leva {handling} por mensagem")
         }
     }
 }
 
 /// What a run is called that is shared so and has these changes: of changes of the same thing only the last counts.
-pub fn trial_name(strategy: Strategy, changes: &[Change]) -> String {
-    let mut words = vec![Sharing::By(strategy).name().to_owned()];
+pub fn trial_name(strategy: Strategy, changes: &[Change], language: Language) -> String {
+    let mut words = vec![Sharing::By(strategy).name(language).to_owned()];
     let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| is_of_the_same(*change, *other));
     for (i, change) in changes.iter().enumerate() {
         if !matches!(change, Change::Strategy(_)) && !is_later(change, &changes[i + 1..]) {
-            words.push(change_words(*change));
+            words.push(change_words(*change, language));
         }
     }
     words.join(", ")
@@ -78,6 +78,7 @@ mod tests {
 
     #[test]
     fn a_run_is_called_after_what_is_changed_last() {
+        let language = Language::English;
         let changes = [
             Change::Strategy(Strategy::Farm),
             Change::Speed(7, 0.05),
@@ -87,12 +88,12 @@ mod tests {
             Change::SpeedAt(Time::from_secs(2.0), 1, 0.1),
         ];
         assert_eq!(
-            trial_name(Strategy::Farm, &changes),
+            trial_name(Strategy::Farm, &changes, language),
             "Farm, 200 ms a message, 8 at 50 %, 4 machines, 2 at 10 % from 2.0 s on"
         );
-        assert_eq!(trial_name(Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal]), "Ring, all at 100 %");
-        assert_eq!(trial_name(Strategy::Ring, &[]), "Ring");
+        assert_eq!(trial_name(Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal], language), "Ring, all at 100 %");
+        assert_eq!(trial_name(Strategy::Ring, &[], language), "Ring");
         let without = [Remedy::Wake, Remedy::Copies, Remedy::Wake].map(Change::Without);
-        assert_eq!(trial_name(Strategy::Adaptive, &without), "Adaptive ring, without copies, without waking");
+        assert_eq!(trial_name(Strategy::Adaptive, &without, language), "Adaptive ring, without copies, without waking");
     }
 }

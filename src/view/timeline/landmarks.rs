@@ -1,7 +1,7 @@
 //! Steps through a run's records, and what is worth jumping to.
 
 use crate::balance::{Message, NodeId, Party};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
@@ -24,11 +24,11 @@ impl StepUnit {
     pub const ALL: [Self; 3] = [Self::Lap, Self::Event, Self::Atom];
 
     /// What one steps by, in a word or two.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
-            Self::Event => word!("event", "evento"),
-            Self::Atom => word!("atom", "átomo"),
-            Self::Lap => word!("lap", "volta"),
+            Self::Event => word!(language, "event", "evento"),
+            Self::Atom => word!(language, "atom", "átomo"),
+            Self::Lap => word!(language, "lap", "volta"),
         }
     }
 
@@ -86,7 +86,7 @@ pub enum Subject {
 }
 
 /// What of a run is worth jumping to, in the order in which one would ask.
-pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
+pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
     let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
     let mut hand = None;
     let records = seen(log);
@@ -97,7 +97,8 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
                 if from == who =>
             {
                 let name = node_name(*who);
-                let words = || say!("The first offer: {name} has finished", "A primeira oferta: {name} terminou");
+                let words =
+                    || say!(language, "The first offer: {name} has finished", "A primeira oferta: {name} terminou");
                 offer.get_or_insert_with(|| mark(words(), Subject::Message(*id)));
             }
             RecordKind::Sent {
@@ -109,26 +110,27 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
             } => {
                 let atoms = atoms_in(ranges);
                 let words = || {
-                    let (atoms, from, to) = (atoms_words(atoms), node_name(*from), node_name(*to));
-                    say!("{atoms} from {from} to {to}", "{atoms} de {from} para {to}")
+                    let (atoms, from, to) = (atoms_words(atoms, language), node_name(*from), node_name(*to));
+                    say!(language, "{atoms} from {from} to {to}", "{atoms} de {from} para {to}")
                 };
                 transfer.get_or_insert_with(|| {
                     let words = words();
                     mark(
-                        say!("The first transfer: {words}", "A primeira transferência: {words}"),
+                        say!(language, "The first transfer: {words}", "A primeira transferência: {words}"),
                         Subject::Message(*id),
                     )
                 });
                 if biggest.as_ref().is_none_or(|(most, _)| atoms > *most) {
                     let words = words();
-                    let words = say!("The biggest transfer: {words}", "A maior transferência: {words}");
+                    let words = say!(language, "The biggest transfer: {words}", "A maior transferência: {words}");
                     biggest = Some((atoms, mark(words, Subject::Message(*id))));
                 }
             }
             RecordKind::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
-                let (by, took) = (node_name(*node), duration(*cost));
+                let (by, took) = (node_name(*node), duration(*cost, language));
                 let name = count(atom.saturating_add(1));
                 let words = say!(
+                    language,
                     "The costliest atom: {name}, {took} of {by}'s time",
                     "O átomo mais caro: {name}, {took} do tempo de {by}"
                 );
@@ -136,12 +138,13 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
             }
             RecordKind::Retired { node } => {
                 let name = node_name(*node);
-                let words = || say!("The first to retire: {name}", "A primeira dispensada: {name}");
+                let words = || say!(language, "The first to retire: {name}", "A primeira dispensada: {name}");
                 retired.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } | RecordKind::Condition { node, .. } => {
                 let name = node_name(*node);
-                let words = || say!("The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
+                let words =
+                    || say!(language, "The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
                 hand.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             _ => {}
@@ -150,7 +153,7 @@ pub fn landmarks(log: &RunLog) -> Vec<Landmark> {
     // Said once, if they are the same.
     let transfer =
         transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
-    let slowest = slowest(records, log.header.speeds.len());
+    let slowest = slowest(records, log.header.speeds.len(), language);
     let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
     [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
 }
@@ -163,7 +166,7 @@ fn seen(log: &RunLog) -> &[Record] {
 }
 
 /// The machine that traced the fewest atoms in the time in which it had any; its place is the end, where that is seen.
-fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
+fn slowest(records: &[Record], nodes: usize, language: Language) -> Option<Landmark> {
     let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
     for record in records {
         match record.what {
@@ -181,8 +184,8 @@ fn slowest(records: &[Record], nodes: usize) -> Option<Landmark> {
     let rate = |node: &usize| f64::from(atoms[*node]) / busy[*node];
     let slowest = (0..nodes).filter(|&node| busy[node] > 0.0).min_by(|one, other| rate(one).total_cmp(&rate(other)))?;
     let node = slowest as NodeId;
-    let (name, traced) = (node_name(node), atoms_words(atoms[slowest]));
-    let words = say!("The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
+    let (name, traced) = (node_name(node), atoms_words(atoms[slowest], language));
+    let words = say!(language, "The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
     let (records, at) = (records.len(), records.last()?.at);
     (nodes > 1).then_some(Landmark { words, records, at, about: Subject::Node(node) })
 }
@@ -224,13 +227,14 @@ mod tests {
 
     #[test]
     fn what_one_asks_for_is_found() {
+        let language = Language::English;
         let mut log = sample_runs::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
         // There the last atoms keep everybody busy.
         let retires = |secs, node| Record { at: Time::from_secs(secs), what: RecordKind::Retired { node } };
         log.add(vec![retires(0.001, 0)]);
         let end = log.end();
         log.add(vec![retires(9e3, 1)]);
-        let found = landmarks(&log);
+        let found = landmarks(&log, language);
         let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
         assert!(matches!(says("The first offer: "), Some(Subject::Message(_))));
         assert!(matches!(says("The biggest transfer: "), Some(Subject::Message(_))));
@@ -239,6 +243,6 @@ mod tests {
         assert!(matches!(says("The costliest atom: "), Some(Subject::Atom(_))));
         assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
         assert!(found.iter().all(|mark| mark.at <= end), "after the end nothing is seen any more: {found:?}");
-        assert_eq!(landmarks(&RunLog::new(log.header)), []);
+        assert_eq!(landmarks(&RunLog::new(log.header), language), []);
     }
 }

@@ -3,8 +3,7 @@
 use crate::balance::{Condition, NodeId};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
-use crate::view::narration::event_sentences;
-use crate::view::narration::failure_sentences;
+use crate::view::narration::happening::Happening;
 use crate::view::state::run_state::RunState;
 
 /// Something that stands out.
@@ -14,8 +13,8 @@ pub struct Marker {
     pub at: Time,
     /// What it is.
     pub kind: MarkerKind,
-    /// The same in a sentence.
-    pub words: String,
+    /// The same with the facts for its sentence.
+    pub happening: Happening,
 }
 
 /// What stands out.
@@ -42,22 +41,17 @@ pub struct Markers(Vec<Marker>);
 impl Markers {
     /// Takes in a record; `state` already knows it. Those of different parties may come interleaved.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
-        let (kind, words) = match &record.what {
-            RecordKind::SpeedSet { node, speed } => {
-                let before = state.nodes().get(usize::from(*node)).map_or(*speed, |node| node.speed_before);
-                (MarkerKind::Speed(*node), event_sentences::speed(state, *node, before, *speed))
-            }
-            RecordKind::Paused { node } => (MarkerKind::Pause(*node), event_sentences::paused(state, *node)),
-            RecordKind::Resumed { node } => (MarkerKind::Pause(*node), event_sentences::resumed(state, *node)),
-            RecordKind::Condition { node, condition } => {
-                (MarkerKind::Condition(*node, *condition), failure_sentences::condition(state, *node))
-            }
-            RecordKind::LatencySet { latency } => (MarkerKind::Latency, event_sentences::latency(state, *latency)),
-            RecordKind::Retired { node } => (MarkerKind::Retired(*node), event_sentences::retired(state, &[*node])),
-            RecordKind::Finished => (MarkerKind::Complete, event_sentences::complete().into()),
+        let kind = match &record.what {
+            RecordKind::SpeedSet { node, .. } => MarkerKind::Speed(*node),
+            RecordKind::Paused { node } | RecordKind::Resumed { node } => MarkerKind::Pause(*node),
+            RecordKind::Condition { node, condition } => MarkerKind::Condition(*node, *condition),
+            RecordKind::LatencySet { .. } => MarkerKind::Latency,
+            RecordKind::Retired { node } => MarkerKind::Retired(*node),
+            RecordKind::Finished => MarkerKind::Complete,
             _ => return,
         };
-        let sign = Marker { at: record.at, kind, words };
+        let Some(happening) = Happening::of(record, state) else { return };
+        let sign = Marker { at: record.at, kind, happening };
         // A slider that is dragged says many speeds, of which the last stays.
         let drags = |last: &Marker| last.kind == kind && matches!(kind, MarkerKind::Speed(_) | MarkerKind::Latency);
         match self.0.last_mut() {
@@ -89,6 +83,7 @@ const DRAGGED: std::time::Duration = std::time::Duration::from_secs(1);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::Language;
     use crate::view::tests::sample_runs;
 
     #[test]
@@ -108,7 +103,8 @@ mod tests {
         }
         let speeds: Vec<_> = signs.all().iter().filter(|sign| sign.kind == MarkerKind::Speed(1)).collect();
         assert_eq!((speeds.len(), speeds[0].at), (1, Time(at.0 + 2)));
-        assert!(speeds[0].words.starts_with("Machine 2 now runs at 20 %"), "{}", speeds[0].words);
+        let sentence = speeds[0].happening.sentence(Language::English);
+        assert!(sentence.starts_with("Machine 2 now runs at 20 %"), "{sentence}");
         let retired = signs.all().iter().filter(|sign| matches!(sign.kind, MarkerKind::Retired(_))).count();
         assert_eq!(retired, state.nodes().iter().filter(|node| node.retired).count());
         assert_eq!(signs.all().last().map(|sign| sign.kind), Some(MarkerKind::Complete));

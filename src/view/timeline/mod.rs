@@ -317,6 +317,7 @@ fn runs(levels: impl Iterator<Item = u8>) -> Vec<DiagonalRun> {
 
 #[cfg(test)]
 mod tests {
+    use crate::language::Language;
     use proptest::prelude::*;
 
     use super::super::tests::sample_runs;
@@ -374,11 +375,12 @@ mod tests {
 
     #[test]
     fn the_axis_has_round_times_that_are_seen() {
+        let language = Language::English;
         let (_, _, window, _) = drawn(600, 0.05);
         let (times, rate) = axis(&window, WIDTH);
         assert!((3..=8).contains(&times.len()) && rate < 1.0, "{times:?}");
         assert!(times.iter().all(|&time| window.from() <= time && time <= window.to()));
-        let words: Vec<_> = times.iter().map(|&time| crate::view::time_words(time, rate)).collect();
+        let words: Vec<_> = times.iter().map(|&time| crate::view::time_words(time, rate, language)).collect();
         assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
     }
 

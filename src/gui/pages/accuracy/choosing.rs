@@ -5,7 +5,7 @@ use egui::{Label, RichText, Ui, vec2};
 use super::findings::{AccuracyFindings, Choice};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, slider};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
 use crate::view::{duration, error_words, quality_words, times_words};
@@ -28,6 +28,7 @@ pub fn show(
     choice: Choice,
     place: Option<usize>,
     look: Look,
+    language: Language,
 ) -> Option<QualityChoice> {
     let front = findings.front();
     let (Some(fastest), Some(best)) = (front.first(), front.last()) else { return None };
@@ -40,31 +41,40 @@ pub fn show(
     };
     let mut done = None;
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
-    let said = error_words(error);
+    let said = error_words(error, language);
     let limits = (best.rmse(), fastest.rmse());
-    let (words, name) =
-        word!(("The fastest within an error of", "Largest error"), ("A mais rápida com erro até", "Maior erro"));
+    let (words, name) = word!(
+        language,
+        ("The fastest within an error of", "Largest error"),
+        ("A mais rápida com erro até", "Maior erro")
+    );
     if let Some(error) = limit(ui, (words, &said, name), error, limits, look) {
         done = Some(QualityChoice::Choice(Choice::Error(error)));
     }
-    let said = duration(std::time::Duration::try_from_secs_f64(time).unwrap_or_default());
+    let said = duration(std::time::Duration::try_from_secs_f64(time).unwrap_or_default(), language);
     let limits = (fastest.cpu_s, best.cpu_s);
-    let (words, name) = word!(("The best within a time of", "Longest time"), ("A melhor em tempo até", "Maior tempo"));
+    let (words, name) =
+        word!(language, ("The best within a time of", "Longest time"), ("A melhor em tempo até", "Maior tempo"));
     if let Some(time) = limit(ui, (words, &said, name), time, limits, look) {
         done = Some(QualityChoice::Choice(Choice::Time(time)));
     }
     ui.add_space(0.5 * GRID);
     let Some((place, point)) = place.zip(chosen) else { return done };
     ui.add(
-        Label::new(RichText::new(sentence(findings, place, &point)).font(theme::regular(theme::BODY)).color(look.text))
-            .wrap(),
+        Label::new(
+            RichText::new(sentence(findings, place, &point, language))
+                .font(theme::regular(theme::BODY))
+                .color(look.text),
+        )
+        .wrap(),
     );
     ui.add_space(0.5 * GRID);
     let is_set = place == AccuracyFindings::PRESENT;
     let weight = if is_set { Emphasis::Quiet } else { Emphasis::Primary };
     ui.add_enabled_ui(!is_set, |ui| {
-        let take = button(ui, None, word!("Take these settings", "Usar estes ajustes"), true, weight);
+        let take = button(ui, None, word!(language, "Take these settings", "Usar estes ajustes"), true, weight);
         let hint = word!(
+            language,
             "Starts the run anew with this quality; Ctrl Z takes it back",
             "Reinicia a execução com esta qualidade; Ctrl Z desfaz"
         );
@@ -76,21 +86,22 @@ pub fn show(
 }
 
 /// What is chosen, and what it costs.
-fn sentence(findings: &AccuracyFindings, place: usize, point: &Point) -> String {
-    let (size, quality) = (findings.whole, quality_words(&point.quality));
-    let (time, error) = (duration(findings.time(place)), error_words(point.rmse()));
+fn sentence(findings: &AccuracyFindings, place: usize, point: &Point, language: Language) -> String {
+    let (size, quality) = (findings.whole, quality_words(&point.quality, language));
+    let (time, error) = (duration(findings.time(place), language), error_words(point.rmse(), language));
     let (width, height) = (size.width(), size.height());
     let costs = say!(
+        language,
         "{time} of one core for {width} × {height} pixels, with an error of {error}",
         "{time} de um núcleo para {width} × {height} pixels, com erro de {error}"
     );
     let present = findings.point(AccuracyFindings::PRESENT).filter(|_| place != AccuracyFindings::PRESENT);
     match present {
         Some(present) => {
-            let times = times_words(point.cpu_s, present.cpu_s);
-            say!("{quality}. That takes {costs}: {times}.", "{quality}. Isso leva {costs}: {times}.")
+            let times = times_words(point.cpu_s, present.cpu_s, language);
+            say!(language, "{quality}. That takes {costs}: {times}.", "{quality}. Isso leva {costs}: {times}.")
         }
-        None => say!("Set now: {quality}. That takes {costs}.", "Atual: {quality}. Isso leva {costs}."),
+        None => say!(language, "Set now: {quality}. That takes {costs}.", "Atual: {quality}. Isso leva {costs}."),
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::gui::session::{Finding, Prepared};
-use crate::language::say;
+use crate::language::{Language, say};
 use crate::picture::{Frame, Quality, Size};
 use crate::scene::Opened;
 use crate::study::accuracy::{Point, Reference, best_within, combinations, fastest_within, front};
@@ -128,7 +128,7 @@ impl AccuracyFindings {
     }
 
     /// What a chart shows of it.
-    pub fn tradeoff(&self, chosen: Option<usize>) -> Tradeoff {
+    pub fn tradeoff(&self, chosen: Option<usize>, language: Language) -> Tradeoff {
         let shown = (0..self.count()).filter_map(|place| self.point(place));
         let (width, height) = (self.whole.width(), self.whole.height());
         Tradeoff {
@@ -138,6 +138,7 @@ impl AccuracyFindings {
             present: Some(Self::PRESENT),
             chosen,
             time: say!(
+                language,
                 "CPU seconds on one core, for {width} × {height} pixels",
                 "segundos de CPU num núcleo, para {width} × {height} pixels"
             ),
@@ -145,17 +146,24 @@ impl AccuracyFindings {
     }
 
     /// How far the measurement is, in words.
-    pub fn progress(&self) -> String {
+    pub fn progress(&self, language: Language) -> String {
         let (points, all) = (self.count(), self.qualities.len());
         let (begun, steps) = (self.begun.max(1), Reference::STEPS);
         match (&self.over, &self.reference) {
-            (Some(Ok(())), _) => say!("{points} points", "{points} pontos"),
-            (Some(Err(why)), _) => say!("This could not be measured: {why}", "Isto não pôde ser medido: {why}"),
-            (None, None) => {
-                say!("What pictures are compared with: {begun} of {steps}", "Imagem de comparação: {begun} de {steps}")
+            (Some(Ok(())), _) => say!(language, "{points} points", "{points} pontos"),
+            (Some(Err(why)), _) => {
+                say!(language, "This could not be measured: {why}", "Isto não pôde ser medido: {why}")
             }
-            (None, Some(_)) if points < all => say!("{points} of {all} points", "{points} de {all} pontos"),
+            (None, None) => {
+                say!(
+                    language,
+                    "What pictures are compared with: {begun} of {steps}",
+                    "Imagem de comparação: {begun} de {steps}"
+                )
+            }
+            (None, Some(_)) if points < all => say!(language, "{points} of {all} points", "{points} de {all} pontos"),
             (None, Some(_)) => say!(
+                language,
                 "{points} points; their times are measured once more",
                 "{points} pontos; seus tempos são medidos mais uma vez"
             ),
@@ -221,10 +229,11 @@ mod tests {
 
     #[test]
     fn times_are_those_of_the_whole_picture_and_limits_too() {
+        let language = Language::English;
         let found = findings(&[(1.0, 0.1), (2.0, 0.05), (3.0, 0.2)]);
         assert_eq!(found.time(1), Duration::from_secs(8));
-        assert_eq!(found.tradeoff(None).points, [(4.0, 0.1), (8.0, 0.05), (12.0, 0.2)]);
-        assert_eq!(found.tradeoff(None).front, [0, 1]);
+        assert_eq!(found.tradeoff(None, language).points, [(4.0, 0.1), (8.0, 0.05), (12.0, 0.2)]);
+        assert_eq!(found.tradeoff(None, language).front, [0, 1]);
         let chosen = [Choice::Time(3.9), Choice::Time(4.1), Choice::Time(100.0)].map(|choice| found.chosen(choice));
         assert_eq!(chosen, [None, Some(0), Some(1)]);
         let chosen = [Choice::Error(0.04), Choice::Error(0.06), Choice::Error(0.3)].map(|choice| found.chosen(choice));
@@ -234,17 +243,18 @@ mod tests {
 
     #[test]
     fn how_far_it_is_only_grows_and_is_told() {
+        let language = Language::English;
         let opened = Arc::new(Opened::new("csg-primer").unwrap());
         let mut found = AccuracyFindings::new(&opened, size(64, 48), Quality::default());
         found.take(Finding::Begun(2));
-        assert_eq!(found.progress(), "What pictures are compared with: 2 of 6");
+        assert_eq!(found.progress(language), "What pictures are compared with: 2 of 6");
         let mut found = findings(&[(1.0, 0.1)]);
-        assert_eq!(found.progress(), format!("1 of {} points", found.qualities.len()));
+        assert_eq!(found.progress(language), format!("1 of {} points", found.qualities.len()));
         let before = found.share();
         let known = found.point(0).unwrap();
         found.take(Finding::Point(0, Point { cpu_s: 0.5, ..known }, None));
         assert!(before >= 0.5 && found.share() > before && found.time(0) == Duration::from_secs(2));
         found.take(Finding::Over(Err("no memory".into())));
-        assert_eq!((found.progress(), found.share()), ("This could not be measured: no memory".into(), 1.0));
+        assert_eq!((found.progress(language), found.share()), ("This could not be measured: no memory".into(), 1.0));
     }
 }

@@ -11,7 +11,7 @@ use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{self, Emphasis, button};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::view::{measured_lines, needs_lines, needs_warnings, quality_lines, quality_words};
 use choosing::QualityChoice;
 use findings::{AccuracyFindings, Choice};
@@ -69,6 +69,7 @@ impl Accuracy {
 
     /// Shows the page.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         let mut asked = self.heading(ui, session, look);
         if session.is_recorded() {
@@ -77,7 +78,11 @@ impl Accuracy {
         } else if self.keep_up(session) {
             asked = self.content(ui, session, look).or(asked);
         } else {
-            note(ui, word!("The scene is being read and compiled …", "A cena está sendo lida e compilada …"), look);
+            note(
+                ui,
+                word!(language, "The scene is being read and compiled …", "A cena está sendo lida e compilada …"),
+                look,
+            );
         }
         match asked {
             Some(AccuracyAction::Close) => self.close(session),
@@ -115,32 +120,33 @@ impl Accuracy {
 
     /// What the page is about, how far it is, and the way out.
     fn heading(&self, ui: &mut Ui, session: &Session, look: Look) -> Option<AccuracyAction> {
+        let language = session.language();
         let mut asked = None;
         ui.horizontal(|ui| {
-            let title = word!("Speed against accuracy", "Velocidade e precisão");
+            let title = word!(language, "Speed against accuracy", "Velocidade e precisão");
             ui.label(RichText::new(title).font(theme::strong(theme::LARGE)).color(look.text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let close = word!("Close accuracy", "Fechar precisão");
+                let close = word!(language, "Close accuracy", "Fechar precisão");
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     asked = Some(AccuracyAction::Close);
                 }
                 let Some(findings) = self.findings.as_ref().filter(|_| !session.is_recorded()) else { return };
                 let failed = matches!(findings.over, Some(Err(_)));
-                let again = word!("Try again", "Tentar de novo");
+                let again = word!(language, "Try again", "Tentar de novo");
                 if failed && button(ui, Some(Icon::Restart), again, true, Emphasis::Primary).clicked() {
                     asked = Some(AccuracyAction::Again);
                 }
                 if findings.over.is_none() {
                     let bar = ProgressBar::new(findings.share()).desired_width(20.0 * GRID).desired_height(0.75 * GRID);
                     let bar = ui.add(bar.fill(look.accent));
-                    let share = decimal(findings.share().into(), 2);
+                    let share = decimal(language, findings.share().into(), 2);
                     bar.widget_info(|| {
-                        let words = say!("{share} measured", "{share} medido");
+                        let words = say!(language, "{share} measured", "{share} medido");
                         WidgetInfo::labeled(egui::Role::ProgressIndicator, true, words)
                     });
                 }
                 let colour = if failed { look.trouble } else { look.quiet };
-                let text = RichText::new(findings.progress()).font(theme::regular(theme::BODY)).color(colour);
+                let text = RichText::new(findings.progress(language)).font(theme::regular(theme::BODY)).color(colour);
                 ui.add(Label::new(text).truncate());
             });
         });
@@ -148,6 +154,7 @@ impl Accuracy {
     }
 
     fn content(&mut self, ui: &mut Ui, session: &mut Session, look: Look) -> Option<AccuracyAction> {
+        let language = session.language();
         const GAP: f32 = 3.0 * GRID;
         let height = ui.available_height();
         let mut asked = None;
@@ -165,7 +172,7 @@ impl Accuracy {
                 ui.vertical(|ui| {
                     ui.set_width(right);
                     ui.spacing_mut().item_spacing.x = GRID;
-                    self.looking(ui, height, look);
+                    self.looking(ui, height, look, language);
                 });
             });
         });
@@ -174,14 +181,15 @@ impl Accuracy {
 
     /// The chart, and below it how to choose.
     fn choosing(&mut self, ui: &mut Ui, session: &mut Session, height: f32, look: Look) -> Option<AccuracyAction> {
+        let language = session.language();
         let findings = self.findings.as_ref()?;
         let choice = self.choice.unwrap_or(Choice::Place(AccuracyFindings::PRESENT));
         let chosen = findings.chosen(choice);
         let size = vec2(ui.available_width(), (height - choosing::HEIGHT).max(45.0 * GRID));
-        if let Some(place) = chart(ui, findings, chosen, size, look) {
+        if let Some(place) = chart(ui, findings, chosen, size, look, language) {
             self.choice = Some(Choice::Place(place));
         }
-        match choosing::show(ui, findings, choice, chosen, look)? {
+        match choosing::show(ui, findings, choice, chosen, look, language)? {
             QualityChoice::Choice(choice) => self.choice = Some(choice),
             QualityChoice::Take(quality) => {
                 session.change(crate::gui::settings::undo::Gesture::Once, |settings| settings.quality = quality);
@@ -192,16 +200,16 @@ impl Accuracy {
     }
 
     /// The picture of what is chosen, and what the scene needs.
-    fn looking(&mut self, ui: &mut Ui, height: f32, look: Look) {
+    fn looking(&mut self, ui: &mut Ui, height: f32, look: Look, language: Language) {
         let Some(findings) = &self.findings else { return };
         let chosen = findings.chosen(self.choice.unwrap_or(Choice::Place(AccuracyFindings::PRESENT)));
         if let (Some(place), Some(reference)) = (chosen, &findings.reference)
             && let Some(frame) = findings.frames.get(place)
         {
-            self.pictures.show(ui, (findings.job, place), frame, &reference.picture, 0.66 * height);
+            self.pictures.show(ui, (findings.job, place), frame, &reference.picture, 0.66 * height, language);
             ui.add_space(GRID);
         }
-        needs(ui, findings, look);
+        needs(ui, findings, look, language);
     }
 }
 
@@ -212,13 +220,15 @@ fn chart(
     chosen: Option<usize>,
     size: egui::Vec2,
     look: Look,
+    language: Language,
 ) -> Option<usize> {
-    let name = word!("Chart of time and error", "Gráfico de tempo e erro");
+    let name = word!(language, "Chart of time and error", "Gráfico de tempo e erro");
     /// Whoever points so near to a point means it.
     const NEAR: f32 = 2.0 * GRID;
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     if findings.count() == 0 {
         let words = word!(
+            language,
             "First a picture is traced that is as good as true. Then points appear here, one for each quality: \
              the farther to the left the faster, the lower the better. The run stands still meanwhile, since one \
              would disturb the other.",
@@ -233,8 +243,8 @@ fn chart(
         widgets::describe(&response, name, || words.into());
         return None;
     }
-    widgets::describe(&response, name, || findings.progress());
-    let drawn = findings.tradeoff(chosen).drawn(rect.size().into());
+    widgets::describe(&response, name, || findings.progress(language));
+    let drawn = findings.tradeoff(chosen, language).drawn(rect.size().into(), language);
     paint(&ui.painter_at(rect), rect.min, &drawn.marks, &Inks { look, nodes: &[] });
     let mut clicked = None;
     for (place, at) in drawn.places.iter().enumerate() {
@@ -243,9 +253,9 @@ fn chart(
         let response = ui.interact(near, ui.scope_id().with(("point", place)), Sense::click());
         let which = place + 1;
         response.widget_info(|| {
-            let name = say!("Point {which}", "Ponto {which}");
+            let name = say!(language, "Point {which}", "Ponto {which}");
             let mut info = WidgetInfo::selected(egui::Role::Button, true, chosen == Some(place), name);
-            info.current_text_value = Some(quality_words(&point.quality));
+            info.current_text_value = Some(quality_words(&point.quality, language));
             info
         });
         if response.hovered() || response.has_focus() {
@@ -256,11 +266,14 @@ fn chart(
         }
         response.on_hover_ui(|ui| {
             let is_set = place == AccuracyFindings::PRESENT;
-            let title =
-                if is_set { word!("What is set now", "O ajuste atual") } else { word!("A quality", "Uma qualidade") };
-            let mut lines = quality_lines(&point.quality);
+            let title = if is_set {
+                word!(language, "What is set now", "O ajuste atual")
+            } else {
+                word!(language, "A quality", "Uma qualidade")
+            };
+            let mut lines = quality_lines(&point.quality, language);
             let measured = findings.frames[place].size();
-            lines.extend(measured_lines(findings.time(place), findings.whole, &point.difference, measured));
+            lines.extend(measured_lines(findings.time(place), findings.whole, &point.difference, measured, language));
             widgets::more_words(ui, title, &lines, look);
         });
     }
@@ -268,14 +281,14 @@ fn chart(
 }
 
 /// A quiet column: what the scene at hand needs.
-fn needs(ui: &mut Ui, findings: &AccuracyFindings, look: Look) {
+fn needs(ui: &mut Ui, findings: &AccuracyFindings, look: Look, language: Language) {
     const WHAT: f32 = 12.0 * GRID;
     let Some((compiled, levels)) = &findings.needs else { return };
-    let title = word!("What this scene needs", "O que esta cena pede");
+    let title = word!(language, "What this scene needs", "O que esta cena pede");
     ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
     let small = |text: &str, colour| RichText::new(text).font(theme::regular(theme::SMALL)).color(colour);
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
-    for (what, words) in needs_lines(compiled, levels) {
+    for (what, words) in needs_lines(compiled, levels, language) {
         let galley =
             |text: String, colour, width| ui.painter().layout(text, theme::regular(theme::SMALL), colour, width);
         let words = galley(words, look.text, ui.available_width() - WHAT);
@@ -287,19 +300,21 @@ fn needs(ui: &mut Ui, findings: &AccuracyFindings, look: Look) {
         ui.painter().galley(line.min, what, look.quiet);
         ui.painter().galley(line.min + vec2(WHAT, 0.0), words, look.text);
     }
-    for warning in needs_warnings(compiled) {
+    for warning in needs_warnings(compiled, language) {
         ui.add(Label::new(small(&warning, look.trouble)).wrap());
     }
 }
 
 /// Of a recorded run nothing is measured.
 fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
+    let language = session.language();
     let text = word!(
+        language,
         "This is a recorded run. Made live, its scene can be measured, and other settings tried.",
         "Esta é uma execução gravada. Ao vivo, sua cena pode ser medida, e outros ajustes, testados."
     );
     note(ui, text, look);
-    if button(ui, None, word!("Make it live", "Executar ao vivo"), true, Emphasis::Primary).clicked() {
+    if button(ui, None, word!(language, "Make it live", "Executar ao vivo"), true, Emphasis::Primary).clicked() {
         session.make_live();
     }
 }

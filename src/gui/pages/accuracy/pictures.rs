@@ -5,7 +5,7 @@ use egui::{EventFilter, WidgetInfo, pos2, vec2};
 
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{self, choice};
-use crate::language::{comma, say, word};
+use crate::language::{Language, comma, say, word};
 use crate::palette::Rgb;
 use crate::picture::{Frame, srgb8};
 use crate::view::{ERRORS, false_colours, place_of_error, ramp};
@@ -44,21 +44,30 @@ const AROUND: f32 = 10.0 * GRID;
 
 impl PointPictures {
     /// Shows the picture of a point, no higher than `height` with all that belongs to it; `of` tells it from others.
-    pub fn show(&mut self, ui: &mut Ui, of: (u64, usize), picture: &Frame, reference: &Frame, height: f32) {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        of: (u64, usize),
+        picture: &Frame,
+        reference: &Frame,
+        height: f32,
+        language: Language,
+    ) {
         let look = Look::of(ui.ctx());
         let all = [
             (
                 Shown::Both,
-                word!("Beside the reference", "Com a referência"),
+                word!(language, "Beside the reference", "Com a referência"),
                 word!(
+                    language,
                     "Drag the line: left of it the chosen quality, right of it the reference",
                     "Arrastar a linha: à esquerda a qualidade escolhida, à direita a referência"
                 ),
             ),
             (
                 Shown::Difference,
-                word!("Difference", "Diferença"),
-                word!("How far each pixel is from the reference", "O quanto cada pixel difere da referência"),
+                word!(language, "Difference", "Diferença"),
+                word!(language, "How far each pixel is from the reference", "O quanto cada pixel difere da referência"),
             ),
         ];
         if let Some(shown) = choice(ui, self.shown, &all) {
@@ -75,18 +84,18 @@ impl PointPictures {
         match self.shown {
             Shown::Both => {
                 self.move_divider(ui, &response, place);
-                self.both(ui, &textures, place, look);
+                self.both(ui, &textures, place, look, language);
                 let value = f64::from(100.0 * self.divider);
-                let name = word!("Divider of the pictures", "Divisória das imagens");
+                let name = word!(language, "Divider of the pictures", "Divisória das imagens");
                 response.widget_info(|| WidgetInfo::slider(true, value, name));
                 response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
                 ui.add_space(legend_height());
             }
             Shown::Difference => {
                 whole(ui, &textures.difference, place, 0.0..1.0);
-                let name = word!("Difference from the reference", "Diferença da referência");
-                widgets::describe(&response, name, || word!("in false colour", "em cores falsas").into());
-                legend(ui, place.width(), look);
+                let name = word!(language, "Difference from the reference", "Diferença da referência");
+                widgets::describe(&response, name, || word!(language, "in false colour", "em cores falsas").into());
+                legend(ui, place.width(), look, language);
             }
         }
         self.textures = Some(textures);
@@ -108,7 +117,7 @@ impl PointPictures {
         self.divider = self.divider.clamp(0.0, 1.0);
     }
 
-    fn both(&self, ui: &Ui, textures: &Textures, place: Rect, look: Look) {
+    fn both(&self, ui: &Ui, textures: &Textures, place: Rect, look: Look, language: Language) {
         whole(ui, &textures.reference, place, 0.0..1.0);
         whole(ui, &textures.picture, place, 0.0..self.divider);
         let x = place.left() + place.width() * self.divider;
@@ -119,7 +128,7 @@ impl PointPictures {
         painter.circle(pos2(x, place.center().y), 9.0, look.accent, Stroke::new(2.0, Color32::WHITE));
         let top = place.top() + GRID;
         let [left, right] = [place.with_max_x(x), place.with_min_x(x)].map(|side| painter.with_clip_rect(side));
-        let [chosen, reference] = word!(["chosen", "reference"], ["escolhida", "referência"]);
+        let [chosen, reference] = word!(language, ["chosen", "reference"], ["escolhida", "referência"]);
         label(&left, pos2(place.left() + GRID, top), Align2::LEFT_TOP, chosen);
         label(&right, pos2(place.right() - GRID, top), Align2::RIGHT_TOP, reference);
     }
@@ -164,11 +173,11 @@ fn legend_height() -> f32 {
 }
 
 /// The ramp of errors, with some of them beside it.
-fn legend(ui: &mut Ui, width: f32, look: Look) {
+fn legend(ui: &mut Ui, width: f32, look: Look, language: Language) {
     const STEPS: usize = 64;
     let (place, response) = ui.allocate_exact_size(vec2(width, legend_height()), Sense::hover());
-    widgets::describe(&response, word!("Colours of errors", "Cores dos erros"), || {
-        word!("from 0.001 to 1, on a logarithmic scale", "de 0,001 a 1, em escala logarítmica").into()
+    widgets::describe(&response, word!(language, "Colours of errors", "Cores dos erros"), || {
+        word!(language, "from 0.001 to 1, on a logarithmic scale", "de 0,001 a 1, em escala logarítmica").into()
     });
     let bar = place.with_max_y(place.top() + GRID);
     let at = |share: f64| bar.left() + bar.width() * share as f32;
@@ -179,10 +188,12 @@ fn legend(ui: &mut Ui, width: f32, look: Look) {
     }
     let font = theme::regular(theme::SMALL);
     for (i, error) in ERRORS.into_iter().enumerate() {
-        let number = comma(error.to_string());
+        let number = comma(language, error.to_string());
         let (text, anchor) = match i {
-            0 => (say!("error {number}", "erro {number}"), Align2::LEFT_TOP),
-            _ if i + 1 == ERRORS.len() => (say!("{number} (linear light)", "{number} (luz linear)"), Align2::RIGHT_TOP),
+            0 => (say!(language, "error {number}", "erro {number}"), Align2::LEFT_TOP),
+            _ if i + 1 == ERRORS.len() => {
+                (say!(language, "{number} (linear light)", "{number} (luz linear)"), Align2::RIGHT_TOP)
+            }
             _ => (number, Align2::CENTER_TOP),
         };
         ui.painter().text(pos2(at(place_of_error(error)), bar.bottom() + 3.0), anchor, text, font.clone(), look.quiet);

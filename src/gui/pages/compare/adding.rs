@@ -11,25 +11,25 @@ use crate::gui::settings::Settings;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, named_button, popup_frame};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
 use crate::view::{change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words};
 
 /// A menu of strategies; returns what was chosen.
-pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look) -> Option<Change> {
+pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: Language) -> Option<Change> {
     if strategies.is_empty() {
         return None;
     }
     let opener = named_button(
         ui,
         None,
-        word!("Add a run", "Acrescentar uma execução"),
-        Some(word!("Add …", "Acrescentar …")),
+        word!(language, "Add a run", "Acrescentar uma execução"),
+        Some(word!(language, "Add …", "Acrescentar …")),
         Emphasis::Quiet,
     );
     let changes = strategies.iter().map(|&strategy| (Change::Strategy(strategy), false)).collect();
-    menu(&opener, |ui| row(ui, "", changes, look))
+    menu(&opener, |ui| row(ui, "", changes, look, language))
 }
 
 /// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
@@ -41,10 +41,11 @@ pub fn changes(
     now: Option<Time>,
     has_room: bool,
     look: Look,
+    language: Language,
 ) -> Option<Change> {
-    let name = say!("The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
+    let name = say!(language, "The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
     let (icon, words) =
-        if has_room { (None, Some(word!("Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
+        if has_room { (None, Some(word!(language, "Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
     let opener = named_button(ui, icon, &name, words, Emphasis::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
     menu(&opener, |ui| {
@@ -53,15 +54,15 @@ pub fn changes(
         let last = nodes.saturating_sub(1);
         let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
         let mut chosen = None;
-        for (group, changes) in possible(trial) {
-            chosen = chosen.or(row(ui, group, changes, look));
+        for (group, changes) in possible(trial, language) {
+            chosen = chosen.or(row(ui, group, changes, look, language));
         }
         ui.horizontal(|ui| {
-            heading(ui, word!("A machine", "Uma máquina"), look);
+            heading(ui, word!(language, "A machine", "Uma máquina"), look);
             let before = button(
                 ui,
                 Some(Icon::StepBack),
-                word!("The machine before", "A máquina anterior"),
+                word!(language, "The machine before", "A máquina anterior"),
                 false,
                 Emphasis::Quiet,
             );
@@ -70,8 +71,14 @@ pub fn changes(
             }
             let number = RichText::new(node_name(node as NodeId).to_string());
             ui.label(number.font(theme::strong(theme::BODY)).color(look.text));
-            if button(ui, Some(Icon::StepOn), word!("The next machine", "A próxima máquina"), false, Emphasis::Quiet)
-                .clicked()
+            if button(
+                ui,
+                Some(Icon::StepOn),
+                word!(language, "The next machine", "A próxima máquina"),
+                false,
+                Emphasis::Quiet,
+            )
+            .clicked()
             {
                 node = (node + 1) % nodes;
             }
@@ -81,11 +88,11 @@ pub fn changes(
         let speeds = [0.0, 0.01, 0.05, 0.1, 0.5, 1.0];
         let at_first = trial.header.speeds[usize::from(node)];
         let always = values(&speeds, at_first, |speed| Change::Speed(node, speed));
-        chosen = chosen.or(row(ui, word!("all along", "o tempo todo"), always, look));
+        chosen = chosen.or(row(ui, word!(language, "all along", "o tempo todo"), always, look, language));
         if let Some(now) = now {
-            let at = time_words(now, 1.0);
+            let at = time_words(now, 1.0, language);
             let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
-            chosen = chosen.or(row(ui, &say!("from {at} on", "a partir de {at}"), later, look));
+            chosen = chosen.or(row(ui, &say!(language, "from {at} on", "a partir de {at}"), later, look, language));
         }
         chosen
     })
@@ -95,7 +102,7 @@ pub fn changes(
 type Choice = (Change, bool);
 
 /// What can be changed, by what it is about.
-fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
+fn possible(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>)> {
     let header = &trial.header;
     let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
     let lacks = |remedy| (Change::Without(remedy), !header.rules.remedies.has(remedy));
@@ -111,12 +118,12 @@ fn possible(trial: &Trial) -> Vec<(&'static str, Vec<Choice>)> {
     let latencies = values(&[0, 5, 40, 200, 1000].map(ms), header.link.latency, Change::Latency);
     let handlings = values(&[0, 2, 20, 100].map(ms), header.handling, Change::Handling);
     vec![
-        (word!("Strategy", "Estratégia"), strategies.into()),
-        (word!("Without", "Sem"), remedies),
-        (word!("Machines", "Máquinas"), machines),
-        (word!("Pixels in an atom", "Pixels por átomo"), atoms),
-        (word!("A message takes", "Uma mensagem leva"), latencies),
-        (word!("The parent takes", "O pai leva"), handlings),
+        (word!(language, "Strategy", "Estratégia"), strategies.into()),
+        (word!(language, "Without", "Sem"), remedies),
+        (word!(language, "Machines", "Máquinas"), machines),
+        (word!(language, "Pixels in an atom", "Pixels por átomo"), atoms),
+        (word!(language, "A message takes", "Uma mensagem leva"), latencies),
+        (word!(language, "The parent takes", "O pai leva"), handlings),
     ]
 }
 
@@ -151,7 +158,7 @@ fn heading(ui: &mut Ui, words: &str, look: Look) {
 }
 
 /// Changes of one thing, in a line, or in two.
-fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Change> {
+fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Language) -> Option<Change> {
     let mut chosen = None;
     if !changes.is_empty() {
         ui.horizontal_top(|ui| {
@@ -161,7 +168,7 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Cha
             // Whatever needs a second line stands below the first, not below the heading.
             ui.horizontal_wrapped(|ui| {
                 for (change, is_so) in changes {
-                    if item(ui, change, is_so, look).clicked() {
+                    if item(ui, change, is_so, look, language).clicked() {
                         chosen = Some(change);
                     }
                 }
@@ -172,25 +179,27 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look) -> Option<Cha
 }
 
 /// Says only what its row does not say.
-fn short(change: Change) -> String {
+fn short(change: Change, language: Language) -> String {
     match change {
         Change::Nodes(nodes) => nodes.to_string(),
         Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
         Change::Atom(pixels) => count(pixels),
-        Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!("no time", "nada").to_owned(),
-        Change::Latency(time) | Change::Handling(time) => duration(time),
-        Change::Without(remedy) => remedy_name(remedy).to_owned(),
-        Change::Strategy(_) | Change::Equal => change_words(change),
+        Change::Latency(time) | Change::Handling(time) if time.is_zero() => {
+            word!(language, "no time", "nada").to_owned()
+        }
+        Change::Latency(time) | Change::Handling(time) => duration(time, language),
+        Change::Without(remedy) => remedy_name(remedy, language).to_owned(),
+        Change::Strategy(_) | Change::Equal => change_words(change, language),
     }
 }
 
 /// A change to press; what is so already only stands out.
-fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look) -> Response {
-    let galley = ui.painter().layout_no_wrap(short(change), theme::regular(theme::BODY), look.text);
+fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look, language: Language) -> Response {
+    let galley = ui.painter().layout_no_wrap(short(change, language), theme::regular(theme::BODY), look.text);
     let sense = if is_so { Sense::hover() } else { Sense::click() };
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), sense);
-    let (role, now) = if is_so { (Role::Label, word!(", now", ", agora")) } else { (Role::Button, "") };
-    response.widget_info(|| WidgetInfo::labeled(role, true, change_words(change) + now));
+    let (role, now) = if is_so { (Role::Label, word!(language, ", now", ", agora")) } else { (Role::Button, "") };
+    response.widget_info(|| WidgetInfo::labeled(role, true, change_words(change, language) + now));
     if is_so {
         let stroke = Stroke::new(1.5, look.accent);
         ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 2.0)), 6.0, stroke, StrokeKind::Inside);
@@ -200,8 +209,8 @@ fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look) -> Response {
     let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(place, galley, look.text);
     match change {
-        Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy)),
-        _ if is_so => response.on_hover_text(word!("As it is now", "Como está agora")),
+        Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy, language)),
+        _ if is_so => response.on_hover_text(word!(language, "As it is now", "Como está agora")),
         _ => response,
     }
 }

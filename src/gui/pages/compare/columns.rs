@@ -9,7 +9,7 @@ use super::{CompareColumn, MOST, adding};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::sim::Change;
 use crate::time::Time;
 use crate::view::{ComparedRun, Layer, duration, fraction, percent};
@@ -41,6 +41,7 @@ pub fn show(
     length: Time,
     (pair, below): (&mut [usize; 2], f32),
     look: Look,
+    language: Language,
 ) -> Option<ColumnAction> {
     let gap = 2.0 * GRID;
     let count = entries.len().max(1) as f32;
@@ -61,15 +62,15 @@ pub fn show(
         let column = Rect::from_min_size(pos2(left, area.top()), vec2(wide, ABOVE + high + BELOW));
         let chosen = pair.iter().position(|&one| one == place);
         let row = column.with_max_y(column.top() + ABOVE - 0.5 * GRID);
-        asked = asked.or(heading(ui, row, (place, entry), (many, is_full, now), chosen.is_some(), look));
+        asked = asked.or(heading(ui, row, (place, entry), (many, is_full, now), chosen.is_some(), look, language));
         let frame = Rect::from_min_size(pos2(left, column.top() + ABOVE), vec2(wide, high));
-        let response = picture(ui, frame, (place, entry), chosen.is_some(), look);
+        let response = picture(ui, frame, (place, entry), chosen.is_some(), look, language);
         if response.clicked() && chosen.is_none() {
             // The one that was chosen last stays.
             *pair = [pair[1], place];
         }
         let below = Rect::from_min_size(frame.left_bottom(), vec2(wide, BELOW));
-        bar(ui, below, entry.contender.as_deref(), now, length, look);
+        bar(ui, below, entry.contender.as_deref(), now, length, look, language);
     }
     ui.allocate_rect(Rect::from_min_size(area.min, vec2(area.width(), ABOVE + high + BELOW)), Sense::hover());
     asked
@@ -83,6 +84,7 @@ fn heading(
     (can_go, is_full, now): (bool, bool, Time),
     is_chosen: bool,
     look: Look,
+    language: Language,
 ) -> Option<ColumnAction> {
     let mut asked = None;
     let end = entry.contender.as_ref().and_then(|run| run.end());
@@ -91,11 +93,13 @@ fn heading(
     ui.scope_builder(UiBuilder::new().max_rect(row).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
         let letter = letter(place);
-        let remove = say!("Take {letter} away", "Retirar {letter}");
+        let remove = say!(language, "Take {letter} away", "Retirar {letter}");
         if can_go && button(ui, Some(Icon::Close), &remove, false, Emphasis::Quiet).clicked() {
             asked = Some(ColumnAction::Remove(place));
         }
-        if !is_full && let Some(change) = adding::changes(ui, letter, &entry.trial, fork_at, row.width() > WIDE, look) {
+        if !is_full
+            && let Some(change) = adding::changes(ui, letter, &entry.trial, fork_at, row.width() > WIDE, look, language)
+        {
             asked = Some(ColumnAction::Fork(place, change));
         }
         let left = Layout::left_to_right(Align::Center);
@@ -106,7 +110,7 @@ fn heading(
             let colour = if is_chosen { look.on_accent } else { look.text };
             let font = theme::strong(theme::BODY);
             ui.painter().text(chip.center(), egui::Align2::CENTER_CENTER, letter, font, colour);
-            name(ui, &entry.name(), look);
+            name(ui, &entry.name(language), look);
         });
     });
     asked
@@ -134,11 +138,12 @@ fn picture(
     (place, entry): (usize, &mut CompareColumn),
     is_chosen: bool,
     look: Look,
+    language: Language,
 ) -> Response {
     let response = ui.interact(frame, ui.scope_id().with(("contender", entry.id)), Sense::click());
     ui.painter().rect_filled(frame, 0.0, look.raised);
     let letter = letter(place);
-    let hint = word!("Click: why does it differ from the other?", "Clique: por que difere da outra?");
+    let hint = word!(language, "Click: why does it differ from the other?", "Clique: por que difere da outra?");
     if let Some(contender) = &mut entry.contender {
         let ground = theme::rgb(look.ground);
         let canvas = contender.canvas((Layer::Owners, 0.6), ground);
@@ -154,7 +159,8 @@ fn picture(
         response.widget_info(|| {
             let name = &contender.name;
             let share = percent(done, all);
-            let words = say!("{letter}, {name}: {share} of the picture", "{letter}, {name}: {share} da imagem");
+            let words =
+                say!(language, "{letter}, {name}: {share} of the picture", "{letter}, {name}: {share} da imagem");
             WidgetInfo::selected(Role::Button, true, is_chosen, words)
         });
     } else {
@@ -168,7 +174,7 @@ fn picture(
 }
 
 /// How far it is, on a line that is as long as the longest run; its time once it is over.
-fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: Time, look: Look) {
+fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: Time, look: Look, language: Language) {
     let Some(contender) = contender else { return };
     let rail = Rect::from_min_size(rect.left_top() + vec2(0.0, GRID), vec2(rect.width(), 6.0));
     let x = |time: Time| rail.left() + rail.width() * (time.secs() / length.secs().max(f64::MIN_POSITIVE)) as f32;
@@ -183,14 +189,14 @@ fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: 
     let state = &contender.moment().state;
     let is_over = end.is_some_and(|end| now >= end);
     let (first, colour) = match &contender.account {
-        Some(account) if is_over => (duration(account.makespan), look.text),
-        None if now >= length => (word!("never ends", "nunca termina").to_owned(), look.trouble),
+        Some(account) if is_over => (duration(account.makespan, language), look.text),
+        None if now >= length => (word!(language, "never ends", "nunca termina").to_owned(), look.trouble),
         _ => (percent(state.done(), state.atoms()), look.quiet),
     };
     painter.text(base, egui::Align2::LEFT_TOP, first, large, colour);
     if let Some(account) = contender.account.as_ref().filter(|_| is_over) {
         let efficiency = fraction(account.efficiency());
-        let words = say!("efficiency {efficiency}", "eficiência {efficiency}");
+        let words = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
         painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, words, small, look.quiet);
     }
 }

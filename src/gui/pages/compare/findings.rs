@@ -9,7 +9,7 @@ use crate::gui::session::Growth;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{NamedBudget, TimeBudget, contrast, count, duration, fraction, spent, spent_height, spent_words};
 
@@ -53,6 +53,7 @@ impl Findings {
         now: Time,
         length: Time,
         look: Look,
+        language: Language,
     ) -> Option<Time> {
         let mut sought = None;
         let area = ui.available_rect_before_wrap();
@@ -63,23 +64,23 @@ impl Findings {
             let tabs = [
                 (
                     Tab::Lanes,
-                    word!("Timelines", "Linhas do tempo"),
-                    word!("Who did what and when", "Quem fez o quê e quando"),
+                    word!(language, "Timelines", "Linhas do tempo"),
+                    word!(language, "Who did what and when", "Quem fez o quê e quando"),
                 ),
                 (
                     Tab::Spent,
-                    word!("Where the time went", "Para onde foi o tempo"),
-                    word!("Work, waiting, messages", "Trabalho, espera, mensagens"),
+                    word!(language, "Where the time went", "Para onde foi o tempo"),
+                    word!(language, "Work, waiting, messages", "Trabalho, espera, mensagens"),
                 ),
                 (
                     Tab::Growth(Measure::Speedup),
                     "Speedup",
-                    word!("With one machine to eight", "Com uma a oito máquinas"),
+                    word!(language, "With one machine to eight", "Com uma a oito máquinas"),
                 ),
                 (
                     Tab::Growth(Measure::Efficiency),
-                    word!("Efficiency", "Eficiência"),
-                    word!("With one machine to eight", "Com uma a oito máquinas"),
+                    word!(language, "Efficiency", "Eficiência"),
+                    word!(language, "With one machine to eight", "Com uma a oito máquinas"),
                 ),
             ];
             if let Some(tab) = widgets::choice(ui, self.tab, &tabs) {
@@ -87,23 +88,23 @@ impl Findings {
             }
             ui.add_space(GRID);
             match self.tab {
-                Tab::Lanes => sought = lanes::show(ui, entries, now, length, look),
-                Tab::Spent => where_time_went(ui, entries, look),
-                Tab::Growth(measure) => growth::show(ui, growth, entries, measure, look),
+                Tab::Lanes => sought = lanes::show(ui, entries, now, length, look, language),
+                Tab::Spent => where_time_went(ui, entries, look, language),
+                Tab::Growth(measure) => growth::show(ui, growth, entries, measure, look, language),
             }
         });
-        ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look));
+        ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look, language));
         sought
     }
 
     /// Why two of them differ, and the figures of both.
-    fn why(&self, ui: &mut Ui, entries: &[CompareColumn], look: Look) {
+    fn why(&self, ui: &mut Ui, entries: &[CompareColumn], look: Look, language: Language) {
         let known = |place: usize| {
             let contender = entries.get(place)?.contender.as_ref()?;
             Some((letter(place), contender))
         };
         let (Some((a, one)), Some((b, other))) = (known(self.pair[0]), known(self.pair[1])) else { return };
-        let heading = say!("{a} and {b}: why they differ", "{a} e {b}: por que diferem");
+        let heading = say!(language, "{a} and {b}: why they differ", "{a} e {b}: por que diferem");
         ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
@@ -111,10 +112,12 @@ impl Findings {
                 (Some(first), Some(second)) => contrast(
                     NamedBudget { name: &one.name, account: first },
                     NamedBudget { name: &other.name, account: second },
+                    language,
                 ),
                 _ => {
                     let name = if one.account.is_none() { &one.name } else { &other.name };
                     say!(
+                        language,
                         "{name} never ends: a machine that stands still keeps its atoms.",
                         "{name} nunca termina: uma máquina parada fica com seus átomos."
                     )
@@ -122,42 +125,47 @@ impl Findings {
             };
             ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
             ui.add_space(GRID);
-            figures(ui, [(a, one.account.as_ref()), (b, other.account.as_ref())], look);
+            figures(ui, [(a, one.account.as_ref()), (b, other.account.as_ref())], look, language);
         });
     }
 }
 
 /// A row a figure, a column a run.
-fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look) {
+fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, language: Language) {
     /// What it is called, what it is, and how much.
-    type Figure = ([&'static str; 2], fn(&TimeBudget) -> String);
+    type Figure = ([&'static str; 2], fn(&TimeBudget, Language) -> String);
     let all: [Figure; 7] = [
-        (word!(["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]), |account| {
-            duration(account.makespan)
-        }),
+        (
+            word!(language, ["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]),
+            |account, language| duration(account.makespan, language),
+        ),
         (
             word!(
+                language,
                 ["shared perfectly", "Had all machines worked until the end"],
                 ["divisão perfeita", "Se todas as máquinas trabalhassem até o fim"]
             ),
-            |account| duration(account.ideal),
+            |account, language| duration(account.ideal, language),
         ),
         (
             word!(
+                language,
                 ["efficiency", "The time if it were shared perfectly, over the time"],
                 ["eficiência", "O tempo da divisão perfeita sobre o tempo"]
             ),
-            |account| fraction(account.efficiency()),
+            |account, _| fraction(account.efficiency()),
         ),
         (
             word!(
+                language,
                 ["messages to share", "Bands, requests, parts, offers and atoms given away"],
                 ["mensagens de divisão", "Faixas, pedidos, partes, ofertas e átomos cedidos"]
             ),
-            |account| count(account.messages.sharing() as u32),
+            |account, _| count(account.messages.sharing() as u32),
         ),
         (
             word!(
+                language,
                 [
                     "messages with results",
                     "What a machine has traced goes to the parent in small batches, so that one sees the picture grow. A slow \
@@ -169,18 +177,23 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look) {
                      uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
                 ]
             ),
-            |account| count(account.messages.results as u32),
-        ),
-        (
-            word!(["atoms given away", "From one machine to another"], ["átomos cedidos", "De uma máquina a outra"]),
-            |account| count(account.messages.atoms_moved as u32),
+            |account, _| count(account.messages.results as u32),
         ),
         (
             word!(
+                language,
+                ["atoms given away", "From one machine to another"],
+                ["átomos cedidos", "De uma máquina a outra"]
+            ),
+            |account, _| count(account.messages.atoms_moved as u32),
+        ),
+        (
+            word!(
+                language,
                 ["alone at the end", "While only one machine still traced"],
                 ["sozinha no fim", "Enquanto só uma máquina ainda calculava"]
             ),
-            |account| duration(account.last.alone),
+            |account, language| duration(account.last.alone, language),
         ),
     ];
     let font = theme::regular(theme::SMALL);
@@ -198,21 +211,24 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look) {
     };
     row(ui, "", runs.map(|(letter, _)| letter.to_string()));
     for ([name, hint], of) in all {
-        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), of))).on_hover_text(hint);
+        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), |account| of(account, language))))
+            .on_hover_text(hint);
     }
 }
 
 /// Bars of what the machines' time was spent on.
-fn where_time_went(ui: &mut Ui, entries: &[CompareColumn], look: Look) {
+fn where_time_went(ui: &mut Ui, entries: &[CompareColumn], look: Look, language: Language) {
     let names: Vec<String> =
-        (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name())).collect();
+        (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name(language))).collect();
     let accounts = entries.iter().map(|entry| entry.contender.as_ref()?.account.as_ref());
     let runs: Vec<(&str, &TimeBudget)> =
         names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
         let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-        widgets::describe(&response, word!("Where the time went", "Para onde foi o tempo"), || spent_words(&runs));
-        paint(ui.painter(), rect.min, &spent(&runs, rect.width()), &Inks { look, nodes: &[] });
+        widgets::describe(&response, word!(language, "Where the time went", "Para onde foi o tempo"), || {
+            spent_words(&runs, language)
+        });
+        paint(ui.painter(), rect.min, &spent(&runs, rect.width(), language), &Inks { look, nodes: &[] });
     });
 }

@@ -8,7 +8,7 @@ use super::columns::letter;
 use crate::gui::session::{Growth, GrowthPoint};
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::palette::{DISTINCT, node_colours};
 use crate::study::article_over_ideal;
 use crate::view::{Axis, Hue, LEAST_HIGH, LineChart, Series, Sharing, Style, TimeBudget, fraction, series_hue};
@@ -23,20 +23,28 @@ pub enum Measure {
 }
 
 /// Shows the curves, as soon as they are known.
-pub fn show(ui: &mut Ui, growth: Option<&Growth>, entries: &[CompareColumn], measure: Measure, look: Look) {
+pub fn show(
+    ui: &mut Ui,
+    growth: Option<&Growth>,
+    entries: &[CompareColumn],
+    measure: Measure,
+    look: Look,
+    language: Language,
+) {
     let Some(growth) = growth else {
-        let text = word!("Running with one machine to eight …", "Executando com uma a oito máquinas …");
+        let text = word!(language, "Running with one machine to eight …", "Executando com uma a oito máquinas …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
         return;
     };
-    let chart = chart(growth, entries, measure);
+    let chart = chart(growth, entries, measure, language);
     let size = vec2(ui.available_width() - GRID, ui.available_height().max(LEAST_HIGH));
     // In a low window one scrolls.
     ScrollArea::vertical().id_salt("growth").show(ui, |ui| {
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         response.widget_info(|| {
             let line = |series: &Series| {
-                let points: Vec<_> = series.points.iter().map(|(x, y)| format!("{x:.0}: {}", decimal(*y, 2))).collect();
+                let points: Vec<_> =
+                    series.points.iter().map(|(x, y)| format!("{x:.0}: {}", decimal(language, *y, 2))).collect();
                 format!("{}: {}", series.name, points.join(", "))
             };
             let lines: Vec<_> = chart.series.iter().map(line).collect();
@@ -44,16 +52,16 @@ pub fn show(ui: &mut Ui, growth: Option<&Growth>, entries: &[CompareColumn], mea
             WidgetInfo::labeled(egui::Role::Image, true, words)
         });
         let colours = node_colours(DISTINCT);
-        paint(ui.painter(), rect.min, &chart.marks(rect.size().into()), &Inks { look, nodes: &colours });
+        paint(ui.painter(), rect.min, &chart.marks(rect.size().into(), language), &Inks { look, nodes: &colours });
     });
 }
 
-fn chart(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> LineChart {
+fn chart(growth: &Growth, entries: &[CompareColumn], measure: Measure, language: Language) -> LineChart {
     let mut series = Vec::new();
     let is_speedup = measure == Measure::Speedup;
     for (i, (strategy, runs)) in growth.of.iter().enumerate() {
         let value = |run: &GrowthPoint| if is_speedup { run.speedup } else { run.efficiency };
-        let name = Sharing::By(*strategy).name();
+        let name = Sharing::By(*strategy).name(language);
         let points = runs.iter().map(|run| (run.machines as f64, value(run))).collect();
         series.push(Series { name: name.to_owned(), hue: series_hue(i), points, style: Style::Line });
         // The article has figures of equal machines, and of four with a slow fifth.
@@ -69,19 +77,19 @@ fn chart(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> LineCh
     }
     let article = series.iter().any(|series| series.style == Style::Hollow);
     let dots = beside(growth, entries, measure);
-    let note = note(article, !dots.is_empty(), entries);
+    let note = note(article, !dots.is_empty(), entries, language);
     series.extend(dots);
     let machines = match growth.slow {
-        None => word!("equal machines", "máquinas iguais").to_owned(),
+        None => word!(language, "equal machines", "máquinas iguais").to_owned(),
         Some(speed) => {
             let speed = fraction(speed);
-            say!("machines, the last of which runs at {speed}", "máquinas, a última a {speed}")
+            say!(language, "machines, the last of which runs at {speed}", "máquinas, a última a {speed}")
         }
     };
     let y = if is_speedup {
-        word!("times as fast as one machine", "vezes mais rápido que uma máquina")
+        word!(language, "times as fast as one machine", "vezes mais rápido que uma máquina")
     } else {
-        word!("ideal time / time", "tempo ideal / tempo")
+        word!(language, "ideal time / time", "tempo ideal / tempo")
     };
     LineChart {
         title: String::new(),
@@ -117,20 +125,21 @@ fn beside(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> Vec<S
 }
 
 /// What the points are that are on no curve, and what has none.
-fn note(article: bool, dots: bool, entries: &[CompareColumn]) -> String {
+fn note(article: bool, dots: bool, entries: &[CompareColumn], language: Language) -> String {
     let mut told = Vec::new();
     if article {
         told.push(
-            word!("Hollow dots: the article's measurements.", "Pontos vazados: o que o artigo mediu.").to_owned(),
+            word!(language, "Hollow dots: the article's measurements.", "Pontos vazados: o que o artigo mediu.")
+                .to_owned(),
         );
     }
     if dots {
-        told.push(word!("Letters: the runs above.", "Letras: as execuções acima.").to_owned());
+        told.push(word!(language, "Letters: the runs above.", "Letras: as execuções acima.").to_owned());
     }
     let is_endless = |entry: &CompareColumn| entry.contender.as_ref().is_some_and(|run| run.account.is_none());
     for (place, _) in entries.iter().enumerate().filter(|(_, entry)| is_endless(entry)) {
         let letter = letter(place);
-        told.push(say!("{letter} never ends, and is not here.", "{letter} nunca termina, e não está aqui."));
+        told.push(say!(language, "{letter} never ends, and is not here.", "{letter} nunca termina, e não está aqui."));
     }
     told.join(" ")
 }

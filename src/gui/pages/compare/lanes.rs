@@ -9,7 +9,7 @@ use crate::balance::NodeId;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::time::Time;
 use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, spent_words, time_words, timeline};
 
@@ -20,11 +20,19 @@ const NUMBERS: f32 = 2.5 * GRID;
 const AXIS: f32 = 2.25 * GRID;
 
 /// Shows all lanes of all runs; returns the time that somebody drags to.
-pub fn show(ui: &mut Ui, entries: &mut [CompareColumn], now: Time, length: Time, look: Look) -> Option<Time> {
+pub fn show(
+    ui: &mut Ui,
+    entries: &mut [CompareColumn],
+    now: Time,
+    length: Time,
+    look: Look,
+    language: Language,
+) -> Option<Time> {
     let mut sought = None;
     let area = ui.available_rect_before_wrap();
     let is_changed = entries.iter().any(|entry| entry.parts().next().is_some());
-    let legend = LayoutJob::simple(legend(is_changed), theme::regular(theme::SMALL), look.quiet, area.width());
+    let legend =
+        LayoutJob::simple(legend(is_changed, language), theme::regular(theme::SMALL), look.quiet, area.width());
     let legend = ui.painter().layout_job(legend);
     let foot = AXIS + legend.size().y;
     let each = ((area.height() - foot) / entries.len().max(1) as f32).min(14.0 * GRID);
@@ -32,13 +40,13 @@ pub fn show(ui: &mut Ui, entries: &mut [CompareColumn], now: Time, length: Time,
     window.fit(length);
     let bottom = area.top() + each * entries.len() as f32 - 0.5 * GRID;
     let all = Rect::from_min_max(pos2(area.left() + LETTER + NUMBERS, area.top()), pos2(area.right(), bottom));
-    seconds(ui.painter(), all, &window, look);
+    seconds(ui.painter(), all, &window, look, language);
     for (place, entry) in entries.iter_mut().enumerate() {
         let top = area.top() + each * place as f32;
         let strip = Rect::from_min_size(pos2(all.left(), top), vec2(all.width(), each - GRID));
         let at = pos2(area.left(), strip.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter(place), theme::strong(theme::BODY), look.text);
-        if let Some(share) = run(ui, strip, entry, &window, look) {
+        if let Some(share) = run(ui, strip, entry, &window, look, language) {
             sought = Some(window.at(share));
         }
     }
@@ -49,7 +57,14 @@ pub fn show(ui: &mut Ui, entries: &mut [CompareColumn], now: Time, length: Time,
 }
 
 /// The lanes of one run; returns the share of the width that somebody drags to.
-fn run(ui: &Ui, strip: Rect, entry: &mut CompareColumn, window: &TimeWindow, look: Look) -> Option<f64> {
+fn run(
+    ui: &Ui,
+    strip: Rect,
+    entry: &mut CompareColumn,
+    window: &TimeWindow,
+    look: Look,
+    language: Language,
+) -> Option<f64> {
     let parts: Vec<Time> = entry.parts().collect();
     let contender = entry.contender.as_ref()?;
     let lanes = contender.lanes.lanes().len();
@@ -83,7 +98,7 @@ fn run(ui: &Ui, strip: Rect, entry: &mut CompareColumn, window: &TimeWindow, loo
         painter.add(Shape::convex_polygon(above.into(), look.text, Stroke::NONE));
     }
     let response = ui.interact(strip, ui.scope_id().with(("lanes", entry.id)), Sense::click_and_drag());
-    widgets::describe(&response, &contender.name, || words(contender));
+    widgets::describe(&response, &contender.name, || words(contender, language));
     let at = response.interact_pointer_pos()?;
     Some(f64::from(((at.x - strip.left()) / strip.width()).clamp(0.0, 1.0)))
 }
@@ -99,31 +114,32 @@ fn numbers(painter: &Painter, strip: Rect, plan: &TimelineLayout, look: Look) {
 }
 
 /// Seconds below all lanes, and hairlines through them.
-fn seconds(painter: &Painter, all: Rect, window: &TimeWindow, look: Look) {
+fn seconds(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, language: Language) {
     let (times, rate) = axis(window, all.width());
     for time in times {
         let x = all.left() + all.width() * window.share(time) as f32;
         painter.line_segment([pos2(x, all.top()), pos2(x, all.bottom() + 3.0)], Stroke::new(1.0, look.hairline));
-        let words = painter.layout_no_wrap(time_words(time, rate), theme::regular(theme::SMALL), look.quiet);
+        let words = painter.layout_no_wrap(time_words(time, rate, language), theme::regular(theme::SMALL), look.quiet);
         let left = (x - words.size().x / 2.0).clamp(all.left(), (all.right() - words.size().x).max(all.left()));
         painter.galley(pos2(left, all.bottom() + 2.0), words, look.quiet);
     }
 }
 
-fn words(contender: &ComparedRun) -> String {
-    contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)]))
+fn words(contender: &ComparedRun, language: Language) -> String {
+    contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)], language))
 }
 
 /// What is to be seen; of changes only if there are any.
-fn legend(is_changed: bool) -> String {
+fn legend(is_changed: bool, language: Language) -> String {
     let mut told = word!(
+        language,
         "Bars: tracing. Thin: asking, or done. Across: atoms given away; fainter: offers. Upright: complete.",
         "Barras: calculando. Finas: pedindo, ou pronta. Através: átomos cedidos; mais fracas: ofertas. Em pé: imagem \
          pronta."
     )
     .to_owned();
     if is_changed {
-        told += word!(" Dashed: a machine changed.", " Tracejada: uma máquina mudada.");
+        told += word!(language, " Dashed: a machine changed.", " Tracejada: uma máquina mudada.");
     }
     told
 }

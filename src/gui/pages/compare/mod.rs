@@ -20,7 +20,7 @@ use crate::gui::session::{
 };
 use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
 use crate::view::{ComparedRun, Playback, RATES, Timeline, trial_name};
@@ -85,8 +85,8 @@ impl Default for Compare {
 }
 
 impl CompareColumn {
-    fn name(&self) -> String {
-        trial_name(self.trial.header.rules.strategy, &self.changes)
+    fn name(&self, language: Language) -> String {
+        trial_name(self.trial.header.rules.strategy, &self.changes, language)
     }
 
     /// Whether more is changed of it than who shares.
@@ -190,6 +190,7 @@ impl Compare {
 
     /// Shows the page.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         self.keep_up(session);
         let length = self.length();
@@ -201,7 +202,11 @@ impl Compare {
         self.heading(ui, session, look);
         ui.add_space(GRID);
         if self.subject.is_none() {
-            note(ui, word!("The scene is being read and compiled …", "A cena está sendo lida e compilada …"), look);
+            note(
+                ui,
+                word!(language, "The scene is being read and compiled …", "A cena está sendo lida e compilada …"),
+                look,
+            );
             return;
         }
         let now = self.time.now();
@@ -210,7 +215,7 @@ impl Compare {
         }
         if let Some(asked) = {
             let below = 2.0 * GRID + Findings::height(ui.available_height());
-            columns::show(ui, &mut self.entries, now, length, (&mut self.findings.pair, below), look)
+            columns::show(ui, &mut self.entries, now, length, (&mut self.findings.pair, below), look, language)
         } {
             self.do_with(asked, session);
         }
@@ -218,7 +223,7 @@ impl Compare {
         let area = ui.available_rect_before_wrap();
         ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
             let growth = self.growth.as_ref().and_then(|(_, growth)| growth.as_ref());
-            if let Some(time) = self.findings.show(ui, &mut self.entries, growth, now, length, look) {
+            if let Some(time) = self.findings.show(ui, &mut self.entries, growth, now, length, look, language) {
                 self.time.seek(time, true);
             }
         });
@@ -273,9 +278,10 @@ impl Compare {
 
     /// Runs what has not been run.
     fn run(&mut self, session: &mut Session) {
+        let language = session.language();
         let Some(subject) = &self.subject else { return };
         let missing = self.entries.iter().filter(|entry| entry.contender.is_none());
-        let missing = missing.map(|entry| (entry.id, entry.name(), entry.trial.clone())).collect();
+        let missing = missing.map(|entry| (entry.id, entry.name(language), entry.trial.clone())).collect();
         let known = match &self.pictured {
             Some(pictured) => PictureSource::Picture(Arc::clone(pictured)),
             None => {

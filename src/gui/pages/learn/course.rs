@@ -2,6 +2,7 @@
 
 use super::rate_for;
 use crate::gui::session::{PreparedLesson, Session};
+use crate::language::Language;
 use crate::lesson::{LowerView, Question, Step};
 use crate::time::Time;
 use crate::view::Subject;
@@ -40,8 +41,8 @@ impl LessonProgress {
     }
 
     /// What it is called.
-    pub fn title(&self) -> &str {
-        self.taught.lesson.title.spoken()
+    pub fn title(&self, language: Language) -> &str {
+        self.taught.lesson.title.in_language(language)
     }
 
     /// Which step, from 0, and how many there are.
@@ -65,8 +66,8 @@ impl LessonProgress {
     }
 
     /// What is said.
-    pub fn say(&self) -> &str {
-        self.now().say.spoken()
+    pub fn say(&self, language: Language) -> &str {
+        self.now().say.in_language(language)
     }
 
     /// What is asked, and what was answered.
@@ -75,8 +76,8 @@ impl LessonProgress {
     }
 
     /// What its claims came to, which is told only after an answer.
-    pub fn checked(&self) -> Option<String> {
-        self.now().checked_words(&self.taught.values[self.step])
+    pub fn checked(&self, language: Language) -> Option<String> {
+        self.now().checked_words(&self.taught.values[self.step], language)
     }
 
     /// Whether an answer is waited for.

@@ -15,7 +15,7 @@ use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Se
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, path_field};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
 use crate::view::Subject;
@@ -70,8 +70,8 @@ impl Learn {
     }
 
     /// How high the step of the lesson is in this width, if one is being taken.
-    pub fn height(&self, ui: &Ui, width: f32) -> Option<f32> {
-        self.course.as_ref().map(|course| panel::height(ui, width, course))
+    pub fn height(&self, ui: &Ui, width: f32, language: Language) -> Option<f32> {
+        self.course.as_ref().map(|course| panel::height(ui, width, course, language))
     }
 
     /// Whether the step of the lesson wants the timeline.
@@ -101,6 +101,7 @@ impl Learn {
 
     /// Takes in what was chosen in the system's dialog.
     pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
+        let language = session.language();
         match chosen {
             Some(path) => {
                 self.path = path.display().to_string();
@@ -109,6 +110,7 @@ impl Learn {
             None => {
                 self.trouble = Some(
                     word!(
+                        language,
                         "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
                         "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
                     )
@@ -147,6 +149,7 @@ impl Learn {
 
     /// Does what a key asks for, if it is meant for the lesson.
     pub fn handle_command(&mut self, command: UserCommand, session: &mut Session) -> bool {
+        let language = session.language();
         if self.open {
             let UserCommand::Select(number) = command else { return false };
             if let Some(lesson) = self.lessons.get(usize::from(number)) {
@@ -164,6 +167,7 @@ impl Learn {
                 if course.waits() =>
             {
                 session.note(word!(
+                    language,
                     "First answer the question: press the number of an answer, or click it",
                     "Responder antes à pergunta: pressionar o número de uma resposta, ou clicar nela"
                 ));
@@ -182,8 +186,9 @@ impl Learn {
 
     /// Shows the step of the lesson that is being taken.
     pub fn show_step(&mut self, ui: &mut Ui, session: &mut Session) {
+        let language = session.language();
         let Some(course) = &mut self.course else { return };
-        match panel::show(ui, course) {
+        match panel::show(ui, course, language) {
             Some(panel::LessonAction::Back) => course.back(session),
             Some(panel::LessonAction::Next) if course.is_over() => self.other_lessons(session),
             Some(panel::LessonAction::Next) => course.next(session),
@@ -195,18 +200,22 @@ impl Learn {
 
     /// Shows the list.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         ui.horizontal(|ui| {
-            ui.label(RichText::new(word!("Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text));
+            ui.label(
+                RichText::new(word!(language, "Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text),
+            );
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let close = word!("Close the lessons", "Fechar as lições");
+                let close = word!(language, "Close the lessons", "Fechar as lições");
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.open = false;
                 }
                 if let Some(preparing) = &self.preparing {
                     let bar = ProgressBar::new(preparing.share()).desired_width(20.0 * GRID);
                     let bar = ui.add(bar.desired_height(0.75 * GRID).fill(look.accent));
-                    let words = word!("The lesson's pictures are traced", "As imagens da lição são calculadas");
+                    let words =
+                        word!(language, "The lesson's pictures are traced", "As imagens da lição são calculadas");
                     bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, words));
                     ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
                 }
@@ -216,15 +225,15 @@ impl Learn {
         ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
             let article = self.lessons.iter().position(|lesson| adapts(lesson)).unwrap_or(self.lessons.len());
             let (first, second) = self.lessons.split_at(article);
-            let rivals = word!("The article's ring, and its rivals", "O anel do artigo, e seus rivais");
-            let adaptive = word!("The adaptive ring", "O anel adaptativo");
+            let rivals = word!(language, "The article's ring, and its rivals", "O anel do artigo, e seus rivais");
+            let adaptive = word!(language, "The adaptive ring", "O anel adaptativo");
             let chosen = if ui.available_width() < 120.0 * GRID {
-                let chosen = part(ui, rivals, (1, first), look);
-                chosen.or(part(ui, adaptive, (1 + article, second), look))
+                let chosen = part(ui, rivals, (1, first), look, language);
+                chosen.or(part(ui, adaptive, (1 + article, second), look, language))
             } else {
                 ui.columns_const(|[left, right]| {
-                    let chosen = part(left, rivals, (1, first), look);
-                    chosen.or(part(right, adaptive, (1 + article, second), look))
+                    let chosen = part(left, rivals, (1, first), look, language);
+                    chosen.or(part(right, adaptive, (1 + article, second), look, language))
                 })
             };
             if let Some(lesson) = chosen {
@@ -237,22 +246,24 @@ impl Learn {
 
     /// A lesson of one's own.
     fn other(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
-        let about = word!("A lesson of your own, a text file:", "Uma lição sua, um arquivo de texto:");
+        let language = session.language();
+        let about = word!(language, "A lesson of your own, a text file:", "Uma lição sua, um arquivo de texto:");
         ui.label(RichText::new(about).font(theme::regular(theme::BODY)).color(look.quiet));
         ui.horizontal(|ui| {
-            let hint = word!("a lesson's file, such as mine.ron", "o arquivo de uma lição, como minha.ron");
-            let name = word!("Path of a lesson", "Caminho de uma lição");
+            let hint = word!(language, "a lesson's file, such as mine.ron", "o arquivo de uma lição, como minha.ron");
+            let name = word!(language, "Path of a lesson", "Caminho de uma lição");
             let typed = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
-            let opens = button(ui, None, word!("Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
+            let opens =
+                button(ui, None, word!(language, "Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
             if (typed.entered || opens) && !self.path.trim().is_empty() {
-                match resolve(&self.path, std::env::home_dir()) {
+                match resolve(&self.path, std::env::home_dir(), language) {
                     Ok(path) => self.start(&path.to_string_lossy(), session),
                     Err(why) => self.trouble = Some(why),
                 }
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
+            if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
-                session.jobs().choose(Purpose::Learn, directory.join("lesson"));
+                session.jobs().choose(Purpose::Learn, directory.join("lesson"), language);
             }
         });
         if let Some(why) = &self.trouble {
@@ -267,14 +278,20 @@ fn adapts(lesson: &Lesson) -> bool {
 }
 
 /// Some of the lessons, of which the first has this number; returns which was chosen.
-fn part(ui: &mut Ui, heading: &str, (number, lessons): (usize, &[Arc<Lesson>]), look: Look) -> Option<Arc<Lesson>> {
+fn part(
+    ui: &mut Ui,
+    heading: &str,
+    (number, lessons): (usize, &[Arc<Lesson>]),
+    look: Look,
+    language: Language,
+) -> Option<Arc<Lesson>> {
     ui.add_space(GRID);
     ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.quiet));
     // All of them are in sight in a window of 1280 × 800.
     ui.spacing_mut().item_spacing.y = 2.0;
     let mut chosen = None;
     for (number, lesson) in (number..).zip(lessons) {
-        if line(ui, number, lesson, look) {
+        if line(ui, number, lesson, look, language) {
             chosen = Some(Arc::clone(lesson));
         }
     }
@@ -282,13 +299,13 @@ fn part(ui: &mut Ui, heading: &str, (number, lessons): (usize, &[Arc<Lesson>]), 
 }
 
 /// A lesson of the list; returns whether it was chosen.
-fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
+fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Language) -> bool {
     let wide = ui.available_width() - GRID;
     let indent = 6.0 * GRID;
-    let about = lesson.about.spoken().to_owned();
+    let about = lesson.about.in_language(language).to_owned();
     let about = ui.painter().layout(about, theme::regular(theme::BODY), look.quiet, wide - indent - GRID);
     let (rect, response) = ui.allocate_exact_size(vec2(wide, 4.75 * GRID + about.size().y), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.spoken()));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.in_language(language)));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
@@ -297,7 +314,7 @@ fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look) -> bool {
     let middle = pos2(rect.left() + 0.5 * indent, rect.center().y);
     painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);
     let title = pos2(left, rect.top() + 2.25 * GRID);
-    painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.spoken(), theme::strong(18.0), look.text);
+    painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.in_language(language), theme::strong(18.0), look.text);
     painter.galley(pos2(left, rect.top() + 3.75 * GRID), about, look.quiet);
     response.clicked()
 }

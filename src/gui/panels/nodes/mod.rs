@@ -12,7 +12,7 @@ use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{decimal, say, word};
+use crate::language::{Language, decimal, say, word};
 use crate::palette::text_on;
 use crate::view::{Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, rows};
 use row_layout::{HEAD, RowGrid, RowLayout};
@@ -26,6 +26,7 @@ pub fn height(ui: &Ui, nodes: usize) -> f32 {
 
 /// Shows all rows, in as many columns as there is room for. A click on a row selects its node.
 pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
+    let language = session.language();
     let look = Look::of(ui.ctx());
     let rows = rows(session.stage().state(), session.now());
     let grid = RowGrid::new(rows.len(), ui.available_width());
@@ -33,13 +34,18 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
         for column in 0..grid.columns {
             let corner = area.min + vec2(grid.left(column), 0.0);
-            head(ui, &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()), look);
+            head(
+                ui,
+                &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()),
+                look,
+                language,
+            );
         }
         for (i, row) in rows.iter().enumerate() {
             let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
             let places = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
             let is_lit = lit.nodes.contains(&row.node);
-            let response = background(ui, &places, row, (focus.node() == Some(row.node), is_lit), look);
+            let response = background(ui, &places, row, (focus.node() == Some(row.node), is_lit), look, language);
             if response.hovered() {
                 focus.hover(Subject::Node(row.node));
             }
@@ -54,38 +60,46 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
     });
 }
 
-fn head(ui: &Ui, places: &RowLayout, look: Look) {
+fn head(ui: &Ui, places: &RowLayout, look: Look, language: Language) {
     let y = places.row.center().y;
     let words = |x: f32, anchor, text: &str| {
         ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
     };
-    words(places.slider.left(), Align2::LEFT_CENTER, word!("speed", "velocidade"));
+    words(places.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
     if let Some(bar) = places.bar {
-        words(bar.left(), Align2::LEFT_CENTER, word!("progress", "progresso"));
+        words(bar.left(), Align2::LEFT_CENTER, word!(language, "progress", "progresso"));
     }
     let is_tight = places.rate.is_some_and(|rate| rate - places.left < 7.0 * GRID);
-    let rate = if is_tight { word!("atoms/s", "át./s") } else { word!("atoms/s", "átomos/s") };
+    let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { word!(language, "atoms/s", "átomos/s") };
     for (x, text) in [
-        (places.done, word!("done", "feitos")),
-        (Some(places.left), word!("left", "restam")),
+        (places.done, word!(language, "done", "feitos")),
+        (Some(places.left), word!(language, "left", "restam")),
         (places.rate, rate),
-        (places.idle, word!("idle", "ociosa")),
+        (places.idle, word!(language, "idle", "ociosa")),
     ] {
         if let Some(x) = x {
             words(x, Align2::RIGHT_CENTER, text);
         }
     }
-    words(places.activity, Align2::LEFT_CENTER, word!("now", "agora"));
+    words(places.activity, Align2::LEFT_CENTER, word!(language, "now", "agora"));
 }
 
 /// What lies under a row: its name for those who cannot see it, and what tells that it is selected or stands out.
-fn background(ui: &Ui, places: &RowLayout, row: &NodeRow, (selected, is_lit): (bool, bool), look: Look) -> Response {
+fn background(
+    ui: &Ui,
+    places: &RowLayout,
+    row: &NodeRow,
+    (selected, is_lit): (bool, bool),
+    look: Look,
+    language: Language,
+) -> Response {
     let name = node_name(row.node);
     let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::click());
-    widgets::describe(&response, &say!("Node {name}", "Máquina {name}"), || {
-        let selected = if selected { word!(", selected", ", selecionada") } else { "" };
-        let (done, left, does) = (row.done, row.left, activity_word(row.activity));
+    widgets::describe(&response, &say!(language, "Node {name}", "Máquina {name}"), || {
+        let selected = if selected { word!(language, ", selected", ", selecionada") } else { "" };
+        let (done, left, does) = (row.done, row.left, activity_word(row.activity, language));
         say!(
+            language,
             "{done} atoms done, {left} left, {does}{selected}",
             "átomos feitos: {done}, restantes: {left}, {does}{selected}"
         )
@@ -101,6 +115,7 @@ fn background(ui: &Ui, places: &RowLayout, row: &NodeRow, (selected, is_lit): (b
 }
 
 fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Look) {
+    let language = session.language();
     let own = session.stage().colours[usize::from(row.node)];
     let (y, colour) = (places.row.center().y, theme::colour(own));
     let painter = ui.painter();
@@ -118,11 +133,11 @@ fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Lo
     let some = |is: bool| if is { look.text } else { look.quiet };
     number(places.done, count(row.done), look.text);
     number(Some(places.left), count(row.left), some(row.left > 0));
-    number(places.rate, a_second(row.rate), some(row.rate > 0.0));
+    number(places.rate, a_second(row.rate, language), some(row.rate > 0.0));
     number(places.idle, fraction(row.idle), look.text);
     let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
     let now = pos2(places.activity, y);
-    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity), theme::regular(size), some(!calm));
+    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {
         let upto = |share: f32| bar.with_max_x(bar.left() + bar.width() * share);
         painter.rect_filled(upto(row.left_bar), 4.0, colour.gamma_multiply(0.28));
@@ -131,6 +146,7 @@ fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Lo
 }
 
 fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session, look: Look) {
+    let language = session.language();
     let name = node_name(node);
     let enabled = !session.is_recorded();
     let goes_on = enabled && session.stage().phase == Phase::Running;
@@ -140,7 +156,7 @@ fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session
     let mut percent = before;
     ui.scope_builder(at(places.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
-            let name = say!("Exact speed of node {name}", "Velocidade exata da máquina {name}");
+            let name = say!(language, "Exact speed of node {name}", "Velocidade exata da máquina {name}");
             widgets::number(ui, &mut percent, 0.0..=100.0, " %", places.speed.width(), &name);
         });
     });
@@ -150,7 +166,7 @@ fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session
     let paused = session.is_node_paused(node);
     let response = ui.interact(places.pause, ui.scope_id().with(("pause", node)), Sense::click());
     response.widget_info(|| {
-        let name = say!("Pause node {name}", "Pausar a máquina {name}");
+        let name = say!(language, "Pause node {name}", "Pausar a máquina {name}");
         egui::WidgetInfo::selected(egui::Role::Button, goes_on, paused, name)
     });
     let (icon, ink) = match (paused, response.hovered() || response.has_focus()) {
@@ -161,9 +177,9 @@ fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session
     };
     icons::paint(ui.painter(), icon, Rect::from_center_size(places.pause.center(), Vec2::splat(1.75 * GRID)), ink);
     let hint = if paused {
-        word!("Let it go on", "Retomar esta máquina")
+        word!(language, "Let it go on", "Retomar esta máquina")
     } else {
-        word!("Let this machine stand still", "Parar esta máquina")
+        word!(language, "Let this machine stand still", "Parar esta máquina")
     };
     if response.on_hover_text(hint).clicked() && goes_on {
         session.toggle_node_pause(node);
@@ -172,12 +188,13 @@ fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session
 
 /// The slider of a machine's speed.
 pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session) {
+    let language = session.language();
     let colour = theme::colour(session.stage().colours[usize::from(node)]);
     let before = (session.speed(node) * 100.0).round();
     let mut percent = before;
     ui.add_enabled_ui(!session.is_recorded(), |ui| {
         let name = node_name(node);
-        let name = say!("Speed of node {name}", "Velocidade da máquina {name}");
+        let name = say!(language, "Speed of node {name}", "Velocidade da máquina {name}");
         widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
     });
     if percent != before {
@@ -186,6 +203,6 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
 }
 
 /// Atoms a second, as exactly as can be read while it changes.
-fn a_second(rate: f64) -> String {
-    if rate > 0.0 && rate < 9.95 { decimal(rate, 1) } else { count(rate.round() as u32) }
+fn a_second(rate: f64, language: Language) -> String {
+    if rate > 0.0 && rate < 9.95 { decimal(language, rate, 1) } else { count(rate.round() as u32) }
 }

@@ -1,6 +1,6 @@
 //! What can be saved: its names, and the name of its file.
 
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::runlog::Header;
@@ -60,58 +60,73 @@ impl SaveKind {
     pub const OF_COMPARISON: [Self; 3] = [Self::Bars, Self::Rows, Self::Run];
 
     /// What it is called.
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> &'static str {
         match self {
-            Self::Render => word!("render", "imagem"),
-            Self::Owners => word!("owners", "donas"),
-            Self::Costs => word!("costs", "custos"),
-            Self::Arrival => word!("arrival", "chegada"),
-            Self::Blend => word!("blend", "mistura"),
-            Self::Large => word!("any size", "ampliada"),
-            Self::Ring => word!("ring", "anel"),
-            Self::Timeline => word!("timeline", "linha do tempo"),
-            Self::Film => word!("animation", "filme"),
-            Self::Run => word!("run", "execução"),
-            Self::Table | Self::Rows => word!("table", "tabela"),
+            Self::Render => word!(language, "render", "imagem"),
+            Self::Owners => word!(language, "owners", "donas"),
+            Self::Costs => word!(language, "costs", "custos"),
+            Self::Arrival => word!(language, "arrival", "chegada"),
+            Self::Blend => word!(language, "blend", "mistura"),
+            Self::Large => word!(language, "any size", "ampliada"),
+            Self::Ring => word!(language, "ring", "anel"),
+            Self::Timeline => word!(language, "timeline", "linha do tempo"),
+            Self::Film => word!(language, "animation", "filme"),
+            Self::Run => word!(language, "run", "execução"),
+            Self::Table | Self::Rows => word!(language, "table", "tabela"),
             Self::Chrome => "Perfetto",
-            Self::Bars => word!("bars", "barras"),
+            Self::Bars => word!(language, "bars", "barras"),
         }
     }
 
     /// What it is, in a sentence.
-    pub fn hint(self) -> &'static str {
+    pub fn hint(self, language: Language) -> &'static str {
         match self {
-            Self::Render => word!("The picture as it was traced", "A imagem como foi traçada"),
+            Self::Render => word!(language, "The picture as it was traced", "A imagem como foi traçada"),
             Self::Owners => {
-                word!("The picture in the colours of who traced it", "A imagem nas cores de quem a traçou")
+                word!(language, "The picture in the colours of who traced it", "A imagem nas cores de quem a traçou")
             }
-            Self::Costs => word!("The picture in the colours of what it cost", "A imagem nas cores do que custou"),
-            Self::Arrival => word!("The picture in the colours of when it came", "A imagem nas cores de quando chegou"),
-            Self::Blend => word!("The picture as it is blended now", "A imagem misturada como está agora"),
+            Self::Costs => {
+                word!(language, "The picture in the colours of what it cost", "A imagem nas cores do que custou")
+            }
+            Self::Arrival => {
+                word!(language, "The picture in the colours of when it came", "A imagem nas cores de quando chegou")
+            }
+            Self::Blend => word!(language, "The picture as it is blended now", "A imagem misturada como está agora"),
             Self::Large => {
                 word!(
+                    language,
                     "The picture at any size and quality, traced anew",
                     "A imagem em qualquer tamanho e qualidade, traçada de novo"
                 )
             }
-            Self::Ring => word!("The ring as it is shown: SVG, or PNG", "O anel como está: SVG, ou PNG"),
+            Self::Ring => word!(language, "The ring as it is shown: SVG, or PNG", "O anel como está: SVG, ou PNG"),
             Self::Timeline => {
-                word!("The timeline of all of the run: SVG, or PNG", "A linha do tempo de toda a execução: SVG, ou PNG")
+                word!(
+                    language,
+                    "The timeline of all of the run: SVG, or PNG",
+                    "A linha do tempo de toda a execução: SVG, ou PNG"
+                )
             }
-            Self::Film => word!("The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
+            Self::Film => word!(language, "The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
             Self::Run => word!(
+                language,
                 "All records of the run, to be played again",
                 "Todos os registros da execução, para vê-la de novo"
             ),
-            Self::Table => word!("All records of the run: CSV", "Todos os registros da execução: CSV"),
+            Self::Table => word!(language, "All records of the run: CSV", "Todos os registros da execução: CSV"),
             Self::Chrome => {
-                word!("What each machine did, for ui.perfetto.dev", "O que cada máquina fez, para ui.perfetto.dev")
+                word!(
+                    language,
+                    "What each machine did, for ui.perfetto.dev",
+                    "O que cada máquina fez, para ui.perfetto.dev"
+                )
             }
             Self::Bars => word!(
+                language,
                 "Where the time of the compared runs went: SVG, or PNG",
                 "Para onde foi o tempo das execuções comparadas: SVG, ou PNG"
             ),
-            Self::Rows => word!("A row for each compared run: CSV", "Uma linha por execução comparada: CSV"),
+            Self::Rows => word!(language, "A row for each compared run: CSV", "Uma linha por execução comparada: CSV"),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::gui::session::{Export, Phase, Purpose, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, number, path_field};
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::output::{check_writable, is_same_file};
 use crate::picture::{Quality, Size};
 use crate::view::Layer;
@@ -98,13 +98,14 @@ impl SaveBar {
     }
 
     /// Takes in what was chosen in the system's dialog.
-    pub fn take_in(&mut self, chosen: Option<PathBuf>) {
+    pub fn take_in(&mut self, chosen: Option<PathBuf>, language: Language) {
         self.wants_focus = true;
         self.trouble = None;
         match chosen {
             Some(path) => self.path = path.display().to_string(),
             None => {
                 let trouble = word!(
+                    language,
                     "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
                     "Nenhum diálogo do sistema respondeu, ou nada foi escolhido: o caminho ainda pode ser escrito"
                 );
@@ -115,6 +116,7 @@ impl SaveBar {
 
     /// Shows the bar, and returns what else was asked for.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, subject: &SaveSubject) -> Option<UserCommand> {
+        let language = session.language();
         let look = Look::of(ui.ctx());
         let kinds = match subject {
             SaveSubject::Run(_) => &SaveKind::OF_RUN[..],
@@ -128,40 +130,47 @@ impl SaveBar {
         // In a low window a row more would leave nothing of the picture.
         let is_low = ui.ctx().content_rect().height() < 600.0;
         if !is_low {
-            self.kinds(ui, kinds);
+            self.kinds(ui, kinds, language);
         }
         match self.kind {
             SaveKind::Large => self.choose_size(ui, session, look),
-            SaveKind::Run => self.describe(ui),
+            SaveKind::Run => self.describe(ui, language),
             _ => {}
         }
         self.suggest(session);
         ui.horizontal(|ui| {
             if is_low {
-                self.list_of_kinds(ui, kinds);
+                self.list_of_kinds(ui, kinds, language);
             }
-            ui.label(quiet(word!("as", "como")));
-            let width = (ui.available_width() - word!(43.0, 47.5) * GRID).max(20.0 * GRID);
-            let name = word!("Where to save", "Onde salvar");
+            ui.label(quiet(word!(language, "as", "como")));
+            let width = (ui.available_width() - word!(language, 43.0, 47.5) * GRID).max(20.0 * GRID);
+            let name = word!(language, "Where to save", "Onde salvar");
             let field = path_field(ui, (&mut self.path, ""), width, name, &mut self.wants_focus);
             self.focused = field.focused;
             if field.changed {
                 (self.warned, self.trouble) = (None, None);
             }
-            if button(ui, None, word!("Save", "Salvar"), true, Emphasis::Primary).clicked() || field.entered {
+            if button(ui, None, word!(language, "Save", "Salvar"), true, Emphasis::Primary).clicked() || field.entered {
                 self.save(session, subject);
             }
-            if button(ui, None, word!("Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
-                let typed = resolve(&self.path, std::env::home_dir());
-                session.jobs().choose(Purpose::Save, typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)));
+            if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
+                let typed = resolve(&self.path, std::env::home_dir(), language);
+                session.jobs().choose(
+                    Purpose::Save,
+                    typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)),
+                    language,
+                );
             }
-            let copy = button(ui, None, word!("Copy picture", "Copiar imagem"), true, Emphasis::Quiet);
+            let copy = button(ui, None, word!(language, "Copy picture", "Copiar imagem"), true, Emphasis::Quiet);
             let hint = word!(
+                language,
                 "The picture as it is shown into the clipboard (Ctrl C)",
                 "A imagem como está para a área de transferência (Ctrl C)"
             );
             copies = copy.on_hover_text(hint).clicked();
-            if button(ui, Some(Icon::Close), word!("Close save", "Fechar salvar"), false, Emphasis::Quiet).clicked() {
+            if button(ui, Some(Icon::Close), word!(language, "Close save", "Fechar salvar"), false, Emphasis::Quiet)
+                .clicked()
+            {
                 self.open = false;
             }
         });
@@ -173,7 +182,7 @@ impl SaveBar {
     }
 
     /// All kinds, to be pressed at once.
-    fn kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind]) {
+    fn kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind], language: Language) {
         let quiet = Look::of(ui.ctx()).quiet;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
@@ -189,7 +198,7 @@ impl SaveBar {
                     ui.label(RichText::new(kind.format()).font(theme::regular(theme::SMALL)).color(quiet));
                 }
                 let weight = if kind == self.kind { Emphasis::On } else { Emphasis::Quiet };
-                if button(ui, None, kind.name(), true, weight).on_hover_text(kind.hint()).clicked() {
+                if button(ui, None, kind.name(language), true, weight).on_hover_text(kind.hint(language)).clicked() {
                     self.choose(kind);
                 }
             }
@@ -197,15 +206,15 @@ impl SaveBar {
     }
 
     /// The same where there is no room for them.
-    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind]) {
+    fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind], language: Language) {
         let mut chosen = self.kind;
-        let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name()).width(13.0 * GRID);
+        let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name(language)).width(13.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
             for &kind in kinds {
-                ui.selectable_value(&mut chosen, kind, kind.name()).on_hover_text(kind.hint());
+                ui.selectable_value(&mut chosen, kind, kind.name(language)).on_hover_text(kind.hint(language));
             }
         });
-        let name = word!("What to save", "O que salvar");
+        let name = word!(language, "What to save", "O que salvar");
         combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
         if chosen != self.kind {
             self.choose(chosen);
@@ -223,12 +232,15 @@ impl SaveBar {
 
     /// Size and quality of a picture that is traced anew.
     fn choose_size(&mut self, ui: &mut Ui, session: &Session, look: Look) {
+        let language = session.language();
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
         let own = own_size(session);
         let mut size = self.large_size(session);
         let twice = own.map(|side| 2 * side);
         ui.horizontal(|ui| {
-            for (name, other) in [(word!("Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))] {
+            for (name, other) in
+                [(word!(language, "Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
+            {
                 let weight = if size == other { Emphasis::On } else { Emphasis::Quiet };
                 let [width, height] = other;
                 let hint = format!("{width} × {height}");
@@ -237,17 +249,32 @@ impl SaveBar {
                 }
             }
             let [width, height] = &mut size;
-            number(ui, width, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels across", "Pixels na horizontal"));
+            number(
+                ui,
+                width,
+                1..=LONGEST_SIDE,
+                "",
+                9.0 * GRID,
+                word!(language, "Pixels across", "Pixels na horizontal"),
+            );
             ui.label(quiet("×"));
-            number(ui, height, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!("Pixels down", "Pixels na vertical"));
-            ui.label(quiet(word!("samples a pixel, n × n:", "amostras por pixel, n × n:")));
-            number(ui, &mut self.samples, 1..=16, "", 6.0 * GRID, word!("Samples a pixel", "Amostras por pixel"));
+            number(ui, height, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!(language, "Pixels down", "Pixels na vertical"));
+            ui.label(quiet(word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
+            number(
+                ui,
+                &mut self.samples,
+                1..=16,
+                "",
+                6.0 * GRID,
+                word!(language, "Samples a pixel", "Amostras por pixel"),
+            );
         });
         if size != self.large_size(session) {
             self.size = Some(size);
         }
         if !is_shape(own, size) {
             let words = word!(
+                language,
                 "Another shape than the picture's: at the sides more is seen, or less",
                 "Outro formato que o da imagem: dos lados se vê mais, ou menos"
             );
@@ -256,19 +283,20 @@ impl SaveBar {
     }
 
     /// Title and memo of a run.
-    fn describe(&mut self, ui: &mut Ui) {
+    fn describe(&mut self, ui: &mut Ui, language: Language) {
         let half = (ui.available_width() - 5.0 * GRID) / 2.0;
         ui.horizontal(|ui| {
-            let name = word!("Title of the run", "Título da execução");
+            let name = word!(language, "Title of the run", "Título da execução");
             path_field(ui, (&mut self.title, name), 0.7 * half, name, &mut false);
-            let name = word!("What is to be known of it", "O que se deve saber dela");
+            let name = word!(language, "What is to be known of it", "O que se deve saber dela");
             path_field(ui, (&mut self.memo, name), 1.3 * half, name, &mut false);
         });
     }
 
     /// Saves, unless that would replace a file and has been asked for only once.
     fn save(&mut self, session: &mut Session, subject: &SaveSubject) {
-        let path = match resolve(&self.path, std::env::home_dir()) {
+        let language = session.language();
+        let path = match resolve(&self.path, std::env::home_dir(), language) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
         };
@@ -279,6 +307,7 @@ impl SaveBar {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if opened.is_some_and(|opened| is_same_file(opened, &path)) {
             return self.trouble = Some(say!(
+                language,
                 "{name} is the scene that is open; choose another name",
                 "{name} é a cena que está aberta; escolha outro nome"
             ));
@@ -290,6 +319,7 @@ impl SaveBar {
         let warned = self.warned.take();
         if path.is_file() && warned.as_ref() != Some(&path) {
             self.trouble = Some(say!(
+                language,
                 "{name} exists; press Save again to replace it",
                 "{name} já existe; pressione Salvar outra vez para substituí-lo"
             ));
@@ -303,7 +333,7 @@ impl SaveBar {
                 session.export(path, export(runs.clone()));
             }
             (_, SaveSubject::Comparison(_)) => {
-                session.trouble(word!("No run is known yet", "Nenhuma execução é conhecida ainda"));
+                session.trouble(word!(language, "No run is known yet", "Nenhuma execução é conhecida ainda"));
             }
             (kind, &SaveSubject::Run(shown)) => self.save_run_as(kind, session, path, shown, size),
         }
@@ -359,10 +389,11 @@ fn own_size(session: &Session) -> [u32; 2] {
 }
 
 /// The path that was typed, `~` being the home directory.
-pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
+pub fn resolve(typed: &str, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
     let typed = typed.trim();
     if typed.is_empty() {
         return Err(word!(
+            language,
             "There is no path: type one, for instance ~/picture.png",
             "Falta o caminho: escreva um, por exemplo ~/imagem.png"
         )
@@ -371,6 +402,7 @@ pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
     let path = match Path::new(typed).strip_prefix("~") {
         Ok(rest) => {
             let unknown = word!(
+                language,
                 "The home directory is not known: type it instead of ~",
                 "O diretório pessoal não é conhecido: escreva-o em vez de ~"
             );
@@ -381,6 +413,7 @@ pub fn resolve(typed: &str, home: Option<PathBuf>) -> Result<PathBuf, String> {
     if path.is_dir() || typed.ends_with(std::path::is_separator) {
         let path = path.display();
         return Err(say!(
+            language,
             "{path} is a directory: add the name of a file in it",
             "{path} é um diretório: acrescente o nome de um arquivo"
         ));
@@ -394,17 +427,19 @@ mod tests {
 
     #[test]
     fn a_tilde_is_the_home_directory() {
+        let language = Language::English;
         let home = || Some(PathBuf::from("/home/somebody"));
-        assert_eq!(resolve(" ~/x.png ", home()), Ok(PathBuf::from("/home/somebody/x.png")));
-        assert_eq!(resolve("~x.png", home()), Ok(PathBuf::from("~x.png")));
-        assert_eq!(resolve("a b/x.png", None), Ok(PathBuf::from("a b/x.png")));
-        assert!(resolve("~/x.png", None).is_err_and(|why| why.contains("home directory")));
+        assert_eq!(resolve(" ~/x.png ", home(), language), Ok(PathBuf::from("/home/somebody/x.png")));
+        assert_eq!(resolve("~x.png", home(), language), Ok(PathBuf::from("~x.png")));
+        assert_eq!(resolve("a b/x.png", None, language), Ok(PathBuf::from("a b/x.png")));
+        assert!(resolve("~/x.png", None, language).is_err_and(|why| why.contains("home directory")));
     }
 
     #[test]
     fn what_is_no_file_is_refused_in_words() {
-        assert!(resolve("  ", None).is_err_and(|why| why.contains("no path")));
-        assert!(resolve(".", None).is_err_and(|why| why.contains("is a directory")));
-        assert!(resolve("pictures/", None).is_err_and(|why| why.contains("is a directory")));
+        let language = Language::English;
+        assert!(resolve("  ", None, language).is_err_and(|why| why.contains("no path")));
+        assert!(resolve(".", None, language).is_err_and(|why| why.contains("is a directory")));
+        assert!(resolve("pictures/", None, language).is_err_and(|why| why.contains("is a directory")));
     }
 }

@@ -5,16 +5,14 @@ mod recovery;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::event_sentences;
-use super::failure_sentences;
+use super::failure::Failure;
+use super::happening::Happening;
 use crate::balance::{Message, NodeId, Party};
-use crate::language::{say, word};
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
-use crate::view::text::format::{atoms_words, counted, fraction, node_name};
 use recovery::Recovery;
 
 /// The last events, the newest last.
@@ -27,7 +25,7 @@ pub(crate) struct EventLog {
 struct Told {
     at: Time,
     event: RunEvent,
-    sentence: String,
+    happening: Happening,
 }
 
 /// What events are told by, as far as a later one may join an earlier one.
@@ -77,7 +75,7 @@ impl EventLog {
         match &record.what {
             RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
                 if !self.has(&RunEvent::Bands) {
-                    self.tell(at, RunEvent::Bands, event_sentences::bands(state, band));
+                    self.tell(at, RunEvent::Bands, Happening::bands(state, band));
                 }
             }
             RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some() => {
@@ -85,7 +83,7 @@ impl EventLog {
                 // Later offers are told by what comes of them.
                 if let Some(node) = state.nodes().get(usize::from(*who)).filter(|node| node.offers == 1) {
                     let whole = node.given.atoms == 0;
-                    self.tell(at, RunEvent::Offer(*who), event_sentences::offer(state, *who, whole, done));
+                    self.tell(at, RunEvent::Offer(*who), Happening::offer(state, *who, whole, done));
                 }
             }
             RecordKind::Sent {
@@ -101,15 +99,13 @@ impl EventLog {
                 let parts = state.handed_out.count;
                 if parts.is_multiple_of(state.nodes().len() as u32) {
                     self.told.retain(|told| told.event != RunEvent::Parts);
-                    let parts = counted(parts, word!("part", "parte"));
-                    let sentence = say!("The parent has handed out {parts} so far", "O pai já distribuiu {parts}");
-                    self.tell(at, RunEvent::Parts, sentence);
+                    self.tell(at, RunEvent::Parts, Happening::PartsSoFar(parts));
                 }
             }
             RecordKind::Received { by: Party::Parent, .. } => {
-                if let Some(waiting) = jam(state, at).filter(|&waiting| !self.had_as_many(at, waiting)) {
+                if let Some(waiting) = waiting_messages(state, at).filter(|&waiting| !self.had_as_many(at, waiting)) {
                     self.take(at, |event| matches!(event, RunEvent::Jam(_)));
-                    self.tell(at, RunEvent::Jam(waiting), event_sentences::jam(state, waiting));
+                    self.tell(at, RunEvent::Jam(waiting), Happening::queue(state, waiting));
                 }
             }
             RecordKind::AtomDone { node, .. } if is_done(state, *node) => {
@@ -117,10 +113,9 @@ impl EventLog {
                     RunEvent::Done(nodes) => Some(nodes),
                     _ => None,
                 });
-                let sentence = event_sentences::done(&nodes);
-                self.tell(at, RunEvent::Done(nodes), sentence);
+                self.tell(at, RunEvent::Done(nodes.clone()), Happening::BandsDone(nodes));
             }
-            RecordKind::Estimating => self.tell(at, RunEvent::Estimating, event_sentences::estimating().into()),
+            RecordKind::Estimating => self.tell(at, RunEvent::Estimating, Happening::Estimating),
             RecordKind::SpeedSet { node, speed } => {
                 let Some(machine) = state.nodes().get(usize::from(*node)) else { return };
                 let same = |event: &RunEvent| matches!(event, RunEvent::Speed { node: other, .. } if other == node);
@@ -128,30 +123,33 @@ impl EventLog {
                     Some(RunEvent::Speed { before, .. }) => before,
                     _ => machine.speed_before,
                 };
-                let sentence = event_sentences::speed(state, *node, before, *speed);
-                self.tell(at, RunEvent::Speed { node: *node, before }, sentence);
+                let happening = Happening::speed(state, *node, before, *speed);
+                self.tell(at, RunEvent::Speed { node: *node, before }, happening);
             }
-            RecordKind::Paused { node } => self.tell(at, RunEvent::Paused, event_sentences::paused(state, *node)),
-            RecordKind::Resumed { node } => self.tell(at, RunEvent::Paused, event_sentences::resumed(state, *node)),
+            RecordKind::Paused { node } => self.tell(at, RunEvent::Paused, Happening::paused(state, *node)),
+            RecordKind::Resumed { node } => self.tell(at, RunEvent::Paused, Happening::resumed(state, *node)),
             RecordKind::LatencySet { latency } => {
                 self.take(at, |event| *event == RunEvent::Latency);
-                self.tell(at, RunEvent::Latency, event_sentences::latency(state, *latency));
+                self.tell(at, RunEvent::Latency, Happening::latency(state, *latency));
             }
             RecordKind::Retired { node } => {
                 let nodes = self.together(at, *node, |event| match event {
                     RunEvent::Retired(nodes) => Some(nodes),
                     _ => None,
                 });
-                let sentence = event_sentences::retired(state, &nodes);
-                self.tell(at, RunEvent::Retired(nodes), sentence);
+                let happening = Happening::retired(state, nodes.clone());
+                self.tell(at, RunEvent::Retired(nodes), happening);
             }
-            RecordKind::Finished => self.tell(at, RunEvent::End, event_sentences::complete().into()),
+            RecordKind::Finished => self.tell(at, RunEvent::End, Happening::Complete),
             RecordKind::Condition { node, .. } => {
-                self.tell(at, RunEvent::Condition, failure_sentences::condition(state, *node))
+                if let Some(failure) = Failure::condition(state, *node) {
+                    self.tell(at, RunEvent::Condition, Happening::Failure(failure));
+                }
             }
             RecordKind::Sent { from, to: Party::Node(to), message, .. } => self.mend(at, (*from, *to), message, state),
             RecordKind::Delayed { from, to, until } => {
-                self.tell(at, RunEvent::Condition, failure_sentences::delayed((*from, *to), until.since(at)));
+                let failure = Failure::Delayed { from: *from, to: *to, by: until.since(at) };
+                self.tell(at, RunEvent::Condition, Happening::Failure(failure));
             }
             RecordKind::Sent { .. }
             | RecordKind::Link { .. }
@@ -166,16 +164,16 @@ impl EventLog {
     }
 
     /// The events and their times, the newest last.
-    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &str)> {
-        self.told.iter().map(|told| (told.at, &*told.sentence))
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
+        self.told.iter().map(|told| (told.at, &told.happening))
     }
 
     /// What somebody did to the run last.
-    pub(crate) fn latest_by_hand(&self) -> Option<&str> {
+    pub(crate) fn latest_by_hand(&self) -> Option<&Happening> {
         let by_hand = |told: &&Told| {
             matches!(told.event, RunEvent::Speed { .. } | RunEvent::Paused | RunEvent::Latency | RunEvent::Condition)
         };
-        self.told.iter().rev().find(by_hand).map(|told| &*told.sentence)
+        self.told.iter().rev().find(by_hand).map(|told| &told.happening)
     }
 
     fn has(&self, event: &RunEvent) -> bool {
@@ -191,23 +189,8 @@ impl EventLog {
 
     fn transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
         let is_theft = state.sharing == Sharing::Stealing;
-        if atoms > SMALL && is_theft {
-            return self.tell(at, RunEvent::Transfer, event_sentences::theft(to, from, atoms));
-        }
         if atoms > SMALL {
-            let giver = node_name(from);
-            let slow =
-                state.nodes().get(usize::from(from)).filter(|node| node.runs() && event_sentences::is_slow(node));
-            let giver = slow.map_or(giver.to_string(), |node| {
-                let speed = fraction(node.speed);
-                say!("{giver}, slow at {speed},", "{giver}, lenta a {speed},")
-            });
-            let (atoms, to) = (atoms_words(atoms), node_name(to));
-            let sentence = say!(
-                "{giver} gave {atoms} to {to}, which had finished",
-                "{giver} deu {atoms} a {to}, que tinha terminado"
-            );
-            return self.tell(at, RunEvent::Transfer, sentence);
+            return self.tell(at, RunEvent::Transfer, Happening::gift(state, from, to, atoms));
         }
         let same = |event: &RunEvent| matches!(event, RunEvent::Trickle { from: other, .. } if *other == from);
         let (mut receivers, mut transfers, mut all) = match self.take(at, same) {
@@ -218,8 +201,9 @@ impl EventLog {
         if let Err(place) = receivers.binary_search(&to) {
             receivers.insert(place, to);
         }
-        let sentence = event_sentences::trickle((from, &receivers), (transfers, all), is_theft);
-        self.tell(at, RunEvent::Trickle { from, to: receivers, transfers, atoms: all }, sentence);
+        let to = receivers.clone();
+        let happening = Happening::SmallTransfers { from, to, transfers, atoms: all, is_theft };
+        self.tell(at, RunEvent::Trickle { from, to: receivers, transfers, atoms: all }, happening);
     }
 
     /// The nodes of the latest event of a kind, if `node` comes soon after them, and `node`.
@@ -239,9 +223,9 @@ impl EventLog {
     }
 
     /// Records of different parties may come a little out of order: events do not.
-    fn tell(&mut self, at: Time, event: RunEvent, sentence: String) {
+    fn tell(&mut self, at: Time, event: RunEvent, happening: Happening) {
         let place = self.told.iter().rposition(|told| told.at <= at).map_or(0, |before| before + 1);
-        self.told.insert(place, Told { at, event, sentence });
+        self.told.insert(place, Told { at, event, happening });
         if self.told.len() > KEPT {
             self.told.pop_front();
         }
@@ -249,7 +233,7 @@ impl EventLog {
 }
 
 /// How many messages wait at the parent at `now`, if they are worth a word.
-pub(crate) fn jam(state: &RunState, now: Time) -> Option<usize> {
+pub(crate) fn waiting_messages(state: &RunState, now: Time) -> Option<usize> {
     /// Fewer are soon handled.
     const MANY: usize = 4;
     if state.handling.is_zero() {
@@ -269,10 +253,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::language::Language;
     use crate::view::tests::sample_runs;
 
-    fn sentences(events: &EventLog) -> Vec<&str> {
-        events.iter().map(|(_, sentence)| sentence).collect()
+    fn sentences(events: &EventLog) -> Vec<String> {
+        events.iter().map(|(_, event)| event.sentence(Language::English)).collect()
     }
 
     /// The events of these records, at their times in ms.
@@ -309,7 +294,7 @@ mod tests {
             for sentence in sentences(&events) {
                 prop_assert!(sentence.chars().count() <= 95, "{sentence}");
             }
-            prop_assert!(sentences(&events).contains(&event_sentences::complete()));
+            prop_assert!(sentences(&events).contains(&Happening::Complete.sentence(Language::English)));
             // Every node offers at last, and says so once.
             for node in 0..speeds.len() as NodeId {
                 let offers = events.told.iter().filter(|told| told.event == RunEvent::Offer(node)).count();

@@ -4,7 +4,8 @@ use super::{EventLog, RunEvent};
 use crate::balance::{Message, NodeId, Party};
 use crate::picture::atoms_in;
 use crate::time::Time;
-use crate::view::narration::failure_sentences;
+use crate::view::narration::failure::Failure;
+use crate::view::narration::happening::Happening;
 use crate::view::state::run_state::RunState;
 
 /// What is done about it.
@@ -26,9 +27,8 @@ impl EventLog {
         match (from, message) {
             (Party::Parent, Message::Gone(_)) => {
                 // All that are there are told the same.
-                let sentence = failure_sentences::ring_changed(state, at);
-                if let Some(sentence) = sentence {
-                    self.tell(at, RunEvent::Recovery(Recovery::Ring), sentence);
+                if let Some(failure) = Failure::ring_changed(state, at) {
+                    self.tell(at, RunEvent::Recovery(Recovery::Ring), Happening::Failure(failure));
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
@@ -37,8 +37,8 @@ impl EventLog {
                     Some(Recovery::GivenOut { to: others, atoms }) => (with(others, to), atoms + atoms_in(ranges)),
                     _ => (vec![to], atoms_in(ranges)),
                 };
-                let sentence = failure_sentences::given_out(&to, atoms);
-                self.tell(at, RunEvent::Recovery(Recovery::GivenOut { to, atoms }), sentence);
+                let failure = Failure::HandedOutAgain { to: to.clone(), atoms };
+                self.tell(at, RunEvent::Recovery(Recovery::GivenOut { to, atoms }), Happening::Failure(failure));
             }
             (Party::Node(from), Message::Again(ranges)) => {
                 let is_same =
@@ -47,8 +47,8 @@ impl EventLog {
                     Some(Recovery::Copies { to: others, atoms, .. }) => (with(others, to), atoms + atoms_in(ranges)),
                     _ => (vec![to], atoms_in(ranges)),
                 };
-                let sentence = failure_sentences::copies(from, &to, atoms);
-                self.tell(at, RunEvent::Recovery(Recovery::Copies { from, to, atoms }), sentence);
+                let failure = Failure::Copies { from, to: to.clone(), atoms };
+                self.tell(at, RunEvent::Recovery(Recovery::Copies { from, to, atoms }), Happening::Failure(failure));
             }
             (Party::Node(from), Message::Wake) => {
                 let is_same = |event: &Recovery| matches!(event, Recovery::Wakes { from: other, .. } if *other == from);
@@ -56,8 +56,8 @@ impl EventLog {
                     Some(Recovery::Wakes { to: others, .. }) => with(others, to),
                     _ => vec![to],
                 };
-                let sentence = failure_sentences::wakes(from, &to);
-                self.tell(at, RunEvent::Recovery(Recovery::Wakes { from, to }), sentence);
+                let failure = Failure::Wakes { from, to: to.clone() };
+                self.tell(at, RunEvent::Recovery(Recovery::Wakes { from, to }), Happening::Failure(failure));
             }
             _ => {}
         }

@@ -3,25 +3,29 @@
 use super::deadlock::hung;
 use super::stopped::in_queues;
 use super::{Machine, waiting};
-use crate::language::say;
+use crate::language::{Language, say};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::percent;
 
 /// That a record ends before the picture is complete; and who keeps what is missing, if it lies in the pipes of machines
 /// that stand still.
-pub fn unfinished_words(state: &RunState) -> String {
+pub fn unfinished_words(state: &RunState, language: Language) -> String {
     let done = percent(state.done(), state.atoms());
-    let ends = say!("The record ends here, with {done} of the picture", "O registro acaba aqui, com {done} da imagem");
+    let ends = say!(
+        language,
+        "The record ends here, with {done} of the picture",
+        "O registro acaba aqui, com {done} da imagem"
+    );
     let keepers: Vec<Machine<'_>> = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0).collect();
     let missing: u32 = keepers.iter().map(|(_, node)| node.left()).sum();
     let is_kept = !keepers.is_empty()
         && state.done() + missing == state.atoms()
         && keepers.iter().all(|(_, node)| !node.runs())
         && in_queues(&keepers) == 0;
-    if let Some(why) = hung(state) {
+    if let Some(why) = hung(state, language) {
         return format!("{ends}: {why}");
     }
-    if is_kept { format!("{ends}: {}", waiting(&keepers)) } else { ends }
+    if is_kept { format!("{ends}: {}", waiting(&keepers, language)) } else { ends }
 }
 
 #[cfg(test)]
@@ -33,15 +37,20 @@ mod tests {
 
     #[test]
     fn who_stands_still_with_the_last_atoms_is_named() {
+        let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 900);
         let mut state = RunState::new(&header);
         let records = sample_runs::records(&header);
         let until = records.iter().rposition(|record| matches!(record.what, RecordKind::AtomDone { .. }));
         records[..until.expect("atoms")].iter().for_each(|record| state.apply(record));
-        assert_eq!(unfinished_words(&state), "The record ends here, with 99 % of the picture", "somebody computes");
+        assert_eq!(
+            unfinished_words(&state, language),
+            "The record ends here, with 99 % of the picture",
+            "somebody computes"
+        );
         let at = Time::from_secs(9e3);
         (0..3).for_each(|node| state.apply(&Record { at, what: RecordKind::Paused { node } }));
-        let told = unfinished_words(&state);
+        let told = unfinished_words(&state, language);
         assert!(told.ends_with(" is paused and keeps the atom in its pipe"), "{told}");
     }
 }

@@ -2,27 +2,30 @@
 
 use super::{Machine, PIPE};
 use crate::balance::Condition;
-use crate::language::{say, word};
+use crate::language::{Language, say, word};
 use crate::view::state::node_state::NodeState;
 
 /// Every machine stands still, and has atoms.
-pub(crate) fn all_still(still: &[Machine<'_>]) -> String {
+pub(crate) fn all_still(still: &[Machine<'_>], language: Language) -> String {
     match still.iter().filter(|(_, node)| node.paused).count() {
         _ if still.len() == 1 => {
-            let (why, remedy) = (why(still[0].1), remedy(still));
-            say!("The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
+            let (why, remedy) = (why(still[0].1, language), remedy(still, language));
+            say!(language, "The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
         }
         0 => word!(
+            language,
             "All machines stand still at 0 %: raise a speed and the work goes on",
             "Todas as máquinas estão paradas a 0 %: basta aumentar uma velocidade"
         )
         .into(),
         paused if paused == still.len() => word!(
+            language,
             "All machines are paused: let one go on, and so does the work",
             "Todas as máquinas estão em pausa: basta uma continuar"
         )
         .into(),
         _ => word!(
+            language,
             "All machines stand still: raise a speed or let one go on, and so does the work",
             "Todas as máquinas estão paradas: basta aumentar uma velocidade ou uma continuar"
         )
@@ -31,22 +34,22 @@ pub(crate) fn all_still(still: &[Machine<'_>]) -> String {
 }
 
 /// Why a machine stands still.
-pub(crate) fn why(node: &NodeState) -> &'static str {
+pub(crate) fn why(node: &NodeState, language: Language) -> &'static str {
     match node.condition {
-        Condition::Hung => word!("hangs", "travou"),
-        _ if node.paused => word!("is paused", "está em pausa"),
-        _ => word!("stands still at 0 %", "está parada a 0 %"),
+        Condition::Hung => word!(language, "hangs", "travou"),
+        _ if node.paused => word!(language, "is paused", "está em pausa"),
+        _ => word!(language, "stands still at 0 %", "está parada a 0 %"),
     }
 }
 
 /// What makes machines that stand still go on.
-pub(crate) fn remedy(still: &[Machine<'_>]) -> &'static str {
+pub(crate) fn remedy(still: &[Machine<'_>], language: Language) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
-        (1, 0) => word!("raise its speed", "basta aumentar sua velocidade"),
-        (1, _) => word!("let it go on", "basta retomá-la"),
-        (_, 0) => word!("raise their speed", "basta aumentar sua velocidade"),
-        (all, paused) if all == paused => word!("let them go on", "basta retomá-las"),
-        _ => word!("let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
+        (1, 0) => word!(language, "raise its speed", "basta aumentar sua velocidade"),
+        (1, _) => word!(language, "let it go on", "basta retomá-la"),
+        (_, 0) => word!(language, "raise their speed", "basta aumentar sua velocidade"),
+        (all, paused) if all == paused => word!(language, "let them go on", "basta retomá-las"),
+        _ => word!(language, "let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
     }
 }
 

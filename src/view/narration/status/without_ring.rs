@@ -3,28 +3,28 @@
 use super::stopped::{all_left, all_still, remedy, why};
 use super::{Machine, computing, has_most, only, only_one, under_way};
 use crate::balance::NodeId;
-use crate::language::{say, word};
-use crate::view::narration::event_sentences::{estimating, is_slow};
+use crate::language::{Language, say, word};
+use crate::view::narration::happening::{Happening, is_slow};
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, fraction, left_words, names, node_name};
 
 /// How things stand.
-pub(crate) fn without_ring(state: &RunState) -> String {
+pub(crate) fn without_ring(state: &RunState, language: Language) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     let machines = state.nodes().len();
     let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
     match (&*busy, &*still) {
-        _ if state.is_estimating => estimating().into(),
-        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines),
-        ([], []) if state.has_atoms_under_way() => under_way(),
-        ([], []) => super::waiting_for_the_parent(),
-        ([], still) if still.len() == machines => all_still(still),
-        ([], still) => nobody_computes(still),
-        ([only], []) if machines == 1 => only_one(only.1),
-        ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last),
-        (busy, still) => several(state, busy, still, &asking),
+        _ if state.is_estimating => Happening::Estimating.sentence(language),
+        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines, language),
+        ([], []) if state.has_atoms_under_way() => under_way(language),
+        ([], []) => super::waiting_for_the_parent(language),
+        ([], still) if still.len() == machines => all_still(still, language),
+        ([], still) => nobody_computes(still, language),
+        ([only], []) if machines == 1 => only_one(only.1, language),
+        ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last, language),
+        (busy, still) => several(state, busy, still, &asking, language),
     }
 }
 
@@ -34,43 +34,52 @@ fn all_is_given_away(state: &RunState) -> bool {
 }
 
 /// One machine has all atoms that are left.
-fn all_wait_for(state: &RunState, (node, last): Machine<'_>) -> String {
-    let (name, left, speed) = (node_name(node), left_words(last.left()), fraction(last.speed));
+fn all_wait_for(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
+    let (name, left, speed) = (node_name(node), left_words(last.left(), language), fraction(last.speed));
     if state.sharing == Sharing::Stealing {
-        return only((node, last));
+        return only((node, last), language);
     }
     if last.done + last.left() == state.atoms() {
         return say!(
+            language,
             "{name} computes alone: {left}; the others have nothing to do",
             "{name} calcula sozinha: {left}; as outras não têm o que fazer"
         );
     }
     let name = if is_slow(last) {
-        say!("{name}, which is slow ({speed})", "{name}, que é lenta ({speed})")
+        say!(language, "{name}, which is slow ({speed})", "{name}, que é lenta ({speed})")
     } else {
         name.to_string()
     };
-    say!("All wait for {name}: {left}", "Todas esperam por {name}: {left}")
+    say!(language, "All wait for {name}: {left}", "Todas esperam por {name}: {left}")
 }
 
 /// Some machines compute.
-fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking: &[NodeId]) -> String {
+fn several(
+    state: &RunState,
+    busy: &[Machine<'_>],
+    still: &[Machine<'_>],
+    asking: &[NodeId],
+    language: Language,
+) -> String {
     let machines = state.nodes().len();
-    let what = if state.sharing == Sharing::Stealing { "threads" } else { word!("machines", "máquinas") };
-    let compute = computing(busy.len(), machines, what);
+    let what = if state.sharing == Sharing::Stealing { "threads" } else { word!(language, "machines", "máquinas") };
+    let compute = computing(busy.len(), machines, what, language);
     if let [(_, machine), ..] = still {
         let (is, they) = match still.len() {
-            1 => (why(machine), "its"),
-            _ => (word!("stand still", "estão paradas"), "their"),
+            1 => (why(machine, language), "its"),
+            _ => (word!(language, "stand still", "estão paradas"), "their"),
         };
-        let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>());
-        let left = atoms_words(all_left(still));
+        let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>(), language);
+        let left = atoms_words(all_left(still), language);
         return match state.sharing {
             Sharing::Stealing => say!(
+                language,
                 "{compute}; {who} {is}: {they} {left} can be stolen",
                 "{compute}; {who} {is}: as outras podem roubar {left}"
             ),
             _ => say!(
+                language,
                 "{compute}; {who} {is}, and nobody takes over {they} {left}",
                 "{compute}; {who} {is} com {left}, e ninguém os assume"
             ),
@@ -79,31 +88,39 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking
     // Of equals the first is named.
     let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
     let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
-    let (left, speed) = (atoms_words(last.left()), fraction(last.speed));
+    let (left, speed) = (atoms_words(last.left(), language), fraction(last.speed));
     match state.sharing {
         Sharing::Stealing if busy.len() == machines => {
-            say!("{compute} their own atoms", "{compute} seus próprios átomos")
+            say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
         }
-        Sharing::Stealing => has_most(&compute, name),
+        Sharing::Stealing => has_most(&compute, name, language),
         sharing if sharing.is_farm() => match asking {
             [] if !all_is_given_away(state) => {
-                say!("{compute}; whoever is done asks the parent for more", "{compute}; quem termina pede mais ao pai")
+                say!(
+                    language,
+                    "{compute}; whoever is done asks the parent for more",
+                    "{compute}; quem termina pede mais ao pai"
+                )
             }
             [] => say!(
+                language,
                 "{compute} the last atoms; the parent has no more",
                 "{compute} seus últimos átomos; o pai não tem mais"
             ),
-            some => format!("{compute}; {}", some_wait(some)),
+            some => format!("{compute}; {}", some_wait(some, language)),
         },
         _ if is_slow(last) => say!(
+            language,
             "{compute}; {name} is slow ({speed}) and has most left: {left}, which nobody takes over",
             "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}, que ninguém assume"
         ),
         _ if busy.len() == machines => say!(
+            language,
             "{compute} their own bands, whatever these cost",
             "{compute} suas próprias faixas, custem o que custarem"
         ),
         _ => say!(
+            language,
             "{compute}; the others are done, and nobody shares with them",
             "{compute}; as outras terminaram, e ninguém divide com elas"
         ),
@@ -111,17 +128,19 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], asking
 }
 
 /// Nobody computes, and the atoms that are left are with machines that stand still.
-fn nobody_computes(still: &[Machine<'_>]) -> String {
-    let (left, remedy, machines) = (atoms_words(all_left(still)), remedy(still), still.len());
+fn nobody_computes(still: &[Machine<'_>], language: Language) -> String {
+    let (left, remedy, machines) = (atoms_words(all_left(still), language), remedy(still, language), still.len());
     match still {
         [(node, machine)] => {
-            let (name, why) = (node_name(*node), why(machine));
+            let (name, why) = (node_name(*node), why(machine, language));
             say!(
+                language,
                 "All wait for {name}, which {why} with {left}: {remedy}",
                 "Todas esperam por {name}, que {why} com {left}: {remedy}"
             )
         }
         _ => say!(
+            language,
             "All wait for {machines} machines that stand still with {left}: {remedy}",
             "Todas esperam por {machines} máquinas paradas com {left}: {remedy}"
         ),
@@ -129,22 +148,28 @@ fn nobody_computes(still: &[Machine<'_>]) -> String {
 }
 
 /// Nobody has atoms, and some have asked for them.
-fn waiting_for_the_parent(asking: &[NodeId], machines: usize) -> String {
+fn waiting_for_the_parent(asking: &[NodeId], machines: usize, language: Language) -> String {
     match asking {
-        _ if machines == 1 => word!("The only machine waits for the parent", "A única máquina espera pelo pai").into(),
-        all if all.len() == machines => {
-            say!("All {machines} machines wait for the parent", "Todas as {machines} máquinas esperam pelo pai")
+        _ if machines == 1 => {
+            word!(language, "The only machine waits for the parent", "A única máquina espera pelo pai").into()
         }
-        some => some_wait(some),
+        all if all.len() == machines => {
+            say!(
+                language,
+                "All {machines} machines wait for the parent",
+                "Todas as {machines} máquinas esperam pelo pai"
+            )
+        }
+        some => some_wait(some, language),
     }
 }
 
 /// These have asked for atoms, and have not got any yet.
-fn some_wait(some: &[NodeId]) -> String {
-    let who = names(some);
+fn some_wait(some: &[NodeId], language: Language) -> String {
+    let who = names(some, language);
     match some {
-        [_] => say!("{who} waits for the parent", "{who} espera pelo pai"),
-        _ => say!("{who} wait for the parent", "{who} esperam pelo pai"),
+        [_] => say!(language, "{who} waits for the parent", "{who} espera pelo pai"),
+        _ => say!(language, "{who} wait for the parent", "{who} esperam pelo pai"),
     }
 }
 
@@ -161,7 +186,13 @@ mod tests {
     const FARM: Sharing = Sharing::By(Strategy::Farm);
 
     /// How things stand where machines have so many atoms left at these speeds, and some have asked or are not needed.
-    fn stands(sharing: Sharing, machines: &[(u32, f64)], asking: &[NodeId], retired: &[NodeId]) -> String {
+    fn stands(
+        sharing: Sharing,
+        machines: &[(u32, f64)],
+        asking: &[NodeId],
+        retired: &[NodeId],
+        language: Language,
+    ) -> String {
         let mut header = sample_runs::header(&vec![1.0; machines.len()], 900);
         match sharing {
             Sharing::By(strategy) => header.rules.strategy = strategy,
@@ -181,12 +212,13 @@ mod tests {
             apply(RecordKind::SpeedSet { node, speed });
         }
         retired.iter().for_each(|&node| apply(RecordKind::Retired { node }));
-        without_ring(&state)
+        without_ring(&state, language)
     }
 
     #[test]
     fn bands_stay_where_they_are() {
-        let stands = |machines: &[(u32, f64)]| stands(STATIC, machines, &[], &[]);
+        let language = Language::English;
+        let stands = |machines: &[(u32, f64)]| stands(STATIC, machines, &[], &[], language);
         assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 machines compute their own bands, whatever these cost");
         assert_eq!(
             stands(&[(0, 1.0), (9, 1.0), (64, 0.1)]),
@@ -211,22 +243,30 @@ mod tests {
 
     #[test]
     fn in_a_farm_all_depends_on_the_parent() {
+        let language = Language::English;
         let busy = [(5, 1.0), (5, 1.0), (5, 1.0)];
-        assert_eq!(stands(FARM, &busy, &[], &[]), "All 3 machines compute; whoever is done asks the parent for more");
-        let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
-        assert_eq!(stands(FARM, &one, &[2], &[]), "2 of 3 machines compute; 3 waits for the parent");
-        assert_eq!(stands(FARM, &one, &[], &[2]), "2 of 3 machines compute the last atoms; the parent has no more");
-        let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
-        assert_eq!(stands(FARM, &none, &[0, 1, 2], &[]), "All 3 machines wait for the parent");
         assert_eq!(
-            stands(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1]),
+            stands(FARM, &busy, &[], &[], language),
+            "All 3 machines compute; whoever is done asks the parent for more"
+        );
+        let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &one, &[2], &[], language), "2 of 3 machines compute; 3 waits for the parent");
+        assert_eq!(
+            stands(FARM, &one, &[], &[2], language),
+            "2 of 3 machines compute the last atoms; the parent has no more"
+        );
+        let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
+        assert_eq!(stands(FARM, &none, &[0, 1, 2], &[], language), "All 3 machines wait for the parent");
+        assert_eq!(
+            stands(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1], language),
             "All wait for 3, which is slow (10 %): 7 atoms left"
         );
     }
 
     #[test]
     fn threads_steal_from_whoever_stands_still_too() {
-        let stands = |machines: &[(u32, f64)]| stands(Sharing::Stealing, machines, &[], &[]);
+        let language = Language::English;
+        let stands = |machines: &[(u32, f64)]| stands(Sharing::Stealing, machines, &[], &[], language);
         assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
         assert_eq!(stands(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
         assert_eq!(

@@ -1,0 +1,279 @@
+//! What happened in a run, with the facts that its sentence needs; the sentence itself is made where it is drawn.
+
+use std::cmp::Ordering;
+use std::ops::Range;
+use std::time::Duration;
+
+use super::failure::Failure;
+use super::status::PIPE;
+use crate::balance::{NodeId, Remedy};
+use crate::picture::Atom;
+use crate::record::{Record, RecordKind};
+use crate::view::state::node_state::NodeState;
+use crate::view::state::run_state::RunState;
+use crate::view::state::scheduler::Sharing;
+
+/// Something that happened, in any language.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the comment on a variant covers its fields")]
+pub enum Happening {
+    /// The last atom is placed.
+    Complete,
+    /// The parent samples the picture for an estimate.
+    Estimating,
+    /// The parent hands out the bands.
+    Bands {
+        machines: usize,
+        /// Atoms in the first band.
+        first: u32,
+        /// The first band is the whole picture.
+        is_whole: bool,
+        sharing: Sharing,
+    },
+    /// A node of a farm asked and got this many atoms.
+    Part { to: NodeId, atoms: u32 },
+    /// The parent of a farm has handed out this many parts so far.
+    PartsSoFar(u32),
+    /// Messages wait at the parent, which handles each for `handling`.
+    Queue { waiting: usize, handling: Duration },
+    /// Nodes have traced their fixed bands, others have not.
+    BandsDone(Vec<NodeId>),
+    /// Nodes retire.
+    Retired { nodes: Vec<NodeId>, reason: Retirement },
+    /// A node offers help.
+    Offer { node: NodeId, reason: OfferReason },
+    /// A thread stole atoms.
+    Theft { thief: NodeId, from: NodeId, atoms: u32 },
+    /// An offerer takes atoms over.
+    Takeover { from: NodeId, to: NodeId, atoms: u32, giver: Giver },
+    /// An offerer was given atoms; the giver's speed if it is slow.
+    Gift { from: NodeId, to: NodeId, atoms: u32, slow_at: Option<f64> },
+    /// Small transfers of one giver, taken together.
+    SmallTransfers { from: NodeId, to: Vec<NodeId>, transfers: u32, atoms: u32, is_theft: bool },
+    /// A machine has another speed.
+    Speed { node: NodeId, speed: f64, effect: SpeedEffect },
+    /// A machine is paused while it has this many atoms.
+    Paused { node: NodeId, atoms: u32, effect: PauseEffect },
+    /// A machine's pause is over; its speed may still be 0.
+    Resumed { node: NodeId, is_stopped: bool },
+    /// All links have another latency.
+    Latency { latency: Duration, is_hop: bool },
+    /// A machine or a link failed, or the ring recovers.
+    Failure(Failure),
+}
+
+/// Why a node retires.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Retirement {
+    /// The parent of a farm has no atoms left.
+    NothingLeft,
+    /// It sleeps until another wakes it.
+    Sleeps,
+    /// Its own offer came back.
+    OfferCameBack,
+}
+
+/// Why a node offers help.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfferReason {
+    /// It has nearly finished.
+    Early,
+    /// It never had an atom.
+    NothingToTrace,
+    /// It has traced its whole band itself.
+    BandDone,
+    /// Its atoms are traced or given away.
+    NoAtomsLeft,
+}
+
+/// How a node is that gives atoms away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Giver {
+    /// Paused.
+    Paused,
+    /// At speed 0.
+    Stopped,
+    /// At a speed that is slow.
+    Slow(f64),
+    /// At work.
+    Busy,
+}
+
+/// What a new speed means for the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedEffect {
+    /// Nothing changes.
+    None,
+    /// It acts only when the machine's pause is over.
+    AfterPause,
+    /// Nobody takes over its band.
+    NobodyHelps,
+    /// Its band is done sooner.
+    BandSooner,
+    /// It asks the parent less often.
+    AsksLess,
+    /// It asks the parent more often.
+    AsksMore,
+    /// What it has stays with it.
+    KeepsPart,
+    /// The other machines take over.
+    OthersHelp,
+    /// It can take more work.
+    TakesMore,
+}
+
+/// What a pause means for the atoms of the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PauseEffect {
+    /// Nothing.
+    None,
+    /// They stay with it as its part of a farm.
+    KeepsPart,
+    /// They wait, since nobody takes over a band.
+    NobodyHelps,
+    /// They are in its pipe and stay there.
+    KeepsPipe,
+    /// The other machines take over.
+    OthersHelp,
+}
+
+impl Happening {
+    /// What a record tells by itself; `None` for messages and atoms. `state` already knows the record.
+    pub(crate) fn of(record: &Record, state: &RunState) -> Option<Self> {
+        Some(match &record.what {
+            RecordKind::Estimating => Self::Estimating,
+            RecordKind::SpeedSet { node, speed } => {
+                let before = machine(state, *node).map_or(*speed, |node| node.speed_before);
+                Self::speed(state, *node, before, *speed)
+            }
+            RecordKind::Paused { node } => Self::paused(state, *node),
+            RecordKind::Resumed { node } => Self::resumed(state, *node),
+            RecordKind::LatencySet { latency } => Self::latency(state, *latency),
+            RecordKind::Condition { node, .. } => Self::Failure(Failure::condition(state, *node)?),
+            RecordKind::Delayed { from, to, until } => {
+                Self::Failure(Failure::Delayed { from: *from, to: *to, by: until.since(record.at) })
+            }
+            RecordKind::Retired { node } => Self::retired(state, vec![*node]),
+            RecordKind::Finished => Self::Complete,
+            _ => return None,
+        })
+    }
+
+    /// The parent hands out bands, of which `first` is the first.
+    pub(crate) fn bands(state: &RunState, first: &Range<Atom>) -> Self {
+        let first = first.len() as u32;
+        let machines = state.nodes().iter().filter(|node| !node.spare).count();
+        Self::Bands { machines, first, is_whole: first == state.atoms(), sharing: state.sharing }
+    }
+
+    /// Messages wait at the parent.
+    pub(crate) fn queue(state: &RunState, waiting: usize) -> Self {
+        Self::Queue { waiting, handling: state.handling }
+    }
+
+    /// Nodes retire.
+    pub(crate) fn retired(state: &RunState, nodes: Vec<NodeId>) -> Self {
+        let reason = match () {
+            () if state.sharing.is_farm() => Retirement::NothingLeft,
+            () if state.has(Remedy::Wake) => Retirement::Sleeps,
+            () => Retirement::OfferCameBack,
+        };
+        Self::Retired { nodes, reason }
+    }
+
+    /// A node offers help after it has traced `done` atoms; `whole` if these are its whole band.
+    pub(crate) fn offer(state: &RunState, node: NodeId, whole: bool, done: u32) -> Self {
+        let is_early = state.has(Remedy::Early) && machine(state, node).is_some_and(|of| of.left() > 0);
+        let reason = match (whole, done) {
+            _ if is_early => OfferReason::Early,
+            (_, 0) => OfferReason::NothingToTrace,
+            (true, _) => OfferReason::BandDone,
+            (false, _) => OfferReason::NoAtomsLeft,
+        };
+        Self::Offer { node, reason }
+    }
+
+    /// Atoms go from one node to another.
+    pub(crate) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
+        if state.sharing == Sharing::Stealing {
+            return Self::Theft { thief: to, from, atoms };
+        }
+        let giver = match machine(state, from) {
+            Some(node) if node.paused => Giver::Paused,
+            Some(node) if node.speed == 0.0 => Giver::Stopped,
+            Some(node) if is_slow(node) => Giver::Slow(node.speed),
+            _ => Giver::Busy,
+        };
+        Self::Takeover { from, to, atoms, giver }
+    }
+
+    /// Atoms went from one node to another, as the list of events tells it.
+    pub(crate) fn gift(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
+        if state.sharing == Sharing::Stealing {
+            return Self::Theft { thief: to, from, atoms };
+        }
+        let slow_at = machine(state, from).filter(|node| node.runs() && is_slow(node)).map(|node| node.speed);
+        Self::Gift { from, to, atoms, slow_at }
+    }
+
+    /// A machine has another speed; `before` is the speed before the user began to change it.
+    pub(crate) fn speed(state: &RunState, node: NodeId, before: f64, speed: f64) -> Self {
+        let change = speed.total_cmp(&before);
+        let effect = match change {
+            _ if machine(state, node).is_some_and(|node| node.paused) => SpeedEffect::AfterPause,
+            Ordering::Equal => SpeedEffect::None,
+            _ if state.sharing.is_fixed() && machine(state, node).is_none_or(|machine| machine.left() == 0) => {
+                SpeedEffect::None
+            }
+            Ordering::Less if state.sharing.is_fixed() => SpeedEffect::NobodyHelps,
+            Ordering::Greater if state.sharing.is_fixed() => SpeedEffect::BandSooner,
+            _ if state.sharing.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
+            Ordering::Less if state.sharing.is_farm() => SpeedEffect::AsksLess,
+            Ordering::Greater if state.sharing.is_farm() => SpeedEffect::AsksMore,
+            Ordering::Less if others_run(state, node) => SpeedEffect::OthersHelp,
+            Ordering::Less => SpeedEffect::None,
+            Ordering::Greater => SpeedEffect::TakesMore,
+        };
+        Self::Speed { node, speed, effect }
+    }
+
+    /// A machine is paused.
+    pub(crate) fn paused(state: &RunState, node: NodeId) -> Self {
+        let Some(machine) = machine(state, node) else {
+            return Self::Paused { node, atoms: 0, effect: PauseEffect::None };
+        };
+        let atoms = machine.left();
+        let effect = match atoms {
+            0 if !state.sharing.is_ring() && state.sharing != Sharing::Stealing => PauseEffect::None,
+            _ if state.sharing.is_farm() => PauseEffect::KeepsPart,
+            _ if state.sharing.is_fixed() => PauseEffect::NobodyHelps,
+            1..=PIPE if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
+            left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => PauseEffect::OthersHelp,
+            _ => PauseEffect::None,
+        };
+        Self::Paused { node, atoms, effect }
+    }
+
+    /// A machine's pause is over.
+    pub(crate) fn resumed(state: &RunState, node: NodeId) -> Self {
+        Self::Resumed { node, is_stopped: machine(state, node).is_some_and(|machine| machine.speed == 0.0) }
+    }
+
+    /// All links have another latency.
+    pub(crate) fn latency(state: &RunState, latency: Duration) -> Self {
+        Self::Latency { latency, is_hop: state.sharing.is_ring() }
+    }
+}
+
+/// Whether a machine is so slow that the others notice.
+pub(crate) fn is_slow(node: &NodeState) -> bool {
+    node.speed < 0.5
+}
+
+fn machine(state: &RunState, node: NodeId) -> Option<&NodeState> {
+    state.nodes().get(usize::from(node))
+}
+
+fn others_run(state: &RunState, node: NodeId) -> bool {
+    (0..).zip(state.nodes()).any(|(other, machine)| other != node && machine.runs())
+}
