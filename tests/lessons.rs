@@ -112,11 +112,11 @@ fn a_scene_may_stand_beside_the_lesson() {
 }
 
 #[test]
-fn the_lesson_in_the_readme_is_one() {
-    let readme = fs::read_to_string("README.md").expect("README.md");
-    let text = readme.split("```ron\n").find(|block| block.starts_with("Lesson(")).expect("a lesson");
+fn the_example_in_the_lessons_document_is_a_lesson() {
+    let document = fs::read_to_string("docs/lessons.md").expect("docs/lessons.md");
+    let text = document.split("```ron\n").find(|block| block.starts_with("Lesson(")).expect("a lesson");
     let text = text.split("```").next().expect("its end");
-    let lesson = Lesson::parse("readme", text).unwrap_or_else(|error| panic!("README's lesson: {error}"));
+    let lesson = Lesson::parse("example", text).unwrap_or_else(|error| panic!("the document's lesson: {error}"));
     let told = lesson.check(&performed(&lesson));
     assert!(told.len() == 2 && told.iter().all(|(_, holds)| *holds), "{told:#?}");
 }

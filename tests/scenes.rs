@@ -139,9 +139,12 @@ fn an_exported_scene_names_every_primitive_and_every_light() {
 }
 
 #[test]
-fn the_example_in_the_readme_is_a_scene() {
-    let readme = include_str!("../README.md");
-    let scene = readme.split("```ron\n").find(|block| block.starts_with("Scene("));
-    let text = scene.and_then(|rest| rest.split("```").next()).expect("an example");
-    assert_eq!(parse("README.md", text).solids.len(), 3);
+fn the_examples_in_the_documents_are_scenes() {
+    let documents =
+        [("README.md", include_str!("../README.md")), ("docs/scenes.md", include_str!("../docs/scenes.md"))];
+    for (name, document) in documents {
+        let scene = document.split("```ron\n").find(|block| block.starts_with("Scene("));
+        let text = scene.and_then(|rest| rest.split("```").next()).expect("an example");
+        assert!(parse(name, text).solids.len() > 1, "{name}");
+    }
 }
