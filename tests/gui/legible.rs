@@ -184,7 +184,7 @@ fn pages_can_be_read(size: [f32; 2], is_for_a_room: bool) {
         walk.window.drag_at(middle);
         walk.window.step();
         walk.window.drop_at(middle);
-        walk.until("the pixel", |window| !session(window).is_looking());
+        walk.until("the pixel", |window| !session(window).is_inspecting());
         walk.look("a pixel", Hidden::Lines);
         assert!(walk.found.is_empty(), "{size:?}, {language:?}: {:#?}", walk.found);
     }

@@ -255,7 +255,7 @@ fn a_pixel_and_what_qualities_cost_are_portuguese() {
     window.drag_at(middle);
     window.step();
     window.drop_at(middle);
-    until(&mut window, "the pixel", |window| !session(window).is_looking());
+    until(&mut window, "the pixel", |window| !session(window).is_inspecting());
     window.run_steps(2);
     window.get_by_label("Árvore de raios");
     assert_portuguese(&window, "a pixel");

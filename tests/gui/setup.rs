@@ -110,7 +110,7 @@ fn the_pace_starts_the_run_anew() {
     let mut window = open_setup();
     let pace = session(&window).header().pace;
     type_number(&mut window, "Seconds of the run", "40");
-    assert_eq!(session(&window).settings().tempo, Pace::Lasts(40));
+    assert_eq!(session(&window).settings().pace, Pace::Lasts(40));
     assert!((session(&window).header().pace / pace - 0.5).abs() < 1e-6);
     press(&mut window, "Full speed");
     assert_eq!(session(&window).header().pace, 1.0);
@@ -129,7 +129,7 @@ fn what_is_impossible_is_said_and_nothing_changes() {
     assert_eq!(session(&window).settings().atom, 50);
     // The largest that can be typed is the largest that is possible.
     type_number(&mut window, "Number of machines", "999");
-    assert_eq!(session(&window).header().speeds.len(), Settings::MOST_NODES);
+    assert_eq!(session(&window).header().speeds.len(), Settings::MAX_NODES);
 }
 
 #[test]

@@ -158,7 +158,7 @@ fn what_is_worth_it_is_found_and_stands_still_there() {
     window.step();
     window.drop_at(biggest);
     window.run_steps(4);
-    assert!(matches!(window.state().focus(), Some(Subject::Message(_))), "{:?}", window.state().focus());
+    assert!(matches!(window.state().selection(), Some(Subject::Message(_))), "{:?}", window.state().selection());
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.contains(" had traced ") && said.contains(" that waited with machine "), "{said}");
     let then = session(&window).now();
@@ -166,7 +166,7 @@ fn what_is_worth_it_is_found_and_stands_still_there() {
     assert_eq!(session(&window).now(), then);
     // And Esc lets go of it.
     key(&mut window, Key::Escape);
-    assert_eq!(window.state().focus(), None);
+    assert_eq!(window.state().selection(), None);
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
     window.step();
     window.drop_at(at);
     window.run_steps(3);
-    assert_eq!(window.state().focus(), Some(Subject::Atom(longest.atom)));
+    assert_eq!(window.state().selection(), Some(Subject::Atom(longest.atom)));
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.starts_with(&format!("Atom {}", anel::view::count(longest.atom + 1))), "{said}");
     assert!(!session(&window).stage().is_live() && !session(&window).stage().goes_on());
@@ -258,7 +258,7 @@ fn the_camera_is_moved_and_comes_back() {
     key(&mut window, Key::C);
     key(&mut window, Key::ArrowRight);
     assert!(session(&window).is_moving());
-    until(&mut window, "a picture from there", |window| session(window).moved().is_some());
+    until(&mut window, "a picture from there", |window| session(window).camera_preview().is_some());
     until(&mut window, "a run from there", |window| session(window).runs_begun() == begun + 1);
     assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_moving());
     // What is saved of it says so.

@@ -1,4 +1,4 @@
-//! The job that measures speed against accuracy.
+//! The job of the Accuracy page: it measures speed and accuracy of qualities.
 
 use std::sync::Arc;
 
@@ -13,21 +13,22 @@ use crate::scene::Scene;
 use crate::study::accuracy::{MOST, Reference, measure, size_for};
 
 impl Session {
-    /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
+    /// Starts the measurement of these qualities; it replaces the present one. Returns the job's number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>) -> u64 {
         let language = self.language;
         self.measurements += 1;
         self.jobs.measure(prepared, qualities, language)
     }
 
-    /// Gives up what is being measured, if something is.
+    /// Cancels the measurement, if one is in progress.
     pub fn stop_measuring(&mut self) {
         self.jobs.stop_measuring();
     }
 }
 
 impl Jobs {
-    /// Measures these qualities in a small picture, in place of what was measured before; returns the job's number.
+    /// Starts the measurement of these qualities in a small picture; it replaces the present one. Returns the job's
+    /// number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>, language: Language) -> u64 {
         let number = self.number();
         let (stop, stopped) = bounded::<()>(0);
@@ -37,54 +38,54 @@ impl Jobs {
         self.start_many(
             "measure",
             failed,
-            move |tell| {
+            move |send| {
                 let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
-                let tell = |finding| tell(JobResult::Found(number, finding));
-                tell(Finding::Needs(tracer.compiled(), tracer.levels()));
-                tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
+                let send = |finding| send(JobResult::Found(number, finding));
+                send(Finding::Needs(tracer.compiled(), tracer.levels()));
+                send(Finding::Over(measure_all(&opened.scene, whole, &qualities, &is_over, &send)));
             },
             language,
         );
         number
     }
 
-    /// Gives up what is being measured, if something is.
+    /// Cancels the measurement, if one is in progress.
     pub fn stop_measuring(&mut self) {
         self.measuring = None;
     }
 }
 
-/// Measures and tells until all is measured or it `is_over`.
-fn found(
+/// Measures all qualities, unless it `is_over` before, and sends each result.
+fn measure_all(
     scene: &Scene,
     whole: Size,
     qualities: &[Quality],
     is_over: &(dyn Fn() -> bool + Sync),
-    tell: &dyn Fn(Finding),
+    send: &dyn Fn(Finding),
 ) -> Result<(), String> {
-    let size = size_for(scene, small(whole)?)?;
+    let size = size_for(scene, shrink(whole)?)?;
     let mut begun = 0;
     let mut begin = || {
         begun += 1;
-        tell(Finding::Begun(begun));
+        send(Finding::Begun(begun));
     };
     let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, is_over)? else { return Ok(()) };
-    tell(Finding::Reference(reference.clone()));
-    let mut known = 0;
-    measure(scene, &reference, qualities, is_over, &mut |place, point, frame| {
-        // Each comes for the first time in its turn.
-        let is_new = place == known;
-        known += usize::from(is_new);
-        tell(Finding::Point(place, *point, is_new.then(|| frame.clone())));
+    send(Finding::Reference(reference.clone()));
+    let mut measured = 0;
+    measure(scene, &reference, qualities, is_over, &mut |index, point, frame| {
+        // First measurements come in the order of the qualities.
+        let is_first = index == measured;
+        measured += usize::from(is_first);
+        send(Finding::Point(index, *point, is_first.then(|| frame.clone())));
     });
     Ok(())
 }
 
-/// A picture as high and broad as this one is to the other, but with few pixels, so that nobody waits for long.
-fn small(whole: Size) -> Result<Size, String> {
-    const PIXELS: f64 = 160.0 * 120.0;
-    let part = (PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
-    let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
+/// Returns a size of the same shape with at most about 160 × 120 pixels, so that the measurement does not take long.
+fn shrink(whole: Size) -> Result<Size, String> {
+    const MAX_PIXELS: f64 = 160.0 * 120.0;
+    let scale = (MAX_PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
+    let side = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
     Size::new(side(whole.width()), side(whole.height()))
 }
 
@@ -93,10 +94,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_small_picture_has_the_shape_of_the_whole_and_is_never_larger() {
+    fn shrunk_size_keeps_the_shape_and_is_never_larger() {
         for (width, height) in [(640, 480), (2048, 64), (16, 16), (160, 120), (1920, 1080)] {
             let whole = Size::new(width, height).unwrap();
-            let small = small(whole).unwrap();
+            let small = shrink(whole).unwrap();
             assert!(small.width() <= width && small.height() <= height && small.pixels() < 20_000, "{small}");
             let shape = |size: Size| f64::from(size.width()) / f64::from(size.height());
             assert!((shape(small) / shape(whole) - 1.0).abs() < 0.05, "{small} of {whole}");

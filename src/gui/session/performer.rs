@@ -1,4 +1,5 @@
-//! Whoever performs what the window shows: nodes that trace, or whoever traces a recorded run's picture again.
+//! Source of the records and pixels on the stage: the threads of a live run, or a recorded run whose picture is traced
+//! again.
 
 use std::time::Duration;
 
@@ -8,18 +9,18 @@ use crate::balance::{Condition, NodeId, Party};
 use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
-/// Whoever performs a run.
+/// Source of a run's records and pixels.
 pub enum RunSource {
-    /// Nobody yet: the first scene is still being prepared.
+    /// None yet: the first scene is still being compiled.
     Nobody,
-    /// Nodes as threads.
+    /// A live run in threads.
     Live(Run),
-    /// All records are there; the picture is traced again.
+    /// A recorded run, whose picture is traced again.
     Recorded(Retrace),
 }
 
 impl RunSource {
-    /// What has happened since, oldest first.
+    /// Returns the channel of updates, oldest first.
     pub fn updates(&self) -> Option<&Receiver<Update>> {
         match self {
             Self::Nobody => None,
@@ -28,7 +29,7 @@ impl RunSource {
         }
     }
 
-    /// Stops the run's clock, or lets it go on.
+    /// Pauses or resumes the clock of a live run.
     pub fn set_paused(&self, paused: bool) {
         match (self, paused) {
             (Self::Live(run), true) => run.pause(),
@@ -37,7 +38,7 @@ impl RunSource {
         }
     }
 
-    /// Asks all threads to end, without waiting for them.
+    /// Tells all threads to end, without waiting for them.
     pub fn stop(&self) {
         match self {
             Self::Nobody => {}
@@ -55,42 +56,42 @@ impl RunSource {
         }
     }
 
-    /// Changes a machine's speed; what is recorded does not change any more.
+    /// Sets a machine's speed in a live run.
     pub fn set_speed(&self, node: NodeId, speed: f64) {
         if let Self::Live(run) = self {
             run.set_speed(node, speed);
         }
     }
 
-    /// Lets a machine stand still, or go on.
+    /// Pauses or resumes a machine in a live run.
     pub fn set_node_paused(&self, node: NodeId, paused: bool) {
         if let Self::Live(run) = self {
             run.set_paused(node, paused);
         }
     }
 
-    /// Something becomes of a node's machine.
+    /// Sets a machine's condition in a live run.
     pub fn set_condition(&self, node: NodeId, condition: Condition) {
         if let Self::Live(run) = self {
             run.command(Command::Condition { node, condition });
         }
     }
 
-    /// What is on its way from one party to another is held up.
+    /// Delays the messages that are on their way between two parties of a live run.
     pub fn delay(&self, from: Party, to: Party, by: Duration) {
         if let Self::Live(run) = self {
             run.command(Command::Delay { from, to, by });
         }
     }
 
-    /// Lets the run's own clock go so many times as fast, if it is one of virtual time.
+    /// Sets the rate of the run's clock (run seconds per wall second) in virtual time.
     pub fn set_rate(&self, rate: f64) {
         if let Self::Live(run) = self {
             run.set_rate(rate);
         }
     }
 
-    /// Changes how long messages travel.
+    /// Sets the latency of a live run.
     pub fn set_latency(&self, latency: Duration) {
         if let Self::Live(run) = self {
             run.set_latency(latency);
