@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::driving::*;
 
-const FIELD: &str = "What to open";
+const FIELD: &str = "Path of the file to open";
 
 /// A scene of one ball in a file of its own.
 fn ball(directory: &TempDir, name: &str) -> PathBuf {
@@ -129,12 +129,12 @@ fn a_file_that_changes_is_offered_for_reload_and_one_that_vanishes_is_missed() {
     // The watch must have seen the file as it was.
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::write(&path, scene("radius: 0.25")).expect("a file");
-    until(&mut window, "an offer", |window| notice(window) == "ball.ron has changed on the disk");
+    until(&mut window, "an offer", |window| notice(window) == "ball.ron has changed on disk");
     press(&mut window, "Reload");
     until(&mut window, "the new text", |window| session(window).header().scene_text.contains("0.25"));
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::remove_file(&path).expect("a file");
-    until(&mut window, "a sentence", |window| notice(window).contains("ball.ron is gone"));
+    until(&mut window, "a sentence", |window| notice(window).contains("ball.ron was deleted"));
     key(&mut window, Key::F5);
     until(&mut window, "a sentence", |window| notice(window).contains("no such file"));
     key(&mut window, Key::R);
@@ -163,7 +163,7 @@ fn a_recorded_run_is_played_again_and_made_live() {
     assert_eq!(stage.log, live);
     assert!(stage.frame.to_srgb8() == picture, "another picture");
     // Nothing can be changed about what has been.
-    drag(&mut window, "Speed of node 1", 0.2);
+    drag(&mut window, "Speed of machine 1", 0.2);
     assert_eq!(session(&window).speed(0), 1.0);
     key(&mut window, Key::R);
     assert!(session(&window).is_recorded() && !session(&window).stage().shows_end());

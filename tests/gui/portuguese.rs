@@ -235,7 +235,7 @@ fn what_is_chosen_from_is_portuguese() {
     press(&mut window, "Mais…");
     assert_portuguese(&window, "the quality");
     key(&mut window, Key::Escape);
-    for preset in ["Iguais", "Uma lenta", "Ao acaso", "Laboratório antigo"] {
+    for preset in ["Iguais", "Uma lenta", "Aleatórias", "Laboratório antigo"] {
         press(&mut window, preset);
     }
     type_number(&mut window, "Número de máquinas", "3");
@@ -278,10 +278,10 @@ fn nothing_is_cut_off_in_windows_of_any_size() {
         let buttons = ["Cenas", "Pausar", "Reiniciar", "Desfazer", "Ajustar", "Salvar…", "Escuro ou claro", "Ajuda"];
         let time = [
             "Passo atrás",
-            "O que é um passo",
+            "Unidade do passo",
             "Passo adiante",
-            "Mais devagar",
-            "Mais depressa",
+            "Mais lento",
+            "Mais rápido",
             "O tempo da execução",
             "Ao vivo",
             "Achar",

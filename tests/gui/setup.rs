@@ -62,9 +62,9 @@ fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
     let begun = session(&window).runs_begun();
     type_number(&mut window, "Number of machines", "32");
     assert_eq!(session(&window).runs_begun(), begun + 1);
-    assert_eq!(notice(&window), "Started anew: 32 machines");
+    assert_eq!(notice(&window), "Restarted with: 32 machines");
     assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state().nodes().len()), (32, 32));
-    window.get_by_label("Node 32");
+    window.get_by_label("Machine 32");
     // Nothing starts before the slider is let go.
     let rect = window.get_by_label("Machines slider").rect();
     window.drag_at(rect.left_center());
@@ -84,7 +84,7 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
     let mut window = open_setup();
     type_number(&mut window, "Pixels in an atom", "200");
     assert_eq!(session(&window).header().division.atom_pixels(), 200);
-    type_number(&mut window, "Least atoms worth sending", "5");
+    type_number(&mut window, "Fewest atoms of a transfer", "5");
     assert_eq!(session(&window).header().rules.part, 5);
     type_number(&mut window, "Width in pixels", "400");
     until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x480");

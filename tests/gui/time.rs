@@ -84,7 +84,7 @@ fn a_hand_on_a_machine_brings_one_back_to_the_present() {
         key(&mut window, Key::Comma);
     }
     scrub(&mut window, 0.2);
-    drag(&mut window, "Speed of node 1", 0.0);
+    drag(&mut window, "Speed of machine 1", 0.0);
     assert!(session(&window).stage().is_live() && notice(&window).starts_with("Back in the present"));
     until(&mut window, "a record", |window| speeds_set(window) == [(0, 0.0)]);
 }
@@ -227,7 +227,7 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
     for _ in 0..9 {
         ctrl(&mut window, Key::ArrowUp);
     }
-    let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of 3").rect());
+    let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of machine 3").rect());
     // Zoomed about the shown time, which stays where it is.
     let at = egui::pos2(timeline.left() + timeline.width() * share, lane.center().y);
     window.drag_at(at);
@@ -239,7 +239,7 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
     assert!(said.starts_with(&format!("Atom {}", anel::view::count(longest.atom + 1))), "{said}");
     assert!(!session(&window).stage().is_live() && !session(&window).stage().goes_on());
     key(&mut window, Key::T);
-    window.get_by_label("Node 1");
+    window.get_by_label("Machine 1");
 }
 
 #[test]
@@ -257,10 +257,10 @@ fn the_camera_is_moved_and_comes_back() {
     let (home, begun) = (eye(&window), session(&window).runs_begun());
     key(&mut window, Key::C);
     key(&mut window, Key::ArrowRight);
-    assert!(session(&window).is_moving());
+    assert!(session(&window).is_camera_moving());
     until(&mut window, "a picture from there", |window| session(window).camera_preview().is_some());
     until(&mut window, "a run from there", |window| session(window).runs_begun() == begun + 1);
-    assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_moving());
+    assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_camera_moving());
     // What is saved of it says so.
     let text = &session(&window).header().scene_text;
     assert_eq!(anel::scene::Scene::parse(text).expect("a scene").camera.eye, eye(&window));
