@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::message::{Action, Message, NodeId, Party};
-use super::strategy::LEASE;
+use super::strategy::LEASE_BEATS;
 use crate::picture::{Atom, atoms_in, push_atom};
 use crate::time::Time;
 
@@ -155,7 +155,7 @@ impl Ledger {
         let mut changed = false;
         for entry in self.nodes.iter_mut().filter(|entry| !entry.gone) {
             // Until its first beat the scene may be on its way to it.
-            let patience = if entry.heard.is_some() { lease } else { lease * LEASE };
+            let patience = if entry.heard.is_some() { lease } else { lease * LEASE_BEATS };
             if now.since(entry.heard.unwrap_or_default()) > patience {
                 (entry.gone, entry.asked, changed) = (true, now, true);
             }
@@ -194,7 +194,7 @@ impl Ledger {
     }
 
     fn lease(&self) -> Duration {
-        self.beat * LEASE + self.delays[0].max(self.delays[1]) * 2
+        self.beat * LEASE_BEATS + self.delays[0].max(self.delays[1]) * 2
     }
 
     /// Gives each idle node an equal part of the pool; the ring shares it on.

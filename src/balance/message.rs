@@ -38,7 +38,7 @@ pub enum Message {
         done: u32,
         /// What an offer says besides in the ring that adapts; nothing in the article's.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        help: Option<Helper>,
+        help: Option<OfferDetails>,
     },
     /// Atoms sent straight to the node that offered.
     Transfer(Vec<Range<Atom>>),
@@ -70,7 +70,7 @@ pub enum Message {
 
 /// What an offer says in the ring that adapts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Helper {
+pub struct OfferDetails {
     /// How fast the offerer is, in millionths of the reference machine; 0 if it has not traced anything yet.
     pub speed: u32,
     /// When the offer was made, by the offerer's clock.
@@ -81,7 +81,7 @@ pub struct Helper {
     pub left: Option<u16>,
 }
 
-impl Helper {
+impl OfferDetails {
     /// A speed in millionths: at least one, unless it is not known.
     pub fn millionths(speed: f64) -> u32 {
         if speed > 0.0 { ((speed * 1e6).round() as u32).max(1) } else { 0 }
@@ -102,7 +102,7 @@ impl Message {
     /// How many atoms `from` has traced, if this is its own offer, and not one that stays with its receiver.
     pub fn own_offer(&self, from: NodeId) -> Option<u32> {
         match *self {
-            Self::Offer { help: Some(Helper { left: None, .. }), .. } => None,
+            Self::Offer { help: Some(OfferDetails { left: None, .. }), .. } => None,
             Self::Offer { who, done, .. } => (who == from).then_some(done),
             _ => None,
         }

@@ -17,8 +17,9 @@ mod static_node;
 mod strategy;
 mod work;
 
-pub use condition::Condition;
-pub use message::{Action, Event, Helper, Message, NodeId, Party};
+pub use condition::{Condition, Transition};
+pub use message::{Action, Event, OfferDetails, Message, NodeId, Party};
 pub use parent::Parent;
 pub use remedy::{Remedies, Remedy};
 pub use strategy::{Node, Rules, Strategy};
+pub use work::PIPE_ATOMS;

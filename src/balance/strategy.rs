@@ -34,7 +34,7 @@ pub enum Strategy {
 }
 
 /// After so many beats whoever is silent counts as gone, and what nobody vouches for as lost.
-pub(super) const LEASE: u32 = 4;
+pub(super) const LEASE_BEATS: u32 = 4;
 
 /// The rules by which a run's atoms are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

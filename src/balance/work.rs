@@ -9,9 +9,9 @@ use super::queue::Queue;
 use crate::picture::{Atom, push_atom};
 use crate::time::Time;
 
-/// How many atoms the worker's pipe holds while there are any, the one being traced included:
-/// two, so that neither worker nor node waits for the other (§8).
-const PIPE: usize = 2;
+/// Atoms in the worker's pipe while there are enough, including the one being traced: two, so that neither the worker nor
+/// the node waits for the other (§8).
+pub const PIPE_ATOMS: u32 = 2;
 
 /// The atoms of a node: those that wait, those in the pipe, and those traced but not yet sent.
 #[derive(Debug)]
@@ -132,7 +132,7 @@ impl Work {
     }
 
     fn fill_pipe(&mut self, actions: &mut Vec<Action>) {
-        while self.pipe.len() < PIPE
+        while self.pipe.len() < PIPE_ATOMS as usize
             && let Some(atom) = self.queue.pop()
         {
             self.pipe.push_back(atom);

@@ -10,7 +10,7 @@ use crossbeam_channel::{Receiver, Sender};
 
 use super::Update;
 use super::shared::{Content, Parcel, Shared, WorkerOrder};
-use crate::balance::{Condition, Event, Message, Party};
+use crate::balance::{Condition, Event, Message, Party, Transition};
 use crate::picture::Colour;
 use crate::record::{Record, RecordKind};
 use crate::runlog::Header;
@@ -144,24 +144,23 @@ impl Endpoint {
         self.condition
     }
 
-    /// Something becomes of the party's machine: notes it down, and what has arrived there and is lost with it. Whether
-    /// anything has changed; nothing does once the run is over.
-    pub fn set_condition(&mut self, condition: Condition) -> bool {
-        let Party::Node(node) = self.me else { return false };
-        // What is off cannot hang.
-        let is_void = condition == self.condition || (self.condition, condition) == (Condition::Off, Condition::Hung);
-        if is_void || !self.shared.losses.cut_off(node, condition == Condition::CutOff) {
-            return false;
+    /// Sets the condition of the party's machine; records it and the messages that are lost with it. Returns the effect on
+    /// the machine; `None` if nothing changes, as always once the run is over.
+    pub fn set_condition(&mut self, condition: Condition) -> Option<Transition> {
+        let Party::Node(node) = self.me else { return None };
+        let transition = self.condition.transition(condition)?;
+        if !self.shared.losses.cut_off(node, condition == Condition::CutOff) {
+            return None;
         }
         self.condition = condition;
         self.record(RecordKind::Condition { node, condition });
-        if condition == Condition::Off {
+        if transition == Transition::MemoryLost {
             self.timer = None;
             mem::take(&mut self.waiting)
                 .into_iter()
                 .for_each(|Parcel { id, .. }| _ = self.record(RecordKind::Lost { id }));
         }
-        true
+        Some(transition)
     }
 
     /// Notes down that what `from` sends to this party is held up.
@@ -289,10 +288,8 @@ impl Endpoint {
 
     /// Whether the party is to end: the run was stopped, or is over and the party cannot hear of it.
     fn is_stopped(&self) -> bool {
-        let is_deaf = || {
-            matches!(self.condition, Condition::Hung | Condition::Off)
-                || self.shared.losses.is_cut(Party::Parent, self.me)
-        };
+        let is_deaf =
+            || !self.condition.is_running() || self.shared.losses.is_cut(Party::Parent, self.me);
         self.shared.is_stopped() || self.shared.losses.is_over() && is_deaf()
     }
 

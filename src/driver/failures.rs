@@ -76,7 +76,7 @@ mod tests {
     use super::super::endpoint::{Endpoint, Incoming};
     use super::super::shared::{Inboxes, Shared};
     use super::*;
-    use crate::balance::{Condition, Event, Message};
+    use crate::balance::{Condition, Event, Message, Transition};
     use crate::record::RecordKind;
     use crate::runlog::examples;
     use crossbeam_channel::Receiver;
@@ -161,10 +161,11 @@ mod tests {
         let mut pair = Pair::new();
         pair.hearer.set_timer(Time(150));
         [100, 200].into_iter().for_each(|at| pair.send(at));
-        assert!(pair.hearer.set_condition(Condition::Hung) && !pair.hearer.set_condition(Condition::Hung));
+        assert_eq!(pair.hearer.set_condition(Condition::Hung), Some(Transition::MemoryKept));
+        assert_eq!(pair.hearer.set_condition(Condition::Hung), None);
         assert_eq!(pair.hear(300), "");
         pair.send(400);
-        assert!(pair.hearer.set_condition(Condition::Well));
+        assert_eq!(pair.hearer.set_condition(Condition::Well), Some(Transition::Resumed));
         assert_eq!(pair.hear(500), "mmtmRRR");
     }
 

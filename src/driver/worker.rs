@@ -12,7 +12,7 @@ use super::meter::{Batch, Meter};
 use super::panic_guard::GuardedTracer;
 use super::shared::WorkerOrder;
 use super::{TracePixels, Update};
-use crate::balance::{Condition, Event, NodeId, Strategy};
+use crate::balance::{Condition, Event, NodeId, Strategy, Transition};
 use crate::picture::{Atom, Colour, Division};
 use crate::record::RecordKind;
 use crate::runlog::Header;
@@ -225,22 +225,21 @@ impl Worker {
 
     /// Something becomes of the machine.
     fn set_condition(&mut self, condition: Condition, duties: &mut impl WorkerHandler) {
-        let (before, at) = (self.port.condition(), self.port.time());
-        if !self.port.set_condition(condition) {
-            return;
-        }
+        let at = self.port.time();
+        let Some(transition) = self.port.set_condition(condition) else { return };
         self.stand_still(at);
         self.measure_anew();
-        match (before, condition) {
-            (_, Condition::Off) => {
+        match transition {
+            Transition::MemoryLost => {
                 self.pipe.clear();
                 self.pixels.clear();
                 self.hand = None;
                 self.machine.finish(at.max(self.machine.time()));
                 duties.lose_all();
             }
-            (Condition::Off, _) => duties.event(Event::Started, self),
-            _ => {}
+            Transition::FreshStart => duties.event(Event::Started, self),
+            // The endpoint hands out the messages that waited during a hang.
+            Transition::Resumed | Transition::MemoryKept => {}
         }
     }
 

@@ -161,7 +161,7 @@ mod tests {
     use super::super::examples::{done, header};
     use super::super::{Driver, LinkSettings};
     use super::*;
-    use crate::balance::{Condition, Helper, Message, Party, Rules, Strategy as Sharing};
+    use crate::balance::{Condition, OfferDetails, Message, Party, Rules, Strategy as Sharing};
     use crate::record::RecordKind;
     use crate::time::Time;
     use proptest::prelude::*;
@@ -201,9 +201,9 @@ mod tests {
         ]
     }
 
-    fn help() -> impl Strategy<Value = Helper> {
+    fn help() -> impl Strategy<Value = OfferDetails> {
         let numbers = (any::<u32>(), any::<u64>(), any::<u16>(), prop::option::of(any::<u16>()));
-        numbers.prop_map(|(speed, sent, stop, left)| Helper { speed, sent: Time(sent), stop, left })
+        numbers.prop_map(|(speed, sent, stop, left)| OfferDetails { speed, sent: Time(sent), stop, left })
     }
 
     fn conditions() -> impl Strategy<Value = Condition> {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::balance::{Helper, Message, Party};
+use crate::balance::{OfferDetails, Message, Party};
 use crate::picture::atoms_in;
 
 /// How much was said.
@@ -49,7 +49,7 @@ impl MessageCounts {
         self.total += 1;
         self.bytes += bytes;
         match message {
-            Message::Offer { help: Some(Helper { left: None, .. }), .. } => self.notes += 1,
+            Message::Offer { help: Some(OfferDetails { left: None, .. }), .. } => self.notes += 1,
             Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
             Message::Offer { .. } => self.hops += 1,
             Message::Transfer(ranges) => {

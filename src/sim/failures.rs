@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::event_queue::SimEvent;
 use super::simulation::{RecordSink, Sim};
-use crate::balance::{Condition, Event, NodeId, Party, Strategy};
+use crate::balance::{Condition, Event, NodeId, Party, Strategy, Transition};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
@@ -51,29 +51,26 @@ impl Sim {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
         let nodes = self.nodes.len() as NodeId;
         let party = &mut self.nodes[index];
-        // What is off cannot hang.
-        if party.condition == condition || (party.condition, condition) == (Condition::Off, Condition::Hung) {
-            return;
-        }
-        let before = mem::replace(&mut party.condition, condition);
+        let Some(transition) = party.condition.transition(condition) else { return };
+        party.condition = condition;
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
         self.faults.cut_off(node, condition == Condition::CutOff);
         self.note(RecordKind::Condition { node, condition }, tell);
         let party = &mut self.nodes[index];
-        match (before, condition) {
-            (_, Condition::Off) => {
+        match transition {
+            Transition::MemoryLost => {
                 let unheard = mem::take(&mut party.mailbox);
                 party.lose_all(&self.rules, node, nodes, self.now);
                 unheard.into_iter().for_each(|mail| self.note(RecordKind::Lost { id: mail.id }, tell));
             }
-            (Condition::Off, _) => self.hand_over(Party::Node(node), Event::Started, tell),
-            (Condition::Hung, _) => {
+            Transition::FreshStart => self.hand_over(Party::Node(node), Event::Started, tell),
+            Transition::Resumed => {
                 let mailbox = mem::take(&mut party.mailbox);
                 self.go_on(node, tell);
                 mailbox.into_iter().for_each(|mail| self.receive(Party::Node(node), mail, tell));
                 self.timer(node, tell);
             }
-            _ => self.go_on(node, tell),
+            Transition::MemoryKept => self.go_on(node, tell),
         }
     }
 
@@ -100,7 +97,7 @@ impl Sim {
         for node in 0..self.nodes.len() as NodeId {
             let unheard = self.faults.is_cut(Party::Parent, Party::Node(node));
             let party = &mut self.nodes[usize::from(node)];
-            if unheard || matches!(party.condition, Condition::Hung | Condition::Off) {
+            if unheard || !party.condition.is_running() {
                 party.finished = true;
                 party.pipe.clear();
                 party.plan = party.plan.wrapping_add(1);

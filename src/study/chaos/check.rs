@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::plan::ChaosPlan;
 use crate::balance::adaptive::RingMembers;
-use crate::balance::{Action, Condition, Helper, Message, NodeId, Party, Remedy};
+use crate::balance::{Action, Condition, OfferDetails, Message, NodeId, Party, Remedy};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::sim::Sim;
@@ -125,7 +125,7 @@ impl<'a> Check<'a> {
                 }
                 self.results.insert(id, ranges.clone());
             }
-            (_, Message::Offer { who, help: Some(Helper { sent, left: Some(left), .. }), .. }) => {
+            (_, Message::Offer { who, help: Some(OfferDetails { sent, left: Some(left), .. }), .. }) => {
                 let before = self.offers.insert((*who, *sent), *left);
                 if before.is_some_and(|before| before <= *left && before > 0) {
                     self.fail(format!("the offer of node {who} made at {} s is in two places", sent.secs()));

@@ -4,8 +4,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 use std::time::Duration;
 
-use super::status::PIPE;
-use crate::balance::{NodeId, Remedy, Strategy};
+use crate::balance::{NodeId, PIPE_ATOMS, Remedy, Strategy};
 use crate::language::{say, word};
 use crate::picture::Atom;
 use crate::view::state::node_state::NodeState;
@@ -263,7 +262,7 @@ pub(crate) fn paused(state: &RunState, node: NodeId) -> String {
         1 if !state.has(Remedy::Copies) => {
             say!("{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe")
         }
-        2..=PIPE if !state.has(Remedy::Copies) => {
+        2..=PIPE_ATOMS if !state.has(Remedy::Copies) => {
             say!("{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe")
         }
         left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => {

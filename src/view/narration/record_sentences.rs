@@ -2,8 +2,7 @@
 
 use super::event_sentences;
 use super::failure_sentences;
-use super::status::PIPE;
-use crate::balance::{NodeId, Party, Remedy};
+use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy};
 use crate::language::{say, word};
 use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};
@@ -136,7 +135,7 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Op
 
 /// How many of a node's atoms nobody has begun: what is in its pipe stays there.
 fn waiting(left: u32) -> u32 {
-    left.saturating_sub(PIPE)
+    left.saturating_sub(PIPE_ATOMS)
 }
 
 #[cfg(test)]
