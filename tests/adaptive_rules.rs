@@ -7,7 +7,9 @@ mod virtual_time;
 use std::ops::Range;
 use std::time::Duration;
 
-use anel::balance::{Action, Event, OfferDetails, Message, Node, NodeId, Parent, Party, Remedies, Remedy, Rules, Strategy};
+use anel::balance::{
+    Action, Event, Message, Node, NodeId, OfferDetails, Parent, Party, Remedies, Remedy, Rules, Strategy,
+};
 use anel::picture::{Atom, Division, Size};
 use anel::record::RecordKind;
 use anel::runlog::{Header, LinkSettings, RunLog};

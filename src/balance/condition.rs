@@ -13,15 +13,17 @@ pub enum Condition {
     Hung,
     /// The machine works, but no message from it or to it arrives.
     CutOff,
-    /// The machine is switched off. Its memory and all messages to it are lost. When it is well again, it starts afresh.
+    /// The machine is switched off. Its memory and all messages to it are lost. When it is well again, it starts
+    /// afresh.
     Off,
 }
 
-/// Effect of a change of [`Condition`] on the machine's memory: its node's state, queued messages, timer, atoms and pixels.
+/// Effect of a change of [`Condition`] on the machine's memory: its node's state, queued messages, timer, atoms and
+/// pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transition {
-    /// The memory is lost: the messages that wait there, the timer, the atoms in queue, pipe and hand, the results that are
-    /// not sent, and the node's state.
+    /// The memory is lost: the messages that wait there, the timer, the atoms in queue, pipe and hand, the results that
+    /// are not sent, and the node's state.
     MemoryLost,
     /// A new node starts and is handed [`Event::Started`](super::Event::Started).
     FreshStart,
@@ -32,8 +34,8 @@ pub enum Transition {
 }
 
 impl Condition {
-    /// Returns the effect of a change from this condition to `to`; `None` if nothing changes, since a machine that is off
-    /// cannot hang.
+    /// Returns the effect of a change from this condition to `to`; `None` if nothing changes, since a machine that is
+    /// off cannot hang.
     pub fn transition(self, to: Self) -> Option<Transition> {
         match (self, to) {
             _ if self == to => None,

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Condition, OfferDetails, Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;

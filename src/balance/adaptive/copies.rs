@@ -24,14 +24,15 @@ impl Copies {
     }
 
     /// Returns the last atom in the pipe that an idle node would finish earlier than this one and of which no copy was
-    /// given: the idle node needs `needs`, this node needs `left` for the atom in hand and `usual` for each one behind it.
+    /// given: the idle node needs `needs`, this node needs `left` for the atom in hand and `usual` for each one behind
+    /// it.
     pub fn late_atom(&self, pipe: &VecDeque<Atom>, left: Duration, usual: Duration, needs: Duration) -> Option<Atom> {
         let is_late = |(place, atom): &(u32, &Atom)| left + usual * *place > needs && !self.given.contains(atom);
         (0..).zip(pipe).filter(is_late).last().map(|(_, &atom)| atom)
     }
 
-    /// Returns when the atom that has been in hand since `since` will be late: an idle node that needs `needs` would then
-    /// finish it earlier. An atom that is late already is due again when it has taken twice as long.
+    /// Returns when the atom that has been in hand since `since` will be late: an idle node that needs `needs` would
+    /// then finish it earlier. An atom that is late already is due again when it has taken twice as long.
     pub fn expiry(now: Time, since: Time, usual: Duration, needs: Duration) -> Time {
         let late = since + usual / 2 + needs;
         if late > now { late } else { now + now.since(since).max(Duration::from_micros(1)) }

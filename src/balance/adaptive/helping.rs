@@ -13,8 +13,8 @@ use crate::picture::Atom;
 use crate::time::Time;
 
 impl AdaptiveNode {
-    /// Answers another node's offer: sends it atoms, or a copy of a late atom, or passes the offer on. Keeps a notice that
-    /// the other node sleeps.
+    /// Answers another node's offer: sends it atoms, or a copy of a late atom, or passes the offer on. Keeps a notice
+    /// that the other node sleeps.
     pub(super) fn answer_offer(&mut self, now: Time, offer: Offer, actions: &mut Vec<Action>) {
         let was_woken = self.sleepers.remove(offer.who);
         let offerer = Offerer { speed: offer.help.speed(), done: offer.done };
@@ -54,8 +54,8 @@ impl AdaptiveNode {
         }
     }
 
-    /// Returns the summed speed of the woken nodes whose offers are expected. A node of unknown speed counts as fast as this
-    /// one.
+    /// Returns the summed speed of the woken nodes whose offers are expected. A node of unknown speed counts as fast as
+    /// this one.
     fn expected_speed(&mut self, now: Time) -> f64 {
         let own = self.speed_estimate.averages().map_or(1.0, |(speed, _)| speed);
         self.sleepers.expected_speed(now, self.lease(), own)

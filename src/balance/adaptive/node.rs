@@ -19,7 +19,8 @@ use crate::picture::Atom;
 use crate::time::Time;
 
 /// A node of the adaptive ring. It composes small machines, each with a file of its own. This file answers events,
-/// `offering` makes offers and puts the node to sleep, `helping` answers the offers of others, and `timers` does what is due.
+/// `offering` makes offers and puts the node to sleep, `helping` answers the offers of others, and `timers` does what
+/// is due.
 #[derive(Debug)]
 pub struct AdaptiveNode {
     pub(super) id: NodeId,
@@ -93,10 +94,10 @@ impl AdaptiveNode {
         }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    /// Handles `event` at the time `now` and appends its answer to `actions`.
     ///
     /// # Panics
-    /// If the event is impossible: something that no parent or node of the same ring can have sent.
+    /// If the event is impossible: no parent or node of the same ring can have sent it.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
             Event::Started => self.admission.start(now),
@@ -196,7 +197,7 @@ impl AdaptiveNode {
             Message::Gone(gone) => self.close_ring(now, gone, actions),
             Message::Placed(ranges) => ranges.iter().for_each(|range| self.work.forget(range)),
             Message::Shutdown => actions.push(Action::Finish),
-            other => unreachable!("a node of the ring that adapts is never sent {other:?}"),
+            other => unreachable!("a node of the adaptive ring is never sent {other:?}"),
         }
     }
 

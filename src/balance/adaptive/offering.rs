@@ -26,8 +26,8 @@ impl AdaptiveNode {
             to = self.ring.stop(offer.who, offer.help.stop);
             offer.help.left = Some(left);
             offer.help.stop = (offer.help.stop + 1).checked_rem(self.ring.stops()).unwrap_or(0);
-            // The next node takes over the stop of one that is gone. So two stops may be the same node, and a node may be
-            // its own next stop: it skips that one.
+            // The next node takes over the stop of one that is gone. So two stops may be the same node, and a node may
+            // be its own next stop: it skips that one.
             if to != self.id {
                 break;
             }
@@ -44,8 +44,8 @@ impl AdaptiveNode {
         }
     }
 
-    /// Returns when the node should offer before its atoms run out: a round trip before it has only one left, since the offer
-    /// may pass some nodes that have nothing to give.
+    /// Returns when the node should offer before its atoms run out: a round trip before it has only one left, since the
+    /// offer may pass some nodes that have nothing to give.
     pub(super) fn early_expiry(&self) -> Option<Time> {
         let usual = self.speed_estimate.usual_time()?;
         let in_hand = *self.work.pipe().front()?;
@@ -91,8 +91,8 @@ impl AdaptiveNode {
         }
     }
 
-    /// Closes the ring around the nodes that are `gone`. An offer under way may be lost with one of them: the node makes
-    /// another.
+    /// Closes the ring around the nodes that are `gone`. An offer under way may be lost with one of them: the node
+    /// makes another.
     pub(super) fn close_ring(&mut self, now: Time, gone: Vec<NodeId>, actions: &mut Vec<Action>) {
         self.ring.set_gone(gone);
         let ring = &self.ring;
@@ -105,8 +105,8 @@ impl AdaptiveNode {
         }
     }
 
-    /// Returns this node's offer made at `made`, on its way to `stop` with `left` more stops after it; `left` = `None` makes
-    /// it a notice that the node sleeps.
+    /// Returns this node's offer made at `made`, on its way to `stop` with `left` more stops after it; `left` = `None`
+    /// makes it a notice that the node sleeps.
     fn offer_at(&self, made: Time, stop: u16, left: Option<u16>) -> Offer {
         let speed = self.speed_estimate.averages().map_or(0.0, |(speed, _)| speed);
         let help = OfferDetails { speed: OfferDetails::millionths(speed), sent: made, stop, left };

@@ -17,8 +17,8 @@ pub(super) struct OwnOffer {
 }
 
 impl OwnOffer {
-    /// Makes an offer. Returns the time that it bears: `now`, or 1 ns after the last offer, since no two offers of a node bear
-    /// the same time.
+    /// Makes an offer. Returns the time that it bears: `now`, or 1 ns after the last offer, since no two offers of a
+    /// node bear the same time.
     pub fn make(&mut self, now: Time) -> Time {
         let made = self.made.map_or(now, |last| now.max(last + Duration::from_nanos(1)));
         self.made = Some(made);

@@ -13,8 +13,8 @@ pub struct RingMembers {
 }
 
 impl RingMembers {
-    /// Creates a ring of `nodes` nodes (at least one), none of which is gone. With `shortcuts` the distances of an offer's
-    /// stops grow like powers of two; without, an offer stops at every node.
+    /// Creates a ring of `nodes` nodes (at least one), none of which is gone. With `shortcuts` the distances of an
+    /// offer's stops grow like powers of two; without, an offer stops at every node.
     pub fn new(nodes: NodeId, shortcuts: bool) -> Self {
         Self { nodes: nodes.max(1), gone: BTreeSet::new(), shortcuts }
     }
@@ -29,8 +29,8 @@ impl RingMembers {
         self.gone.contains(&node)
     }
 
-    /// Returns how many stops an offer has: with shortcuts one for each of up to 8 other nodes, then two for each doubling of
-    /// the ring.
+    /// Returns how many stops an offer has: with shortcuts one for each of up to 8 other nodes, then two for each
+    /// doubling of the ring.
     pub fn stops(&self) -> u16 {
         let others = self.nodes - 1;
         if !self.shortcuts || others <= 8 {
@@ -39,8 +39,8 @@ impl RingMembers {
         (0..).take_while(|&stop| distance(stop) < self.nodes).count() as u16
     }
 
-    /// Returns stop number `stop` (from 0) of an offer of `who`: the node at that stop's distance to its left, or the next one
-    /// there that is not gone; `who` itself if no other node is left.
+    /// Returns stop number `stop` (from 0) of an offer of `who`: the node at that stop's distance to its left, or the
+    /// next one there that is not gone; `who` itself if no other node is left.
     pub fn stop(&self, who: NodeId, stop: u16) -> NodeId {
         let first = if self.shortcuts { distance(stop) } else { stop + 1 };
         let left =

@@ -2,11 +2,11 @@
 
 /// Returns how many of the owner's `waiting` atoms go to an offerer so that both end together.
 ///
-/// Speeds are work per time; `own` is the owner's, `offerer` the offerer's, and `others` the sum of those that are expected to
-/// offer too. `cost` is the work in an atom, `ahead` the atoms that the owner traces before the waiting ones (a fraction), and
-/// `latency` the time that a transfer travels. In a time τ from now the owner does the work `own · τ` and the offerer
-/// `offerer · (τ − latency)`; the sum of both is all the work there is. The result is rounded to nearest, a half in favour of
-/// the offerer.
+/// Speeds are work per time; `own` is the owner's, `offerer` the offerer's, and `others` the sum of those that are
+/// expected to offer too. `cost` is the work in an atom, `ahead` the atoms that the owner traces before the waiting
+/// ones (a fraction), and `latency` the time that a transfer travels. In a time τ from now the owner does the work `own
+/// · τ` and the offerer `offerer · (τ − latency)`; the sum of both is all the work there is. The result is rounded to
+/// nearest, a half in favour of the offerer.
 pub fn share_by_speed(waiting: u32, ahead: f64, own: f64, offerer: f64, others: f64, latency: f64, cost: f64) -> u32 {
     let all = own + offerer + others;
     if waiting == 0 || !(all > 0.0 && cost > 0.0) {

@@ -12,8 +12,8 @@ pub(super) struct SleepNotice {
 }
 
 impl SleepNotice {
-    /// Creates the schedule of a node that falls asleep at `now` and announces that at once: the second notice is due after
-    /// `pause`.
+    /// Creates the schedule of a node that falls asleep at `now` and announces that at once: the second notice is due
+    /// after `pause`.
     pub fn new(now: Time, pause: Duration) -> Self {
         Self { next: now + pause, pause }
     }

@@ -1,4 +1,5 @@
-//! The sleeping nodes that a node knows: those that left a notice, and those that it has woken and whose offers it expects.
+//! The sleeping nodes that a node knows: those that left a notice, and those that it has woken and whose offers it
+//! expects.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -53,14 +54,14 @@ impl Sleepers {
         offerers.max_by(|one, other| one.1.speed.total_cmp(&other.1.speed))
     }
 
-    /// Returns the node to wake next: the fastest that sleeps; `None` if this node, which has traced `traced` atoms, has
-    /// turned one away since its last atom.
+    /// Returns the node to wake next: the fastest that sleeps; `None` if this node, which has traced `traced` atoms,
+    /// has turned one away since its last atom.
     pub fn next_to_wake(&self, traced: u32) -> Option<(NodeId, Offerer)> {
         self.fastest().filter(|_| self.turned_away_at != Some(traced))
     }
 
-    /// Notes that this node, which has traced `traced` atoms, has turned away a node that it had woken: it wakes no other
-    /// before its next atom or [`Sleepers::allow_waking`].
+    /// Notes that this node, which has traced `traced` atoms, has turned away a node that it had woken: it wakes no
+    /// other before its next atom or [`Sleepers::allow_waking`].
     pub fn turn_away(&mut self, traced: u32) {
         self.turned_away_at = Some(traced);
     }
@@ -77,8 +78,8 @@ impl Sleepers {
         }
     }
 
-    /// Returns the summed speed of the woken nodes whose offers are still expected; an unknown speed counts as `unknown`.
-    /// Forgets those that were woken more than `patience` ago: they did not sleep any more.
+    /// Returns the summed speed of the woken nodes whose offers are still expected; an unknown speed counts as
+    /// `unknown`. Forgets those that were woken more than `patience` ago: they did not sleep any more.
     pub fn expected_speed(&mut self, now: Time, patience: Duration, unknown: f64) -> f64 {
         self.nodes.retain(|_, sleeper| sleeper.woken.is_none_or(|woken| now.since(woken) <= patience));
         let speed = |sleeper: &Sleeper| if sleeper.offerer.speed > 0.0 { sleeper.offerer.speed } else { unknown };

@@ -59,8 +59,8 @@ impl SpeedEstimate {
         Some(if age > 0.0 { speed.min(cost / age) } else { speed })
     }
 
-    /// Returns how long the atom in hand will still take: the rest of the usual time, or as long as its age exceeds half of
-    /// the usual time, whichever is more.
+    /// Returns how long the atom in hand will still take: the rest of the usual time, or as long as its age exceeds
+    /// half of the usual time, whichever is more.
     pub fn time_left(&self, now: Time) -> Duration {
         let age = now.since(self.since);
         let usual = self.usual_time().unwrap_or_default();

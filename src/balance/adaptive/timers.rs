@@ -58,16 +58,17 @@ impl AdaptiveNode {
         }
     }
 
-    /// Returns whether the worker has had its atom for so long that the node no longer vouches for what it holds. Copies and
-    /// the ring have helped long before, if the node can be reached at all; the bound is high because an atom that is merely
-    /// costly should not be traced by all nodes.
+    /// Returns whether the worker has had its atom for so long that the node no longer vouches for what it holds.
+    /// Copies and the ring have helped long before, if the node can be reached at all; the bound is high because an
+    /// atom that is merely costly should not be traced by all nodes.
     fn is_stuck(&self, now: Time) -> bool {
         let age = now.since(self.speed_estimate.since());
         let usual = self.speed_estimate.usual_time().unwrap_or_default();
         !self.work.is_idle() && age > self.lease().max(usual * LEASE_BEATS) * STUCK_LEASES
     }
 
-    /// Returns when the own offer counts as lost, or when the next sleep notice is due. Without leases nothing counts as lost.
+    /// Returns when the own offer counts as lost, or when the next sleep notice is due. Without leases nothing counts
+    /// as lost.
     fn offer_expiry(&self) -> Option<Time> {
         match &self.state {
             _ if !self.has(Remedy::Leases) => None,

@@ -1,13 +1,14 @@
 //! The jobs that run trials beside each other, in virtual time.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
 use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnce};
 use super::jobs::Jobs;
 use crate::balance::Strategy;
+use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
 use crate::palette::Rgb;
 use crate::runlog::{Driver, Metrics};
@@ -49,7 +50,7 @@ impl ComparisonSubject {
 #[derive(Default)]
 pub struct TracingProgress {
     done: AtomicU32,
-    is_given_up: AtomicBool,
+    cancel: CancelToken,
 }
 
 impl TracingProgress {
@@ -60,7 +61,7 @@ impl TracingProgress {
 
     /// Nobody waits for it any more.
     pub fn give_up(&self) {
-        self.is_given_up.store(true, Ordering::Relaxed);
+        self.cancel.cancel();
     }
 }
 
@@ -145,8 +146,7 @@ impl Jobs {
 /// Traces the picture on all cores, unless it is given up.
 fn pictured(tracer: &Arc<Tracer>, tracing: &TracingProgress) -> Result<Option<Arc<TracedOnce>>, String> {
     let done = |more| _ = tracing.done.fetch_add(more, Ordering::Relaxed);
-    let is_over = || tracing.is_given_up.load(Ordering::Relaxed);
-    let traced = TracedPicture::by_pixel(tracer, &done, &is_over)?;
+    let traced = TracedPicture::by_pixel(tracer, &done, &tracing.cancel).map_err(|error| error.to_string())?;
     Ok(traced.map(|(pixels, costs)| Arc::new(TracedOnce { pixels, costs })))
 }
 

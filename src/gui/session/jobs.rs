@@ -10,6 +10,7 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
+use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
 use crate::output::OutputError;
 use crate::picture::{Size, write_png};
@@ -26,7 +27,7 @@ pub struct Jobs {
     /// Dropping it ends the watch.
     watch: Option<Sender<()>>,
     /// Dropping it ends the measurement.
-    pub(super) measuring: Option<Sender<()>>,
+    pub(super) measuring: Option<CancelOnDrop>,
 }
 
 impl Jobs {

@@ -8,7 +8,7 @@ use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
 use super::opening::Opening;
 use super::preview::{FINEST, PREVIEW, guess, with_preview};
-use crate::driver::{RAY, probe};
+use crate::driver::{RAY_COST, probe};
 use crate::language::{Language, say};
 use crate::picture::Size;
 use crate::scene::Opened;
@@ -32,7 +32,7 @@ impl Jobs {
                     let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
                     let found = probe(&tracer, division, PROBE);
                     let cpu = found.whole_with_rests(&tracer, division);
-                    let virtual_time = RAY.mul_f64(found.rays as f64);
+                    let virtual_time = RAY_COST.mul_f64(found.rays as f64);
                     let preview = guess(&tracer);
                     Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
                 }

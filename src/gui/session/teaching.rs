@@ -7,6 +7,7 @@ use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::guess;
+use crate::cancel::CancelToken;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
 use crate::view::RunView;
@@ -73,7 +74,7 @@ impl Jobs {
             language.speak();
             let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
             // A lesson's pictures are small, and soon traced.
-            let performed = lesson.perform(&done, &|| false);
+            let performed = lesson.perform(&done, &CancelToken::default());
             let taught = performed.and_then(|performed| {
                 let performed = performed.unwrap_or_default();
                 lesson.has_moments(&performed)?;

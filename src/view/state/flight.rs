@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::slice;
 use std::time::Duration;
 
-use crate::balance::{OfferDetails, Message, NodeId, Party};
+use crate::balance::{Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
