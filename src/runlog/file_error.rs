@@ -28,13 +28,13 @@ pub enum LogError {
         path: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The error.
         #[source]
         why: LineError,
     },
 }
 
-/// What is wrong with a line of a run file.
+/// An error in a line of a run file.
 #[derive(Debug, Error)]
 pub enum LineError {
     /// The file does not begin as a run file does.

@@ -12,7 +12,7 @@ pub enum MeasuredError {
     OtherDivision {
         /// Size of the recorded picture, and the pixels in an atom of it.
         measured: (Size, u32),
-        /// The same of the picture that is to be run.
+        /// Size of the picture that is to be run, and the pixels in an atom of it.
         asked: (Size, u32),
     },
     /// The recorded run has not traced all atoms, so that costs are missing.

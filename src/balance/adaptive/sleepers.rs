@@ -22,7 +22,7 @@ struct Sleeper {
     woken: Option<Time>,
 }
 
-/// What an offer says of the node that made it.
+/// The node that made an offer, as the offer describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Offerer {
     /// Fraction of the reference machine's speed; 0 if unknown.
