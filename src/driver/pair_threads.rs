@@ -69,7 +69,7 @@ fn run_worker(context: RunContext<'_>, id: NodeId, pipe: Receiver<Envelope>) {
     worker.end();
 }
 
-/// NodeHandler of a worker that has its own thread.
+/// Handler of a worker that has its own thread.
 struct PipeHandler {
     ended: bool,
 }

@@ -159,7 +159,7 @@ impl PoolNode {
     }
 }
 
-/// NodeHandler of a worker in the pool.
+/// Handler of a worker in the pool.
 struct StealingHandler {
     /// Number of messages received: the band is the first, the shutdown the second.
     received: u32,

@@ -27,7 +27,7 @@ const PIECE_PIXELS: u32 = 64;
 /// Longest time that a machine may be ahead of the clock, so that its thread does not sleep after each atom.
 const MAX_AHEAD: Duration = Duration::from_millis(1);
 
-/// NodeHandler of a worker's events: what its thread does besides tracing.
+/// Handler of a worker's events: what its thread does besides tracing.
 pub(super) trait WorkerHandler {
     /// Handles a message or the timer.
     fn event(&mut self, event: Event, worker: &mut Worker);

@@ -286,10 +286,13 @@ mod tests {
         assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));
         assert_eq!(
             with(1, &lines[0].replace(r#""atom_pixels":5"#, r#""atom_pixels":0"#)),
-            "line 1: the division is not that of a picture of this size"
+            "line 1: the number of atoms does not fit the size of the picture"
         );
-        assert_eq!(with(2, &lines[1].replace(r#""node":0"#, r#""node":1"#)), "line 2: there is no such node");
-        assert_eq!(with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)), "line 2: there is no such atom");
+        assert_eq!(with(2, &lines[1].replace(r#""node":0"#, r#""node":1"#)), "line 2: there is no node of this number");
+        assert_eq!(
+            with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)),
+            "line 2: there is no atom of this number"
+        );
         assert!(with(3, &lines[2][..30]).starts_with("line 3: EOF while parsing"));
     }
 

@@ -31,31 +31,31 @@ pub enum InvalidHeader {
     #[error("{0}")]
     Quality(String),
     /// The division does not fit the size of the picture.
-    #[error("the division is not that of a picture of this size")]
+    #[error("the number of atoms does not fit the size of the picture")]
     WrongDivision,
     /// A run has at most [`Division::MAX_ATOMS`] atoms.
-    #[error("there are more atoms than a run can have")]
+    #[error("there are too many atoms for a run")]
     TooManyAtoms,
     /// A run has 1 to 1024 nodes.
     #[error("there must be 1 to 1024 speeds")]
     WrongNumberOfSpeeds,
     /// At least one machine must be on at first.
-    #[error("all machines are spares")]
+    #[error("all machines are spares; at least one must be on")]
     OnlySpares,
     /// No other strategy lets machines join.
-    #[error("only a ring that adapts has spares")]
+    #[error("only the adaptive ring can have spare machines")]
     SparesWithoutAdaptiveRing,
     /// A latency or a handling time is longer than an hour.
     #[error("a message takes longer than an hour")]
     SlowMessages,
     /// The interval of the heartbeat is out of range.
-    #[error("a beat is not between a millisecond and a year")]
+    #[error("the beat is not between a millisecond and a year")]
     ImpossibleBeat,
     /// A speed is out of range.
     #[error("a speed is not between 0 and 1")]
     ImpossibleSpeed,
     /// The pace is out of range.
-    #[error("the pace is not above 0 and at most 1")]
+    #[error("the pace is not above 0, or is above 1")]
     ImpossiblePace,
     /// The bandwidth is out of range.
     #[error("the bandwidth is not above 0")]
@@ -72,34 +72,34 @@ pub enum InvalidRecord {
     #[error("a message arrives before it is sent")]
     ArrivesBeforeSent,
     /// A message has more bytes than the whole picture.
-    #[error("a message is heavier than any can be")]
+    #[error("a message is larger than the whole picture")]
     HeavyMessage,
     /// A speed is out of range.
     #[error("a speed is not between 0 and 1")]
     ImpossibleSpeed,
     /// A delay is longer than an hour.
-    #[error("messages are held up for more than an hour")]
+    #[error("a delay is longer than an hour")]
     LongDelay,
     /// A latency or a handling time is longer than an hour.
     #[error("a message takes longer than an hour")]
     SlowMessages,
     /// An estimate has another number of stretches than the picture.
-    #[error("the sample is not of this picture")]
+    #[error("the estimate is not for this picture")]
     WrongSample,
     /// All messages together carry more atoms than a run can send.
-    #[error("by now more atoms have been sent than a run can send")]
+    #[error("the messages so far carry more atoms than a run can send")]
     TooManyAtomsSent,
     /// A range exceeds the atoms of the picture.
-    #[error("there are no such atoms")]
+    #[error("there are no atoms of these numbers")]
     UnknownAtoms,
     /// The picture has no atom of this number.
-    #[error("there is no such atom")]
+    #[error("there is no atom of this number")]
     UnknownAtom,
     /// An atom costs more than a year.
     #[error("an atom takes longer than a year")]
     ImpossibleCost,
     /// The header has no node of this number.
-    #[error("there is no such node")]
+    #[error("there is no node of this number")]
     UnknownNode,
 }
 

@@ -8,7 +8,11 @@ use crate::picture::Size;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MeasuredError {
     /// The recorded run is of another division of the picture.
-    #[error("it is of a picture of {} in atoms of {} pixels, not of {} in atoms of {}", measured.0, measured.1, asked.0, asked.1)]
+    #[error(
+        "its picture has {0} pixels in atoms of {1}, but this run has {2} pixels in atoms of {3}; \
+         use the same size and the same atoms",
+        measured.0, measured.1, asked.0, asked.1
+    )]
     OtherDivision {
         /// Size of the recorded picture, and the pixels in an atom of it.
         measured: (Size, u32),
@@ -16,6 +20,6 @@ pub enum MeasuredError {
         asked: (Size, u32),
     },
     /// The recorded run has not traced all atoms, so that costs are missing.
-    #[error("not all atoms were traced")]
+    #[error("it has not traced all atoms; use a run that is complete")]
     NotAllTraced,
 }
