@@ -43,7 +43,7 @@ fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
     println!(
         "  {:<8} {took:6.2} s, {:.2} million events a second, {:.1} million records, {:.0} MiB at most, efficiency {:.4}",
         strategy.name(),
-        sim.happened() as f64 / took / 1e6,
+        sim.processed() as f64 / took / 1e6,
         records as f64 / 1e6,
         peak_mib(),
         tally.efficiency().unwrap_or_default(),

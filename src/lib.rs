@@ -4,6 +4,7 @@
 //! know each other (`tests/tidy.rs` holds this). ARCHITECTURE.md tells the way of the data through them.
 
 // Floor 0: words that everything else is made of.
+pub mod cancel; // a flag that tells work in the background to end
 pub mod font; // the typeface of the window and of drawings
 pub mod geometry; // rays, boxes, rotations in degrees
 pub mod language; // English or Portuguese, beside each other

@@ -7,7 +7,9 @@ mod virtual_time;
 use std::ops::Range;
 use std::time::Duration;
 
-use anel::balance::{Action, Event, Helper, Message, Node, NodeId, Parent, Party, Remedies, Remedy, Rules, Strategy};
+use anel::balance::{
+    Action, Event, Message, Node, NodeId, OfferDetails, Parent, Party, Remedies, Remedy, Rules, Strategy,
+};
 use anel::picture::{Atom, Division, Size};
 use anel::record::RecordKind;
 use anel::runlog::{Header, LinkSettings, RunLog};
@@ -65,7 +67,7 @@ impl Told {
 
     /// The offer of node 2, made `ago`, as fast as that; what the node does about it.
     fn offered(&mut self, speed: f64, ago: Duration, left: Option<u16>) -> Vec<Action> {
-        let help = Helper { speed: Helper::millionths(speed), sent: self.now - ago, stop: 1, left };
+        let help = OfferDetails { speed: OfferDetails::millionths(speed), sent: self.now - ago, stop: 1, left };
         self.message(Party::Node(2), Message::Offer { who: 2, done: 50, help: Some(help) })
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use anel::balance::{Condition, Message, NodeId, Party, Strategy};
-use anel::driver::{Retrace, Run, Update};
+use anel::driver::{Retrace, Run, RunError, Update};
 use anel::picture::{Colour, Size};
 use anel::record::{Record, RecordKind};
 use anel::runlog::{Driver, Header, LinkSettings, RunLog};
@@ -27,7 +27,7 @@ fn fifty_of_each_in_a_row_leave_nothing_running() {
     assert!(comes_true(|| runs.iter().all(Run::has_ended)), "a run goes on");
     for run in &runs {
         let last = run.updates().try_iter().last();
-        assert!(matches!(last, Some(Update::Failed(why)) if why == "the run was stopped"));
+        assert!(matches!(last, Some(Update::Failed(RunError::Stopped))));
     }
     // The system may still be clearing away what has ended.
     assert!(comes_true(|| threads() <= before), "{before} threads before, {} after", threads());
@@ -60,8 +60,8 @@ fn begin_and_stop(number: u32) -> Run {
     let put_all = |condition| (0..NODES).for_each(|node| run.command(Command::Condition { node, condition }));
     match number % 7 {
         0 => run.pause(),
-        1 => (0..NODES).for_each(|node| run.set_paused(node, true)),
-        2 => (0..NODES).for_each(|node| run.set_speed(node, 0.0)),
+        1 => (0..NODES).for_each(|node| run.command(Command::Pause { node, paused: true })),
+        2 => (0..NODES).for_each(|node| run.command(Command::Speed { node, speed: 0.0 })),
         3 => put_all(Condition::Hung),
         4 => put_all(Condition::CutOff),
         5 => put_all(Condition::Off),
@@ -70,7 +70,7 @@ fn begin_and_stop(number: u32) -> Run {
     run.stop();
     // Nothing is to be done to a run that has been told to end.
     run.pause();
-    run.set_speed(0, 1.0);
+    run.command(Command::Speed { node: 0, speed: 1.0 });
     run
 }
 

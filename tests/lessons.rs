@@ -2,10 +2,11 @@
 
 use std::fs;
 
+use anel::cancel::CancelToken;
 use anel::lesson::{BUILT_IN, Lesson, LessonRun};
 
 fn performed(lesson: &Lesson) -> Vec<(String, LessonRun)> {
-    let performed = lesson.perform(&|_| {}, &|| false);
+    let performed = lesson.perform(&|_| {}, &CancelToken::default());
     performed.expect("its scenes can be read").expect("nobody gives it up")
 }
 
@@ -107,7 +108,7 @@ fn a_scene_may_stand_beside_the_lesson() {
     let performed = performed(&lesson);
     assert_eq!(performed[0].1.opened.name, "ball");
     let lesson = Lesson { directory: "/nowhere".into(), ..lesson };
-    let missing = lesson.perform(&|_| {}, &|| false);
+    let missing = lesson.perform(&|_| {}, &CancelToken::default());
     assert!(missing.is_err_and(|why| why.starts_with("the run `one`: ")), "it names the run");
 }
 

@@ -139,13 +139,13 @@ fn one_hundred_on_threads() {
         let mut set = vec![header.link.latency];
         for _ in 0..random.below(6) {
             std::thread::sleep(random.below(3) as u32 * MS);
-            run.set_speed(random.below(nodes) as NodeId, speed(random));
-            run.set_paused(random.below(nodes) as NodeId, random.below(2) == 0);
+            run.command(Command::Speed { node: random.below(nodes) as NodeId, speed: speed(random) });
+            run.command(Command::Pause { node: random.below(nodes) as NodeId, paused: random.below(2) == 0 });
             set.push(random.below(5) as u32 * MS);
-            run.set_latency(set[set.len() - 1]);
+            run.command(Command::Latency(set[set.len() - 1]));
         }
         set.dedup();
-        (0..nodes as NodeId).for_each(|node| run.set_paused(node, false));
+        (0..nodes as NodeId).for_each(|node| run.command(Command::Pause { node, paused: false }));
         let log = finish(&run, &header);
         assert_stands_still(&log);
         // What was set after the end is not in the records.
@@ -172,15 +172,17 @@ fn a_paused_run_stands_still_and_goes_on() {
 
 #[test]
 fn a_stopped_machine_answers_messages_and_traces_nothing_until_it_goes_on() {
-    stop_the_second(1.0, |run, stopped| run.set_speed(1, if stopped { 0.0 } else { 1.0 }));
+    stop_the_second(1.0, |run, stopped| {
+        run.command(Command::Speed { node: 1, speed: if stopped { 0.0 } else { 1.0 } })
+    });
 }
 
 #[test]
 fn so_does_a_paused_one_whatever_its_speed() {
     for pace in [1.0, 0.5] {
         stop_the_second(pace, |run, paused| {
-            run.set_paused(1, paused);
-            run.set_speed(1, 0.75);
+            run.command(Command::Pause { node: 1, paused });
+            run.command(Command::Speed { node: 1, speed: 0.75 });
         });
     }
 }
@@ -210,10 +212,10 @@ fn only_real_pauses_and_latencies_are_recorded() {
     let header = header(Size::new(100, 50).unwrap(), 10, vec![0.5, 0.0]);
     let run = Run::start_with(|pixels, _, out| trace(pixels, out, |_| 300), &header);
     for (node, paused) in [(1, false), (1, true), (1, true), (2, true), (1, false), (1, false), (0, false)] {
-        run.set_paused(node, paused);
+        run.command(Command::Pause { node, paused });
     }
-    [0, 3, 3, 0, 1].into_iter().for_each(|ms| run.set_latency(ms * MS));
-    run.set_speed(1, 0.5);
+    [0, 3, 3, 0, 1].into_iter().for_each(|ms| run.command(Command::Latency(ms * MS)));
+    run.command(Command::Speed { node: 1, speed: 0.5 });
     let log = finish(&run, &header);
     let pauses: Vec<_> = log
         .records()
@@ -265,7 +267,7 @@ fn a_panicking_worker_fails_the_run() {
             &header,
         );
         let last = run.updates().iter().find_map(|update| match update {
-            Update::Failed(why) => Some(why),
+            Update::Failed(why) => Some(why.to_string()),
             Update::Finished => panic!("the run finished without half of its pixels"),
             _ => None,
         });

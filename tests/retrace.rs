@@ -10,6 +10,7 @@ use anel::driver::{Retrace, Run, Update};
 use anel::picture::{Atom, Colour, Division, Frame, Quality, Size};
 use anel::record::{Record, RecordKind};
 use anel::runlog::{Driver, Header, LinkSettings, RunLog};
+use anel::scenario::Command;
 use anel::scene::{Scene, built_in};
 use anel::time::Time;
 use anel::tracer::{Scratch, Tracer};
@@ -44,7 +45,7 @@ impl Told {
             }
             Update::Rays(_) => {}
             Update::Finished => self.end = Some(Ok(())),
-            Update::Failed(why) => self.end = Some(Err(why)),
+            Update::Failed(why) => self.end = Some(Err(why.to_string())),
         }
     }
 
@@ -88,10 +89,10 @@ fn tracer(header: &Header) -> Arc<Tracer> {
 /// A run of three machines, of which the user pauses one.
 fn recorded(tracer: &Arc<Tracer>, header: &Header) -> Told {
     let run = Run::start(Arc::clone(tracer), header);
-    run.set_paused(1, true);
-    run.set_latency(2 * MS);
+    run.command(Command::Pause { node: 1, paused: true });
+    run.command(Command::Latency(2 * MS));
     std::thread::sleep(5 * MS);
-    run.set_paused(1, false);
+    run.command(Command::Pause { node: 1, paused: false });
     let mut told = Told::new(header);
     run.updates().iter().for_each(|update| told.take(update));
     assert_eq!(told.end, Some(Ok(())));

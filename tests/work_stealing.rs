@@ -9,6 +9,7 @@ use anel::driver::{Run, Update};
 use anel::picture::{Atom, Colour, Size};
 use anel::record::RecordKind;
 use anel::runlog::{Driver, Header, LinkSettings, Metrics, RunLog};
+use anel::scenario::Command;
 use anel::time::Time;
 use anel::tracer::Scratch;
 
@@ -119,7 +120,7 @@ fn a_machine_that_stands_still_does_so_in_its_atom() {
     for speed in [1.0, 0.4] {
         let header = header(&[speed, 1.0, 1.0], 1.0);
         let run = Run::start_with(trace, &header);
-        run.set_paused(0, true);
+        run.command(Command::Pause { node: 0, paused: true });
         let mut placed = 0;
         // What the paused one holds is one atom at most, and it may not have sent what it did before.
         while placed < header.division.atoms() * 9 / 10 {
@@ -130,7 +131,7 @@ fn a_machine_that_stands_still_does_so_in_its_atom() {
                 Update::Records(_) | Update::Rays(_) => {}
             }
         }
-        run.set_paused(0, false);
+        run.command(Command::Pause { node: 0, paused: false });
         log_of(&run, &header);
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Parser, Subcommand};
 
-use crate::balance::{Remedy, Strategy};
+use crate::balance::{Remedy, Strategy, UnknownStrategy};
 use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -261,7 +261,7 @@ impl FromStr for SchedulerArg {
         if text == Driver::WorkStealing.name() {
             return Ok(Self::Rayon);
         }
-        text.parse().map(Self::By).map_err(|error: String| format!("{error}, rayon"))
+        text.parse().map(Self::By).map_err(|error: UnknownStrategy| format!("{error}, rayon"))
     }
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Condition, Helper, Message, NodeId, Party};
+use crate::balance::{Condition, Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
@@ -173,7 +173,7 @@ fn sent(from: Party, message: &Message) -> RecordRow {
         Message::Shutdown => RecordRow { what: "shutdown", ..RecordRow::default() },
         Message::Offer { who, done, help } => {
             let what = match help {
-                Some(Helper { left: None, .. }) => "note",
+                Some(OfferDetails { left: None, .. }) => "note",
                 _ if from == Party::Node(*who) => "offer",
                 _ => "hop",
             };

@@ -46,8 +46,9 @@ impl Fixture {
     /// A sentence, if it could not be traced.
     pub fn new(scene: &Opened, size: Size, samples: u32) -> Result<Self, String> {
         let tracer = Arc::new(Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() }));
-        let whole = TracedPicture::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {})?;
-        Ok(Self { scene: scene.clone(), size, samples, tracer, rays: whole.rays })
+        let traced = TracedPicture::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {});
+        let rays = traced.map_err(|error| error.to_string())?.rays;
+        Ok(Self { scene: scene.clone(), size, samples, tracer, rays })
     }
 
     /// What atoms of `atom_pixels` (a multiple of [`GRAIN`]) cost, by their rays, if the whole picture costs `whole`.
@@ -109,5 +110,5 @@ fn tally(header: &Header, mut sim: Sim) -> Metrics {
 /// A sentence, if not all atoms were traced.
 pub(super) fn twin(log: &RunLog) -> Result<Metrics, String> {
     let header = virtually(&log.header);
-    Ok(tally(&header, Sim::measured(&header, log)?))
+    Ok(tally(&header, Sim::measured(&header, log).map_err(|error| error.to_string())?))
 }

@@ -2,6 +2,7 @@
 
 use cpu_time::ThreadTime;
 
+use crate::cancel::CancelToken;
 use crate::driver::TimedPicture;
 use crate::tracer::Tracer;
 
@@ -36,5 +37,5 @@ impl PreviewTimes {
 /// A picture that is traced on this thread, and what that takes.
 pub(super) fn picture(tracer: &Tracer) -> TimedPicture {
     // Nobody ends it before.
-    TimedPicture::of(tracer, &|| false).expect("a whole picture")
+    TimedPicture::of(tracer, &CancelToken::default()).expect("a whole picture")
 }

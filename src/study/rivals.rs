@@ -104,7 +104,7 @@ impl Sample {
     #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
     fn take(bench: &Fixture, header: &Header) -> Result<Self, String> {
         let (begun, before) = (Instant::now(), context_switches());
-        let log = run_to_end(&bench.tracer, header, &[])?;
+        let log = run_to_end(&bench.tracer, header, &[]).map_err(|error| error.to_string())?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
         let makespan = Metrics::of(&log).makespan().unwrap_or_default().as_secs_f64();

@@ -23,7 +23,7 @@ pub fn picture(run: &Run, header: &Header) -> (Result<Frame, String>, Vec<Record
             Update::Records(more) => records.extend(more),
             Update::Rays(_) => {}
             Update::Finished => return (Ok(frame), records),
-            Update::Failed(why) => return (Err(why), records),
+            Update::Failed(error) => return (Err(error.to_string()), records),
         }
     }
     panic!("the run ended without saying so");

@@ -145,7 +145,7 @@ impl Session {
 impl Jobs {
     /// Looks at the scene, coarsely and then as finely as there is time.
     fn look(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
-        self.start("camera", move || JobResult::CameraPreview(look(&scene, size, quality)), language);
+        self.start(language, "camera", move || JobResult::CameraPreview(look(&scene, size, quality)));
     }
 }
 

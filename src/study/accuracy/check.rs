@@ -1,6 +1,7 @@
 //! Whether the automatic choice keeps what it promises.
 
 use super::{Point, Reference, fastest_within, front, measure};
+use crate::cancel::CancelToken;
 use crate::picture::Quality;
 use crate::scene::Scene;
 
@@ -43,7 +44,7 @@ pub(super) fn check(scene: &Scene, reference: &Reference, points: &[Point]) -> V
     let chosen: Vec<(f64, Point)> = limits.filter_map(|error| Some((error, *fastest_within(points, error)?))).collect();
     let qualities: Vec<Quality> =
         chosen.iter().map(|(_, point)| Quality { pattern: OTHER_PATTERN, ..point.quality }).collect();
-    let anew = measure(scene, reference, &qualities, &|| false, &mut |_, _, _| {}).unwrap_or_default();
+    let anew = measure(scene, reference, &qualities, &CancelToken::default(), &mut |_, _, _| {}).unwrap_or_default();
     let landing = |((error, chosen), anew): ((f64, Point), Point)| {
         let over = |half: &Vec<Point>| Some(fastest_within(half, error)?.cpu_s / chosen.cpu_s);
         let half_over_all = over(&halves[0]).zip(over(&halves[1])).map(|(one, other)| one.max(other));

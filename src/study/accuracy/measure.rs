@@ -1,6 +1,7 @@
 //! What pictures of several qualities cost, and how far they are from the reference.
 
 use super::Reference;
+use crate::cancel::CancelToken;
 use crate::driver::TimedPicture;
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Scene;
@@ -35,12 +36,12 @@ const LONG: f64 = 0.2;
 
 /// Measures these qualities on this thread: all of them in turn, so that what disturbs the computer disturbs all alike.
 /// `each` is told the place of each point and its picture as soon as it is measured, and again when its time is known
-/// better. `None` if it `is_over` before.
+/// better. `None` if cancelled before the end.
 pub fn measure(
     scene: &Scene,
     reference: &Reference,
     qualities: &[Quality],
-    is_over: &dyn Fn() -> bool,
+    cancel: &CancelToken,
     each: &mut dyn FnMut(usize, &Point, &Frame),
 ) -> Option<Vec<Point>> {
     let size: Size = reference.picture.size();
@@ -51,7 +52,7 @@ pub fn measure(
             if times[place].iter().any(|&time| time > LONG) {
                 continue;
             }
-            let found = TimedPicture::of(&Tracer::new(scene, size, quality), is_over)?;
+            let found = TimedPicture::of(&Tracer::new(scene, size, quality), cancel)?;
             times[place].push(found.cpu.as_secs_f64());
             if turn == 0 {
                 let difference = Difference::of(&found.frame, &reference.picture);
@@ -66,14 +67,12 @@ pub fn measure(
 
 #[cfg(test)]
 mod tests {
-    use std::cell::Cell;
-
     use super::*;
     use crate::scene::Opened;
 
     fn subject() -> (Scene, Reference) {
         let (scene, size) = (Opened::new("csg-primer").unwrap().scene, Size::new(24, 18).unwrap());
-        let reference = Reference::trace(&scene, size, 2, &mut || {}, &|| false).unwrap().unwrap();
+        let reference = Reference::trace(&scene, size, 2, &mut || {}, &CancelToken::default()).unwrap().unwrap();
         (scene, reference)
     }
 
@@ -82,7 +81,7 @@ mod tests {
         let (scene, reference) = subject();
         let qualities = [1, 2, 4].map(|samples| Quality { samples, ..Quality::default() });
         let mut told = Vec::new();
-        let points = measure(&scene, &reference, &qualities, &|| false, &mut |place, point, frame| {
+        let points = measure(&scene, &reference, &qualities, &CancelToken::default(), &mut |place, point, frame| {
             assert_eq!((point.quality, frame.size()), (qualities[place], reference.picture.size()));
             assert!(point.cpu_s > 0.0 && point.difference == Difference::of(frame, &reference.picture));
             told.push(place);
@@ -93,12 +92,16 @@ mod tests {
     }
 
     #[test]
-    fn it_ends_when_nobody_wants_it_any_more() {
+    fn cancelled_measurement_ends_without_a_result() {
         let (scene, reference) = subject();
-        let told = Cell::new(0);
+        let (mut told, cancel) = (0, CancelToken::default());
         let qualities = [Quality::default(); 3];
-        let points =
-            measure(&scene, &reference, &qualities, &|| told.get() == 2, &mut |_, _, _| told.set(told.get() + 1));
-        assert!(points.is_none() && told.get() == 2);
+        let points = measure(&scene, &reference, &qualities, &cancel, &mut |_, _, _| {
+            told += 1;
+            if told == 2 {
+                cancel.cancel();
+            }
+        });
+        assert!(points.is_none() && told == 2);
     }
 }

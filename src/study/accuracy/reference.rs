@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
 use crate::picture::{Colour, Difference, Division, Frame, Quality, Size};
 use crate::scene::Scene;
@@ -36,7 +37,7 @@ impl Reference {
     pub const STEPS: usize = 3 * PATTERNS.len();
 
     /// Traces it on all cores, with 18 times as many samples as `samples` × `samples` a pixel, and tells `begin` of each of
-    /// its pictures. `None` if it `is_over` before.
+    /// its pictures. `None` if cancelled before the end.
     ///
     /// # Errors
     /// A sentence, if a thread could not be started, or failed.
@@ -45,7 +46,7 @@ impl Reference {
         size: Size,
         samples: u32,
         begin: &mut dyn FnMut(),
-        is_over: &(dyn Fn() -> bool + Sync),
+        cancel: &CancelToken,
     ) -> Result<Option<Self>, String> {
         let usual = Quality::default();
         let many = (3 * samples).min(Quality::MOST_SAMPLES);
@@ -57,8 +58,9 @@ impl Reference {
                 begin();
                 let quality = Quality { samples, max_depth, cutoff, pattern, ..usual };
                 let tracer = Arc::new(Tracer::new(scene, size, quality));
-                let whole = TracedPicture::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)?;
-                Ok::<_, String>(whole.map(|whole| whole.pixels))
+                let division = Division::new(size.pixels(), 16);
+                let traced = TracedPicture::unless_cancelled(&tracer, division, &|_| {}, cancel);
+                Ok::<_, String>(traced.map_err(|error| error.to_string())?.map(|picture| picture.pixels))
             };
             let Some(main) = trace(many, usual.max_depth, usual.cutoff)? else { return Ok(None) };
             let Some(short) = trace(few, usual.max_depth, usual.cutoff)? else { return Ok(None) };
@@ -94,8 +96,9 @@ mod tests {
     #[test]
     fn a_reference_is_nearer_to_the_truth_than_what_is_compared_with_it() {
         let (scene, size) = (Opened::new("glass").unwrap().scene, Size::new(16, 12).unwrap());
-        let reference = Reference::trace(&scene, size, 2, &mut || {}, &|| false).unwrap().unwrap();
-        let with = |quality| TimedPicture::of(&Tracer::new(&scene, size, quality), &|| false).unwrap().frame;
+        let reference = Reference::trace(&scene, size, 2, &mut || {}, &CancelToken::default()).unwrap().unwrap();
+        let with =
+            |quality| TimedPicture::of(&Tracer::new(&scene, size, quality), &CancelToken::default()).unwrap().frame;
         let best = Quality { samples: 12, max_depth: Reference::DEPTH, cutoff: 1e-4, pattern: 9, ..Quality::default() };
         let truth = with(best);
         let error = Difference::of(&reference.picture, &truth).rmse;
@@ -113,7 +116,9 @@ mod tests {
     fn who_no_longer_wants_it_gets_none() {
         let (scene, size) = (Opened::new("csg-primer").unwrap().scene, Size::new(24, 18).unwrap());
         let mut begun = 0;
-        assert!(Reference::trace(&scene, size, 2, &mut || begun += 1, &|| true).unwrap().is_none());
+        let cancel = CancelToken::default();
+        cancel.cancel();
+        assert!(Reference::trace(&scene, size, 2, &mut || begun += 1, &cancel).unwrap().is_none());
         assert_eq!(begun, 1);
     }
 }

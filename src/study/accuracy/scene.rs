@@ -3,6 +3,7 @@
 use super::check::{Landing, check};
 use super::knobs::{Knob, MOST, combinations, size_for};
 use super::{Point, Reference, measure};
+use crate::cancel::CancelToken;
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Opened;
 use crate::study::progress::Progress;
@@ -45,7 +46,7 @@ impl Found {
         let (name, scene) = (&opened.name, &opened.scene);
         let size = size_for(scene, most)?;
         let mut begin = || progress.next(&format!("{name}: the reference"));
-        let reference = Reference::trace(scene, size, MOST, &mut begin, &|| false)?;
+        let reference = Reference::trace(scene, size, MOST, &mut begin, &CancelToken::default())?;
         let reference = reference.ok_or("the reference was given up")?;
         let mut entries = Vec::new();
         for knob in Knob::ALL {
@@ -87,7 +88,7 @@ fn at(
     progress: &mut Progress<'_>,
 ) -> Result<(Vec<Point>, Vec<Frame>), String> {
     let mut frames: Vec<Frame> = Vec::new();
-    let points = measure(&opened.scene, reference, qualities, &|| false, &mut |place, _, frame| {
+    let points = measure(&opened.scene, reference, qualities, &CancelToken::default(), &mut |place, _, frame| {
         if place == frames.len() {
             progress.next(&format!("{}: {what}", opened.name));
             frames.push(frame.clone());

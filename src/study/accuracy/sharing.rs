@@ -6,7 +6,7 @@ use std::time::Duration;
 use fastrand::Rng;
 use serde::Serialize;
 
-use crate::balance::{Message, NodeId, Party, Strategy};
+use crate::balance::{Message, NodeId, PIPE_ATOMS, Party, Strategy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::runlog::{Driver, Header, LinkSettings, Metrics};
@@ -124,9 +124,6 @@ struct NodeAtoms {
     offered: u32,
 }
 
-/// Atoms that have left the queue for the worker.
-const PIPE: usize = 2;
-
 impl Watcher {
     fn new(header: &Header, costs: AtomCosts) -> Self {
         let node = |&speed: &f64| NodeAtoms { speed, atoms: VecDeque::new(), begun: None, traced: 0, offered: 0 };
@@ -180,7 +177,7 @@ impl Watcher {
     fn transfer(&self, from: NodeId, to: NodeId, now: Time) -> Option<Transfer> {
         let (owner, offerer) = (&self.nodes[usize::from(from)], &self.nodes[usize::from(to)]);
         let counted = f64::from(owner.traced) + f64::from(offerer.offered);
-        let in_pipe = owner.atoms.len().min(PIPE);
+        let in_pipe = owner.atoms.len().min(PIPE_ATOMS as usize);
         let seconds = |atom: &Atom| self.costs[*atom as usize].as_secs_f64();
         let begun = owner.begun.map_or(0.0, |begun| now.since(begun).as_secs_f64() * owner.speed);
         let in_hand = owner.atoms.iter().take(in_pipe).map(seconds).sum::<f64>() - begun;

@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::plan::ChaosPlan;
 use crate::balance::adaptive::RingMembers;
-use crate::balance::{Action, Condition, Helper, Message, NodeId, Party, Remedy};
+use crate::balance::{Action, Condition, Message, NodeId, OfferDetails, Party, Remedy};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
+use crate::runlog::ResultsInFlight;
 use crate::sim::Sim;
 use crate::time::Time;
 
@@ -63,7 +64,7 @@ struct Check<'a> {
     /// By atom: how often it has reached the parent.
     placed: Vec<u32>,
     /// Results on their way to the parent.
-    results: BTreeMap<u64, Vec<std::ops::Range<Atom>>>,
+    results: ResultsInFlight,
     /// Offers, and how many stops they had left when they were last sent.
     offers: BTreeMap<(NodeId, Time), u16>,
     messages: u64,
@@ -82,7 +83,7 @@ impl<'a> Check<'a> {
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
-            results: BTreeMap::new(),
+            results: ResultsInFlight::default(),
             offers: BTreeMap::new(),
             messages: 0,
             atoms_done: 0,
@@ -94,14 +95,11 @@ impl<'a> Check<'a> {
     fn record(&mut self, record: &Record) {
         self.outcome.records += 1;
         self.last = record.at;
+        for atom in self.results.apply(&record.what).into_iter().flatten() {
+            self.placed[atom as usize] += 1;
+        }
         match &record.what {
-            RecordKind::Sent { id, from, message, .. } => self.sent(*id, *from, message),
-            RecordKind::Received { id, by: Party::Parent } => {
-                for atom in self.results.remove(id).into_iter().flatten().flatten() {
-                    self.placed[atom as usize] += 1;
-                }
-            }
-            RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
+            RecordKind::Sent { from, message, .. } => self.sent(*from, message),
             RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
                 self.fail(format!("node {node} begins atom {atom} after its shutdown"));
             }
@@ -114,7 +112,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    fn sent(&mut self, id: u64, from: Party, message: &Message) {
+    fn sent(&mut self, from: Party, message: &Message) {
         self.messages += 1;
         match (from, message) {
             (Party::Node(node), Message::Results(ranges)) => {
@@ -123,9 +121,8 @@ impl<'a> Check<'a> {
                         self.fail(format!("node {node} sends atom {atom}, which it has not traced"));
                     }
                 }
-                self.results.insert(id, ranges.clone());
             }
-            (_, Message::Offer { who, help: Some(Helper { sent, left: Some(left), .. }), .. }) => {
+            (_, Message::Offer { who, help: Some(OfferDetails { sent, left: Some(left), .. }), .. }) => {
                 let before = self.offers.insert((*who, *sent), *left);
                 if before.is_some_and(|before| before <= *left && before > 0) {
                     self.fail(format!("the offer of node {who} made at {} s is in two places", sent.secs()));

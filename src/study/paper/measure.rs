@@ -74,7 +74,7 @@ impl<'a> Measuring<'a> {
             for ((about, header, script), rows) in kinds.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
                 progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
-                let log = run_to_end(&self.bench.tracer, &header, script)?;
+                let log = run_to_end(&self.bench.tracer, &header, script).map_err(|error| error.to_string())?;
                 // Rayon's rules are not ours to simulate; and when threads obey a script is not quite when it says.
                 let has_twin = header.driver == Driver::Threads && script.is_empty();
                 let twin = if has_twin { Some(twin(&log)?) } else { None };

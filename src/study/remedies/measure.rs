@@ -152,7 +152,8 @@ fn on_threads(
             progress.next(&format!("on threads: {}, {}", case.name, rival.name()));
             let driver = if rival == Rival::Rayon { Driver::WorkStealing } else { Driver::Threads };
             let header = Header { driver, pace, cores: cores(), ..header(&bench, case, 50, rival) };
-            runs.push(Metrics::of(&run_to_end(&bench.tracer, &header, &(case.script)(run))?));
+            let log = run_to_end(&bench.tracer, &header, &(case.script)(run)).map_err(|error| error.to_string())?;
+            runs.push(Metrics::of(&log));
         }
     }
     Ok(rivals.iter().zip(&runs).map(|(&rival, runs)| row(case, Driver::Threads, 0.0, rival, runs)).collect())
