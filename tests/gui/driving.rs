@@ -28,14 +28,14 @@ pub fn open_with(size: [f32; 2], argument: &str) -> Window {
     window
 }
 
-/// Steps the app until `come` is true.
+/// Steps the app until `condition` is true.
 ///
 /// # Panics
 /// If that takes longer than two minutes.
-pub fn until(window: &mut Window, what: &str, come: impl Fn(&Window) -> bool) {
+pub fn until(window: &mut Window, what: &str, condition: impl Fn(&Window) -> bool) {
     for _ in 0..12_000 {
         window.step();
-        if come(window) {
+        if condition(window) {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));

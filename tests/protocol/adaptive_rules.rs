@@ -249,7 +249,7 @@ fn leases_atoms_of_a_silent_node_are_given_out_again() {
     assert_eq!(deliver(320, beat(3, vec![75..100], 320)), [0, 1, 2, 3].map(back));
 }
 
-/// Leases: the first result counts, and a node that still has the atom is told to drop it.
+/// Leases: the first result counts, and a node that still has the atom drops it.
 #[test]
 fn leases_first_result_counts() {
     let mut parent = Parent::new(&rules(with(&[Remedy::Leases])), Division::new(100, 1), NODES);

@@ -72,7 +72,7 @@ fn nine_hundred_random_runs_in_virtual_time() {
         let mut script = Vec::new();
         for _ in 0..random.below(8) {
             let (at, node) = (random.below(3000) as f64 * 1e-3, random.below(nodes) as NodeId);
-            // Every stopped node goes on again later.
+            // Every stopped node resumes later.
             script.push((Time::from_secs(at), Command::Speed { node, speed: random.one_of(&[0.0, 0.1, 1.0]) }));
             script.push((Time::from_secs(3.0 + at), Command::Speed { node, speed: random.speed() }));
             script.push((Time::from_secs(at), Command::Pause { node, paused: random.below(2) == 0 }));

@@ -37,7 +37,7 @@ fn fifty_stopped_runs_and_retraces_leave_no_thread_behind() {
 
 fn header(number: u32) -> Header {
     let size = Size::new(1000, 100).expect("a size");
-    // Every third node stands still from the start.
+    // Every third node has speed 0 from the start.
     let speeds = (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect();
     let strategy = [Strategy::Ring, Strategy::Adaptive][number as usize / 6 % 2];
     let plain = Header::plain(size, [10, 50_000][number as usize % 2], strategy, speeds);

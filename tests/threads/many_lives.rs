@@ -20,18 +20,18 @@ const MS: Duration = Duration::from_millis(1);
 
 /// How often each failure happened; each must happen in some run, or the test shows nothing.
 #[derive(Debug, Default)]
-struct Seen {
+struct Failures {
     hung: u32,
     cut_off: u32,
     off: u32,
     restarted: u32,
     links_cut: u32,
-    held_up: u32,
-    stood_still: u32,
+    delayed: u32,
+    stopped: u32,
     lost: u32,
-    again: u32,
-    /// Runs that ended while a machine could not hear of it.
-    unheard: u32,
+    given_out_again: u32,
+    /// Runs at whose end a machine was unreachable.
+    unreachable_at_end: u32,
 }
 
 #[test]
@@ -43,15 +43,26 @@ fn failing_machines_and_links_do_not_change_the_picture() {
     let tracer = Arc::new(Tracer::new(&scene, size, Quality::default()));
     let mut plain = Vec::new();
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut plain);
-    let mut seen = Seen::default();
+    let mut failures = Failures::default();
     for seed in 0..200 {
-        let frame = run_with_failures(&tracer, &mut Rng::with_seed(seed), &mut seen)
+        let frame = run_with_failures(&tracer, &mut Rng::with_seed(seed), &mut failures)
             .unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         assert!(bits(frame.pixels()).eq(bits(&plain)), "seed {seed}: the picture differs");
     }
-    let Seen { hung, cut_off, off, restarted, links_cut, held_up, stood_still, lost, again, unheard } = seen;
-    let all = [hung, cut_off, off, restarted, links_cut, held_up, stood_still, lost, again, unheard];
-    assert!(all.iter().all(|&times| times > 0), "{seen:?}");
+    let Failures {
+        hung,
+        cut_off,
+        off,
+        restarted,
+        links_cut,
+        delayed,
+        stopped,
+        lost,
+        given_out_again,
+        unreachable_at_end,
+    } = failures;
+    let all = [hung, cut_off, off, restarted, links_cut, delayed, stopped, lost, given_out_again, unreachable_at_end];
+    assert!(all.iter().all(|&times| times > 0), "{failures:?}");
     // The system lists an ended thread for a moment.
     for _ in 0..3000 {
         if threads().len() <= before {
@@ -63,7 +74,7 @@ fn failing_machines_and_links_do_not_change_the_picture() {
 }
 
 /// Executes a run whose machines and links fail at random; its first node stays well.
-fn run_with_failures(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Result<Frame, String> {
+fn run_with_failures(tracer: &Arc<Tracer>, rng: &mut Rng, failures: &mut Failures) -> Result<Frame, String> {
     let nodes: NodeId = rng.u16(2..=6);
     let speeds = (0..nodes).map(|_| [1.0, 1.0, 0.5, 0.2][rng.usize(0..4)]).collect();
     let spares = rng.u16(0..=nodes / 3);
@@ -83,7 +94,7 @@ fn run_with_failures(tracer: &Arc<Tracer>, rng: &mut Rng, seen: &mut Seen) -> Re
     }
     let (frame, records) = watched::picture(&run, &header);
     let frame = frame?;
-    count_failures(&records, nodes, seen);
+    count_failures(&records, nodes, failures);
     Ok(frame)
 }
 
@@ -110,29 +121,29 @@ fn random_command(rng: &mut Rng, nodes: NodeId) -> Command {
     }
 }
 
-fn count_failures(records: &[Record], nodes: NodeId, seen: &mut Seen) {
-    let mut finally = vec![Condition::Well; usize::from(nodes)];
+fn count_failures(records: &[Record], nodes: NodeId, failures: &mut Failures) {
+    let mut last_conditions = vec![Condition::Well; usize::from(nodes)];
     for record in records {
         match &record.what {
             RecordKind::Condition { node, condition } => {
-                finally[usize::from(*node)] = *condition;
+                last_conditions[usize::from(*node)] = *condition;
                 match condition {
-                    Condition::Hung => seen.hung += 1,
-                    Condition::CutOff => seen.cut_off += 1,
-                    Condition::Off => seen.off += 1,
+                    Condition::Hung => failures.hung += 1,
+                    Condition::CutOff => failures.cut_off += 1,
+                    Condition::Off => failures.off += 1,
                     Condition::Well => {}
                 }
             }
-            RecordKind::Link { cut: true, .. } => seen.links_cut += 1,
-            RecordKind::Delayed { .. } => seen.held_up += 1,
-            RecordKind::Paused { .. } | RecordKind::SpeedSet { speed: 0.0, .. } => seen.stood_still += 1,
-            RecordKind::Lost { .. } => seen.lost += 1,
-            RecordKind::Sent { message: Message::Request, .. } => seen.restarted += 1,
-            RecordKind::Sent { from: Party::Parent, message: Message::Again(_), .. } => seen.again += 1,
+            RecordKind::Link { cut: true, .. } => failures.links_cut += 1,
+            RecordKind::Delayed { .. } => failures.delayed += 1,
+            RecordKind::Paused { .. } | RecordKind::SpeedSet { speed: 0.0, .. } => failures.stopped += 1,
+            RecordKind::Lost { .. } => failures.lost += 1,
+            RecordKind::Sent { message: Message::Request, .. } => failures.restarted += 1,
+            RecordKind::Sent { from: Party::Parent, message: Message::Again(_), .. } => failures.given_out_again += 1,
             _ => {}
         }
     }
-    seen.unheard += u32::from(finally.iter().any(|&condition| condition != Condition::Well));
+    failures.unreachable_at_end += u32::from(last_conditions.iter().any(|&condition| condition != Condition::Well));
 }
 
 /// The bits of all channels; NaN is not equal to itself, but its bits are.

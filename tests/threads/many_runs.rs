@@ -15,15 +15,15 @@ fn run_threads() -> Vec<String> {
     threads().into_iter().filter(|name| name.starts_with("node ") || ["parent", "run"].contains(&&**name)).collect()
 }
 
-fn until(window: &mut Harness<'_, App>, what: &str, come: impl Fn(&Harness<'_, App>) -> bool) {
+fn until(window: &mut Harness<'_, App>, what: &str, condition: impl Fn(&Harness<'_, App>) -> bool) {
     for _ in 0..3000 {
         window.step();
-        if come(window) {
+        if condition(window) {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));
     }
-    panic!("{what} has not come; threads: {:?}", run_threads());
+    panic!("timeout after half a minute: {what}; threads: {:?}", run_threads());
 }
 
 #[test]

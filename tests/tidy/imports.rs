@@ -10,7 +10,7 @@ pub struct Imports {
     imported: BTreeMap<Module, BTreeSet<Module>>,
 }
 
-/// What one file says: paths from the crate's root.
+/// The imports and re-exports of one file, as paths from the crate's root.
 #[derive(Default)]
 struct Named {
     uses: Vec<Module>,

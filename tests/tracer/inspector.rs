@@ -58,7 +58,7 @@ fn tree_has_all_rays_with_the_weights_of_the_equation() {
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
                 let material =
-                    &scene.materials[from.met.expect("a reflected or refracted ray starts on a surface").tag as usize];
+                    &scene.materials[from.met.expect("it starts on a surface").tag as usize];
                 let part = ray.path.weight / from.path.weight;
                 let possible = match ray.path.kind {
                     RayKind::Refracted => vec![material.kt],
