@@ -12,6 +12,7 @@ mod solid;
 mod span;
 mod span_diagram;
 mod torus;
+mod traverse;
 mod tree;
 
 pub use merge::{Crossing, Operation};
@@ -20,4 +21,5 @@ pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
 pub use span_diagram::{SolidKind, SpanDiagram};
-pub use tree::{Dropped, Hit, RayStart, Stack, Tree, rank};
+pub use traverse::{Hit, RayStart, Stack, rank};
+pub use tree::{Dropped, Tree};
