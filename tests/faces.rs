@@ -1,6 +1,6 @@
 //! Rays that start on a face, and faces of different solids at one place.
 
-use anel::csg::{Primitive, QuadricCoefficients, RayStart, Solid, Stack, Tree};
+use anel::csg::{MaterialTag, Primitive, QuadricCoefficients, RayStart, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
@@ -44,7 +44,7 @@ proptest! {
         prop_assume!(from.length() > 0.1 && aside.length() > 0.1);
         let map = DAffine3 { matrix3: rotation(degrees) * DMat3::from_diagonal(scale), translation: at };
         let mut tree = Tree::default();
-        let placed = Solid::Placed { primitive, scene_from_own: map, tag: 0 };
+        let placed = Solid::Placed { primitive, scene_from_own: map, tag: MaterialTag(0) };
         let (root, _) = tree.add(&placed).expect("a primitive is something");
         let target = map.transform_point3(aim);
         let ray = Ray::new(target - from.normalize() * 5.0, from.normalize());

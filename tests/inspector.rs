@@ -57,7 +57,7 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
             assert_eq!(sample.rays_left_out > 0, sample.left_out > 1e-12, "{name}: {}", sample.left_out);
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
-                let material = &scene.materials[from.met.expect("it starts somewhere").tag as usize];
+                let material = &scene.materials[from.met.expect("it starts somewhere").tag.index()];
                 let part = ray.path.weight / from.path.weight;
                 let possible = match ray.path.kind {
                     RayKind::Refracted => vec![material.kt],

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::args::InspectArgs;
 use super::{Failure, open, print};
-use crate::csg::{SolidKind, SpanDiagram};
+use crate::csg::{MaterialTag, RootId, SolidKind, SpanDiagram};
 use crate::picture::srgb8;
 use crate::scene::Scene;
 use crate::tracer::{Explained, Intersection, RayKind, RayNotes, Tracer};
@@ -95,9 +95,9 @@ fn ray_json(ray: &RayNotes, scene: &Scene) -> Value {
     })
 }
 
-fn solid_json(root: u32, figure: &SpanDiagram, scene: &Scene) -> Value {
+fn solid_json(root: RootId, figure: &SpanDiagram, scene: &Scene) -> Value {
     let mut solid = figure_json(figure, scene);
-    solid["solid"] = root.into();
+    solid["solid"] = json!(root);
     solid
 }
 
@@ -110,6 +110,6 @@ fn figure_json(figure: &SpanDiagram, scene: &Scene) -> Value {
     json!({ "what": what, "material": material, "stays": figure.stays, "operands": operands })
 }
 
-fn name(tag: u32, scene: &Scene) -> Option<&str> {
-    scene.names.get(tag as usize).map(String::as_str).filter(|name| !name.is_empty())
+fn name(tag: MaterialTag, scene: &Scene) -> Option<&str> {
+    scene.names.get(tag.index()).map(String::as_str).filter(|name| !name.is_empty())
 }

@@ -48,7 +48,7 @@ pub(super) fn coincide(leaves: &[Leaf], earlier: Crossing, later: Crossing, ray:
 #[inline(never)]
 fn are_blurred(leaves: &[Leaf], earlier: Crossing, later: Crossing, ray: &Ray) -> bool {
     let blur = |event: Crossing| {
-        let normal = leaves[event.surface.leaf as usize].normal(event.surface.face, ray.at(event.t));
+        let normal = leaves[event.surface.leaf.index()].normal(event.surface.face, ray.at(event.t));
         ROUNDING * (ray.scale + event.t.abs()) / normal.dot(ray.direction).abs()
     };
     later.t - earlier.t <= blur(earlier) + blur(later)

@@ -3,6 +3,7 @@
 
 mod build;
 mod coincidence;
+mod id;
 mod merge;
 mod passes;
 mod primitive;
@@ -15,6 +16,7 @@ mod torus;
 mod traverse;
 mod tree;
 
+pub use id::{LeafIndex, MaterialTag, RootId};
 pub use merge::{Crossing, Operation};
 pub use passes::{Pass, Passes};
 pub use primitive::{Primitive, QuadricCoefficients};

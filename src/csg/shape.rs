@@ -2,17 +2,17 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Primitive;
 use super::quadratic::Intervals;
 use super::span::{BOTTOM, CURVED, Spans};
 use super::torus;
+use super::{LeafIndex, MaterialTag, Primitive};
 use crate::geometry::{Aabb, Ray};
 
 /// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surface {
     /// The leaf's number.
-    pub leaf: u32,
+    pub leaf: LeafIndex,
     /// The leaf's face: 0 is the curved one, where there is one; the others are flat.
     pub face: u8,
 }
@@ -22,7 +22,7 @@ pub struct Surface {
 pub struct Leaf {
     shape: Shape,
     /// The caller's number for its surface.
-    pub tag: u32,
+    pub tag: MaterialTag,
 }
 
 #[derive(Clone, Debug)]
@@ -73,7 +73,12 @@ struct LocalFrame {
 impl Leaf {
     /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it. With
     /// `shapes`, balls and boxes along the axes are stored as such.
-    pub(super) fn new(primitive: &Primitive, scene_from_own: &DAffine3, tag: u32, shapes: bool) -> (Self, Aabb) {
+    pub(super) fn new(
+        primitive: &Primitive,
+        scene_from_own: &DAffine3,
+        tag: MaterialTag,
+        shapes: bool,
+    ) -> (Self, Aabb) {
         let own_from_scene = scene_from_own.inverse();
         let to_own = own_from_scene.matrix3;
         let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::Primitive;
+use super::{MaterialTag, Primitive};
 
 /// A solid: a placed primitive, or a composition of solids.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub enum Solid {
         /// Puts it into the scene; invertible.
         scene_from_own: DAffine3,
         /// The caller's number for its surface (which material it has).
-        tag: u32,
+        tag: MaterialTag,
     },
     /// What is in at least one of them.
     Union(Vec<Solid>),

@@ -1,10 +1,11 @@
 //! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
 
 use super::coincidence::{coincide, without_slivers};
+use super::id::NodeIndex;
 use super::merge::{Operation, merge};
 use super::span::Span;
 use super::tree::{Node, NodeKind};
-use super::{Crossing, Surface, Tree};
+use super::{Crossing, LeafIndex, RootId, Surface, Tree};
 use crate::geometry::{Ray, fast_max, fast_min};
 
 /// Where a ray first crosses the boundary of a solid.
@@ -22,7 +23,7 @@ pub struct Hit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayStart {
     /// The root that was hit.
-    pub root: u32,
+    pub root: RootId,
     /// Its face.
     pub surface: Surface,
     /// Whether the solid is left there, as seen along the ray that came.
@@ -36,13 +37,13 @@ pub struct RayStart {
 /// Boundaries of solids that touch lie at one place, and rounding puts them in any order along a ray. If a ray took
 /// them as they came it would cross some twice and some never, so they have one order: what is entered comes before
 /// what is left, and then what stands first in the scene. A ray that turns back there passes them in reverse.
-pub fn rank(root: u32, enters: bool, turned: bool) -> (bool, u32) {
+pub fn rank(root: RootId, enters: bool, turned: bool) -> (bool, RootId) {
     (enters == turned, root)
 }
 
 impl RayStart {
     /// Whether the ray has yet to cross the boundary of another solid at the same place.
-    fn has_before_it(&self, root: u32, enters: bool) -> bool {
+    fn has_before_it(&self, root: RootId, enters: bool) -> bool {
         let (here, other) = ((self.leaves, self.root), rank(root, enters, self.turned));
         if self.turned { other < here } else { other > here }
     }
@@ -54,7 +55,14 @@ pub type Stack = Vec<Crossing>;
 impl Tree {
     /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
     #[inline]
-    pub fn nearest(&self, root: u32, ray: &Ray, start: Option<RayStart>, t_max: f64, stack: &mut Stack) -> Option<Hit> {
+    pub fn nearest(
+        &self,
+        root: RootId,
+        ray: &Ray,
+        start: Option<RayStart>,
+        t_max: f64,
+        stack: &mut Stack,
+    ) -> Option<Hit> {
         let mut found = None;
         self.crossings(root, ray, start, t_max, stack, |hit| {
             found = Some(hit);
@@ -68,7 +76,7 @@ impl Tree {
     #[inline]
     pub fn crossings(
         &self,
-        root: u32,
+        root: RootId,
         ray: &Ray,
         start: Option<RayStart>,
         t_max: f64,
@@ -89,7 +97,7 @@ impl Tree {
         // starts on this solid starts there exactly, and may be inside as briefly as it likes.
         let are_one =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
-        match &self.nodes[root as usize].kind {
+        match &self.nodes[root.node().index()].kind {
             NodeKind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 let mut go_on = true;
@@ -128,8 +136,15 @@ impl Tree {
 
     /// Pushes the events of a node. Spans that lie outside `window` may be left out.
     #[inline(always)]
-    pub(super) fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
-        let Node { bounds, kind } = &self.nodes[node as usize];
+    pub(super) fn events(
+        &self,
+        node: NodeIndex,
+        ray: &Ray,
+        start: Option<Surface>,
+        window: [f64; 2],
+        stack: &mut Stack,
+    ) {
+        let Node { bounds, kind } = &self.nodes[node.index()];
         if bounds.entry(ray, window[0], window[1]).is_some() {
             self.events_within_bounds(kind, ray, start, window, stack);
         }
@@ -174,7 +189,7 @@ impl Tree {
     fn composition_events(
         &self,
         operation: Operation,
-        children: &[u32],
+        children: &[NodeIndex],
         ray: &Ray,
         start: Option<Surface>,
         mut window: [f64; 2],
@@ -185,7 +200,7 @@ impl Tree {
             let second = stack.len();
             if index == 0 && operation == Operation::Difference {
                 // The bounds of a difference are those of its first operand.
-                self.events_within_bounds(&self.nodes[child as usize].kind, ray, start, window, stack);
+                self.events_within_bounds(&self.nodes[child.index()].kind, ray, start, window, stack);
             } else {
                 self.events(child, ray, start, window, stack);
                 if index > 0 {
@@ -206,22 +221,22 @@ impl Tree {
     }
 
     /// The events of a leaf.
-    pub(super) fn leaf_stays(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
+    pub(super) fn leaf_stays(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
     }
 
     #[inline(always)]
-    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
-        let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
+    fn leaf_spans(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
+        let spans = self.leaves[leaf.index()].spans(ray, face_of(start, leaf));
         [spans.first, spans.second].map(|span| span.map(|span| span_events(leaf, span)))
     }
 
     /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
     /// first leaf's is seen, and a stay shorter than the tolerance is none.
-    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
+    fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
         let mut stay: Option<[Crossing; 2]> = None;
         for &leaf in leaves {
-            let span = self.leaves[leaf as usize].spans(ray, face_of(start, leaf)).first?;
+            let span = self.leaves[leaf.index()].spans(ray, face_of(start, leaf)).first?;
             let [enter, leave] = span_events(leaf, span);
             let [first, last] = stay.get_or_insert([enter, leave]);
             if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
@@ -239,13 +254,13 @@ impl Tree {
 }
 
 #[inline(always)]
-fn span_events(leaf: u32, span: Span) -> [Crossing; 2] {
+fn span_events(leaf: LeafIndex, span: Span) -> [Crossing; 2] {
     let event = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
     [event(span.from, span.from_face), event(span.to, span.to_face)]
 }
 
 /// The face of `leaf` that a ray starts on.
 #[inline(always)]
-fn face_of(start: Option<Surface>, leaf: u32) -> Option<u8> {
+fn face_of(start: Option<Surface>, leaf: LeafIndex) -> Option<u8> {
     start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
 }

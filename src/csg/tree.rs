@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::id::NodeIndex;
 use super::merge::Operation;
-use super::{Leaf, Passes, Surface};
+use super::{Leaf, LeafIndex, Passes, RootId, Surface};
 use crate::geometry::Aabb;
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
@@ -32,12 +33,12 @@ pub(super) struct Node {
 
 #[derive(Debug)]
 pub(super) enum NodeKind {
-    Leaf(u32),
+    Leaf(LeafIndex),
     /// The intersection of convex leaves: one span at most, found without merging.
-    Convex(Vec<u32>),
+    Convex(Vec<LeafIndex>),
     Composition {
         operation: Operation,
-        children: Vec<u32>,
+        children: Vec<NodeIndex>,
     },
 }
 
@@ -49,20 +50,24 @@ impl Tree {
 
     /// How many boolean operations the solid `root` is made by: as few as it could be written with, since unions of unions
     /// are one, and so is a difference with the union that it takes away.
-    pub fn operations_of(&self, root: u32) -> usize {
-        match &self.nodes[root as usize].kind {
+    pub fn operations_of(&self, root: RootId) -> usize {
+        self.operations_in(root.node())
+    }
+
+    fn operations_in(&self, node: NodeIndex) -> usize {
+        match &self.nodes[node.index()].kind {
             NodeKind::Leaf(_) => 0,
             NodeKind::Convex(_) => 1,
             NodeKind::Composition { operation, children } => {
-                let counted = |(index, &child): (usize, &u32)| {
+                let counted = |(index, &child): (usize, &NodeIndex)| {
                     let takes_unions = match operation {
                         Operation::Union => true,
                         Operation::Intersection => false,
                         Operation::Difference => index > 0,
                     };
-                    let child_kind = &self.nodes[child as usize].kind;
+                    let child_kind = &self.nodes[child.index()].kind;
                     let is_union = matches!(child_kind, NodeKind::Composition { operation: Operation::Union, .. });
-                    self.operations_of(child) - usize::from(takes_unions && is_union)
+                    self.operations_in(child) - usize::from(takes_unions && is_union)
                 };
                 1 + children.iter().enumerate().map(counted).sum::<usize>()
             }
@@ -71,28 +76,36 @@ impl Tree {
 
     /// The leaf that a surface belongs to.
     pub fn leaf(&self, surface: Surface) -> &Leaf {
-        &self.leaves[surface.leaf as usize]
+        &self.leaves[surface.leaf.index()]
     }
 
     /// Every leaf of the solid `root`.
-    pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
-        match &self.nodes[root as usize].kind {
-            NodeKind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
-            NodeKind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
+    pub fn leaves_of(&self, root: RootId) -> Vec<&Leaf> {
+        self.leaves_in(root.node())
+    }
+
+    fn leaves_in(&self, node: NodeIndex) -> Vec<&Leaf> {
+        match &self.nodes[node.index()].kind {
+            NodeKind::Leaf(leaf) => vec![&self.leaves[leaf.index()]],
+            NodeKind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf.index()]).collect(),
             NodeKind::Composition { children, .. } => {
-                children.iter().flat_map(|&child| self.leaves_of(child)).collect()
+                children.iter().flat_map(|&child| self.leaves_in(child)).collect()
             }
         }
     }
 
     /// The box of every leaf of the solid `root`, cut down to where the leaf can matter: the bounds of all
     /// compositions around it. Leaves that matter nowhere have none.
-    pub fn boxes_of(&self, root: u32) -> Vec<Aabb> {
-        let Node { bounds, kind } = &self.nodes[root as usize];
+    pub fn boxes_of(&self, root: RootId) -> Vec<Aabb> {
+        self.boxes_in(root.node())
+    }
+
+    fn boxes_in(&self, node: NodeIndex) -> Vec<Aabb> {
+        let Node { bounds, kind } = &self.nodes[node.index()];
         let boxes: Vec<Aabb> = match kind {
             NodeKind::Leaf(_) => vec![*bounds],
             NodeKind::Convex(leaves) => vec![*bounds; leaves.len()],
-            NodeKind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_of(child)).collect(),
+            NodeKind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_in(child)).collect(),
         };
         boxes.into_iter().map(|inner| inner.intersection(*bounds)).filter(|inner| !inner.is_empty()).collect()
     }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::{DAffine3, DVec3};
 
-use crate::csg::{Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Light, Material, Scene};
 
@@ -75,14 +75,14 @@ fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVe
 /// A body has one interior in POV-Ray, so the material is written at the outermost composition all of which has it.
 fn put_solid(text: &mut String, solid: &Solid) {
     put_parts(text, solid, common_tag(solid));
-    if let Some(tag) = common_tag(solid) {
+    if let Some(MaterialTag(tag)) = common_tag(solid) {
         put(text, format_args!("material {{ M{tag} }}\n"));
     }
     text.push_str("}\n");
 }
 
 /// The solid without its closing brace; `outer` is the material that what it stands in will have.
-fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
+fn put_parts(text: &mut String, solid: &Solid, outer: Option<MaterialTag>) {
     let (operation, solids) = match solid {
         Solid::Placed { primitive, scene_from_own, .. } => {
             return put(text, format_args!("{}\n", body(primitive, scene_from_own)));
@@ -107,7 +107,7 @@ fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
 }
 
 /// The tag of all primitives of a solid, if they have the same.
-fn common_tag(solid: &Solid) -> Option<u32> {
+fn common_tag(solid: &Solid) -> Option<MaterialTag> {
     match solid {
         Solid::Placed { tag, .. } => Some(*tag),
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {

@@ -10,7 +10,7 @@ pub const MAX_UNBALANCED: u32 = 32;
 /// the surface area heuristic expects least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using
 /// space subdivision*, 1990). Returns nothing, if no split pays. `depth` is 0 for all boxes, 1 for the parts of the
 /// first split, and so on.
-pub fn split(boxes: &mut [(u32, Aabb)], depth: u32) -> Option<usize> {
+pub fn split<Id: Ord>(boxes: &mut [(Id, Aabb)], depth: u32) -> Option<usize> {
     /// Work of meeting a box, as a part of that of meeting what is in it.
     const BOX: f64 = 0.5;
     if boxes.len() < 2 {
@@ -45,7 +45,7 @@ pub fn split(boxes: &mut [(u32, Aabb)], depth: u32) -> Option<usize> {
     Some(place)
 }
 
-fn sort_along(boxes: &mut [(u32, Aabb)], axis: usize) {
+fn sort_along<Id: Ord>(boxes: &mut [(Id, Aabb)], axis: usize) {
     // By number where centres are equal, so that the same boxes are always split in the same way.
     boxes
         .sort_by(|(a, a_box), (b, b_box)| a_box.centre()[axis].total_cmp(&b_box.centre()[axis]).then_with(|| a.cmp(b)));

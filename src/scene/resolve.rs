@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::syntax::{SceneFile, SolidFields, Transform};
 use super::{Material, Scene};
-use crate::csg::{Primitive, QuadricCoefficients, Solid};
+use crate::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use crate::geometry::{rotation, turn_y_to};
 use crate::sentence;
 
@@ -21,6 +21,8 @@ pub(super) struct NameError {
 const MAX_LEAVES: usize = 200_000;
 /// So deep may solids stand in solids, through names too.
 const MAX_DEPTH: usize = 100;
+/// The tag of solids without a material.
+const NO_MATERIAL: MaterialTag = MaterialTag(0);
 
 pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
     let mut materials: Vec<Material> = vec![Material::default()];
@@ -28,14 +30,14 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
     let mut called = vec![String::new()];
     for (name, material) in file.materials.0 {
         called.push(name.clone());
-        tags.insert(name, materials.len() as u32);
+        tags.insert(name, MaterialTag(materials.len() as u32));
         materials.push(material);
     }
     let mut names =
         NameResolver { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
     let mut solids = Vec::new();
     for (index, object) in file.objects.iter().enumerate() {
-        let solid = names.place(object, DAffine3::IDENTITY, 0);
+        let solid = names.place(object, DAffine3::IDENTITY, NO_MATERIAL);
         // Of what has no name, at least the place in the list is told.
         solids.push(solid.map_err(|wrong| match wrong.name {
             None => NameError { message: format!("objects[{index}]: {}", wrong.message), ..wrong },
@@ -48,14 +50,14 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
             continue;
         }
         names.path = vec![name];
-        names.place(solid, DAffine3::IDENTITY, 0)?;
+        names.place(solid, DAffine3::IDENTITY, NO_MATERIAL)?;
     }
     let SceneFile { camera, background, ambient, lights, .. } = file;
     Ok(Scene { camera, background, ambient, lights, materials, names: called, solids })
 }
 
 struct NameResolver<'a> {
-    tags: BTreeMap<String, u32>,
+    tags: BTreeMap<String, MaterialTag>,
     solids: &'a BTreeMap<String, SolidFields>,
     used: BTreeSet<&'a str>,
     /// The named solids that the one at hand stands in.
@@ -66,7 +68,7 @@ struct NameResolver<'a> {
 
 impl<'a> NameResolver<'a> {
     /// `outer` and `tag` are the transform and material of what the solid stands in.
-    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
         use SolidFields as S;
         let (S::Sphere { material, transform, .. }
         | S::HalfSpace { material, transform, .. }
@@ -101,11 +103,11 @@ impl<'a> NameResolver<'a> {
         Ok(placed)
     }
 
-    fn all(&mut self, solids: &'a [SolidFields], outer: DAffine3, tag: u32) -> Result<Vec<Solid>, NameError> {
+    fn all(&mut self, solids: &'a [SolidFields], outer: DAffine3, tag: MaterialTag) -> Result<Vec<Solid>, NameError> {
         solids.iter().map(|solid| self.place(solid, outer, tag)).collect()
     }
 
-    fn used(&mut self, name: &'a str, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    fn used(&mut self, name: &'a str, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
         let solid = self.solids.get(name).ok_or_else(|| unknown("solid", name, self.solids.keys()))?;
         if let Some(from) = self.path.iter().position(|&user| user == name) {
             let circle: Vec<_> = self.path[from..].iter().chain([&name]).map(|name| shown(name)).collect();
@@ -119,7 +121,7 @@ impl<'a> NameResolver<'a> {
         Ok(placed)
     }
 
-    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
         self.leaves += 1;
         if self.leaves > MAX_LEAVES {
             return Err(NameError {

@@ -1,5 +1,6 @@
 //! A hierarchy of bounding boxes over solids.
 
+use crate::csg::RootId;
 use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, fast_max, fast_min, split};
 
 /// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
@@ -7,7 +8,7 @@ use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, fast_max, fast_min, split};
 pub(super) struct Bvh {
     top: Option<(Aabb, Child)>,
     nodes: Vec<Node>,
-    roots: Vec<u32>,
+    roots: Vec<RootId>,
 }
 
 /// Two boxes side by side: by axis, then by child.
@@ -38,7 +39,7 @@ impl Default for Pending {
 }
 
 impl Bvh {
-    pub fn new(mut solids: Vec<(u32, Aabb)>) -> Self {
+    pub fn new(mut solids: Vec<(RootId, Aabb)>) -> Self {
         let mut bvh = Self::default();
         if !solids.is_empty() {
             bvh.top = Some(bvh.build(&mut solids, 0));
@@ -47,14 +48,14 @@ impl Bvh {
     }
 
     /// No hierarchy: all solids in one box.
-    pub fn flat(solids: Vec<(u32, Aabb)>) -> Self {
+    pub fn flat(solids: Vec<(RootId, Aabb)>) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let roots: Vec<_> = solids.iter().map(|(root, _)| *root).collect();
         let top = (!roots.is_empty()).then_some((bounds, Child { to: 0, count: roots.len() as u32 }));
         Self { top, nodes: Vec::new(), roots }
     }
 
-    pub fn roots(&self) -> impl Iterator<Item = u32> {
+    pub fn roots(&self) -> impl Iterator<Item = RootId> {
         self.roots.iter().copied()
     }
 
@@ -66,7 +67,7 @@ impl Bvh {
         ray: &Ray,
         mut t_max: f64,
         Pending(stack): &mut Pending,
-        mut visit: impl FnMut(u32, f64) -> f64,
+        mut visit: impl FnMut(RootId, f64) -> f64,
     ) {
         let Some((bounds, mut at)) = self.top else { return };
         let Some(mut entry) = bounds.entry(ray, 0.0, t_max) else { return };
@@ -104,7 +105,7 @@ impl Bvh {
         }
     }
 
-    fn build(&mut self, solids: &mut [(u32, Aabb)], depth: u32) -> (Aabb, Child) {
+    fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> (Aabb, Child) {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let Some(place) = split(solids, depth) else {
             let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::bvh::Bvh;
 use super::media::Medium;
 use super::scene_stats::SourceCounts;
-use crate::csg::{Pass, Passes, Solid, Surface, Tree};
+use crate::csg::{Pass, Passes, RootId, Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
 #[derive(Debug)]
@@ -14,7 +14,7 @@ pub(super) struct CompiledScene {
     /// The roots with bounds.
     pub bounded: Bvh,
     /// The roots without.
-    pub unbounded: Vec<u32>,
+    pub unbounded: Vec<RootId>,
     pub background: DVec3,
     pub lights: Vec<Light>,
     /// The solids that transmit and that the eye is in.
@@ -77,7 +77,7 @@ impl CompiledScene {
             } else {
                 unbounded.push(root);
             }
-            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
+            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag.index()]);
             let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
             if let Some(material) = transmitting.filter(|_| solid.contains(scene.camera.eye)) {
                 eye_media.push(Medium { root, ior: material.ior });
@@ -102,7 +102,7 @@ impl CompiledScene {
     }
 
     pub fn finish(&self, surface: Surface) -> &Shading {
-        &self.finishes[self.tree.leaf(surface).tag as usize]
+        &self.finishes[self.tree.leaf(surface).tag.index()]
     }
 }
 
@@ -119,7 +119,7 @@ fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
 
 fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
     match solid {
-        Solid::Placed { tag, .. } => scene.materials[*tag as usize].kt == 0.0,
+        Solid::Placed { tag, .. } => scene.materials[tag.index()].kt == 0.0,
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
             solids.iter().all(|solid| is_opaque(solid, scene))
         }

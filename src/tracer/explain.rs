@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::{Scratch, Tracer};
-use crate::csg::{RayStart, SpanDiagram};
+use crate::csg::{RayStart, RootId, SpanDiagram};
 use crate::geometry::Ray;
 
 /// One sample of a pixel.
@@ -91,10 +91,10 @@ impl Tracer {
 
     /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
     /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
-    pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(u32, SpanDiagram)> {
+    pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(RootId, SpanDiagram)> {
         let roots = self.world.unbounded.iter().copied().chain(self.world.bounded.roots());
         let figures = roots.map(|root| (root, self.world.tree.figure(root, ray, start)));
-        let mut passed: Vec<(f64, u32, SpanDiagram)> =
+        let mut passed: Vec<(f64, RootId, SpanDiagram)> =
             figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         passed.into_iter().map(|(_, root, figure)| (root, figure)).collect()

@@ -6,7 +6,7 @@
 use super::bvh::Pending;
 use super::compiled_scene::CompiledScene;
 use super::media::Medium;
-use crate::csg::{Hit, RayStart, Stack, rank};
+use crate::csg::{Hit, RayStart, RootId, Stack, rank};
 use crate::geometry::Ray;
 
 /// What finding a hit needs of memory, kept from ray to ray.
@@ -15,14 +15,14 @@ pub(super) struct HitScratch {
     spans: Stack,
     boxes: Pending,
     surfaces: Vec<Transparent>,
-    media: Vec<u32>,
+    media: Vec<RootId>,
 }
 
 /// A surface that lets light through, on the way of a shadow ray.
 #[derive(Debug)]
 struct Transparent {
     t: f64,
-    root: u32,
+    root: RootId,
     enters: bool,
     kt: f64,
 }
@@ -35,10 +35,10 @@ pub(super) fn has_turned_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool 
 impl CompiledScene {
     /// The nearest boundary on `ray`, and the root that it bounds.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(u32, Hit)> {
+    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(RootId, Hit)> {
         let HitScratch { spans, boxes, .. } = memory;
-        let mut nearest: Option<(u32, Hit)> = None;
-        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
+        let mut nearest: Option<(RootId, Hit)> = None;
+        let mut test = |root: RootId, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
                 let slack = ray.tolerance(hit.t);
                 let is_nearer = nearest.is_none_or(|(other, best)| {
@@ -80,7 +80,7 @@ impl CompiledScene {
         let HitScratch { spans, boxes, surfaces, media: inside } = memory;
         let mut arriving = 1.0;
         surfaces.clear();
-        let mut test = |root: u32, t_max: f64| {
+        let mut test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                 let kt = self.finish(hit.surface).kt;
                 surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
@@ -109,7 +109,7 @@ impl CompiledScene {
     pub fn light_ends(&self, ray: &Ray, start: RayStart, t_max: f64, memory: &mut HitScratch) -> f64 {
         let HitScratch { spans, boxes, .. } = memory;
         let mut end = t_max;
-        let mut test = |root: u32, t_max: f64| {
+        let mut test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                 let passes = self.finish(hit.surface).kt > 0.0;
                 if !passes {
@@ -130,7 +130,7 @@ impl CompiledScene {
 
 /// What part of light passes these surfaces, of which those inside a medium that stands before theirs are not there.
 /// `inside` are the roots that the ray is in where it starts; it may have `turned` there.
-fn passing(surfaces: &mut [Transparent], inside: &mut Vec<u32>, ray: &Ray, turned: bool) -> f64 {
+fn passing(surfaces: &mut [Transparent], inside: &mut Vec<RootId>, ray: &Ray, turned: bool) -> f64 {
     surfaces.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
     let touch = |a: &Transparent, b: &Transparent| b.t - a.t <= ray.tolerance(b.t);
     let mut part = 1.0;

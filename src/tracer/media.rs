@@ -4,10 +4,12 @@
 //! not there (C. M. Schmidt and B. Budge, *Simple Nested Dielectrics in Ray Traced Images*, 2002, whose priorities are the
 //! order of the scene here). So glass that overlaps the water in it leaves no gap of air between them.
 
+use crate::csg::RootId;
+
 /// A solid that transmits, by its root, and its index of refraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Medium {
-    pub root: u32,
+    pub root: RootId,
     pub ior: f64,
 }
 
@@ -40,7 +42,7 @@ impl MediaSets {
     }
 
     /// What fills the place around the boundary of `root`: of all others that the ray is in, the first in the scene.
-    pub fn around(&self, media: Media, root: u32) -> Option<Medium> {
+    pub fn around(&self, media: Media, root: RootId) -> Option<Medium> {
         self.get(media).iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root).copied()
     }
 
@@ -82,17 +84,18 @@ mod tests {
     use super::*;
 
     fn medium(root: u32) -> Medium {
-        Medium { root, ior: 1.0 + f64::from(root) }
+        Medium { root: RootId(root), ior: 1.0 + f64::from(root) }
     }
 
     #[test]
     fn the_first_in_the_scene_fills_a_place() {
         let mut sets = MediaSets::default();
         let start = sets.restart(&[medium(7)]);
-        assert_eq!((sets.around(start, 3), sets.around(start, 7)), (Some(medium(7)), None));
+        let around = |sets: &MediaSets, media, root| sets.around(media, RootId(root));
+        assert_eq!((around(&sets, start, 3), around(&sets, start, 7)), (Some(medium(7)), None));
         let three = sets.beyond(start, medium(3), true);
         let inside = sets.beyond(three, medium(5), true);
-        assert_eq!([3, 5, 9].map(|root| sets.around(inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
+        assert_eq!([3, 5, 9].map(|root| around(&sets, inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
         assert_eq!(sets.get(start), [medium(7)]);
         assert_eq!(sets.get(three), [medium(7), medium(3)]);
     }

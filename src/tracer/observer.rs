@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::csg::RayStart;
+use crate::csg::{MaterialTag, RayStart};
 use crate::geometry::Ray;
 
 /// A ray's way, from where it starts to where it ends.
@@ -46,7 +46,7 @@ pub struct Intersection {
     /// The solid and its face, and where a ray starts that goes on from there.
     pub start: RayStart,
     /// The primitive's number for its surface (which material it has).
-    pub tag: u32,
+    pub tag: MaterialTag,
     /// The solid is entered; else left.
     pub enters: bool,
     /// Of length 1, on the side that the ray came from.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{RayKind, Tracer, step_for};
-use crate::csg::{Dropped, Solid};
+use crate::csg::{Dropped, RootId, Solid};
 
 /// What a compiled scene kept and dropped.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -65,9 +65,9 @@ impl Tracer {
     /// What the compiled scene kept and dropped, in figures.
     pub fn compiled(&self) -> SceneStats {
         let world = &self.world;
-        let roots: Vec<u32> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
+        let roots: Vec<RootId> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
         let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
-        let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag as usize]);
+        let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag.index()]);
         let mut primitives = BTreeMap::new();
         for leaf in &leaves {
             *primitives.entry(leaf.kind()).or_default() += 1;

@@ -10,7 +10,7 @@ use super::media::{Media, MediaSets, Medium};
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::ray_queue::{QueuedRay, RayQueue};
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, RayStart, rank};
+use crate::csg::{Hit, RayStart, RootId, rank};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
@@ -132,7 +132,7 @@ impl Tracer {
 
     /// What is around the solid that is met, if that transmits and it is not air.
     #[inline(always)]
-    fn around(&self, nearest: Option<(u32, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
+    fn around(&self, nearest: Option<(RootId, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
         let (root, _) = nearest.filter(|(_, hit)| self.world.finish(hit.surface).kt > 0.0)?;
         scratch.media.around(media, root)
     }
@@ -192,7 +192,7 @@ impl Tracer {
     fn place(
         &self,
         ray: &Ray,
-        root: u32,
+        root: RootId,
         hit: &Hit,
         turned: bool,
         media: Media,
@@ -277,7 +277,7 @@ impl Tracer {
 }
 
 /// Whether what is around the solid `root` fills it too.
-fn is_hidden(root: u32, around: Option<Medium>) -> bool {
+fn is_hidden(root: RootId, around: Option<Medium>) -> bool {
     around.is_some_and(|medium| medium.root < root)
 }
 

@@ -1,6 +1,6 @@
 //! Leaves in whole numbers, and the same leaves as a scene would give them, rounded in one of several ways.
 
-use anel::csg::{Primitive, QuadricCoefficients, Solid};
+use anel::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use anel::geometry::{rotation, turn_y_to};
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
@@ -220,7 +220,7 @@ impl Leaf {
         } else {
             DAffine3 { matrix3: motion.matrix3 * own.matrix3, translation: motion.transform_point3(own.translation) }
         };
-        Solid::Placed { primitive: self.primitive, scene_from_own, tag }
+        Solid::Placed { primitive: self.primitive, scene_from_own, tag: MaterialTag(tag) }
     }
 
     /// A turn that leaves the leaf what it is.

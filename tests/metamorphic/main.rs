@@ -3,7 +3,7 @@
 mod laws;
 mod solids;
 
-use anel::csg::Solid;
+use anel::csg::{MaterialTag, Solid};
 use anel::geometry::rotation;
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, Camera, Light, Scene};
@@ -54,7 +54,7 @@ fn moved(scene: &Scene, turn: DMat3, factor: f64, shift: DVec3) -> Scene {
 }
 
 /// The solid with other places and tags for its primitives.
-fn changed(solid: &Solid, change: &impl Fn(DAffine3, u32) -> (DAffine3, u32)) -> Solid {
+fn changed(solid: &Solid, change: &impl Fn(DAffine3, MaterialTag) -> (DAffine3, MaterialTag)) -> Solid {
     let all = |solids: &[Solid]| solids.iter().map(|solid| changed(solid, change)).collect();
     match solid {
         Solid::Placed { primitive, scene_from_own, tag } => {
@@ -176,7 +176,7 @@ fn the_order_of_operands_does_not_matter() {
     for (name, mut scene, _) in built_in() {
         let materials = scene.materials.len() as u32;
         for (number, solid) in (0..).zip(&mut scene.solids) {
-            *solid = changed(solid, &|map, _| (map, number % materials));
+            *solid = changed(solid, &|map, _| (map, MaterialTag(number % materials)));
         }
         let mut turned_round = scene.clone();
         turned_round.solids.iter_mut().for_each(|solid| *solid = reversed(solid));

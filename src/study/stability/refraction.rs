@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::super::random::{aside, between, sign, turn, unit};
 use super::exact::{Exact, dot, vector};
 use super::{Count, StabilityCase, Verdicts, tens, twos};
-use crate::csg::{Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Material, Scene};
 use crate::tracer::{Path, RayKind, Scratch, Tracer};
@@ -100,7 +100,7 @@ fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let glass = Solid::Placed {
             primitive: Primitive::HalfSpace { normal, offset: 0.0 },
             scene_from_own: DAffine3::IDENTITY,
-            tag: 0,
+            tag: MaterialTag(0),
         };
         let ways = ways(&scene_of(vec![glass], -normal, direction), 2);
         let [first, next] = ways[..] else { continue };
@@ -138,7 +138,7 @@ fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(wide, 0.25, wide)),
                 translation: turned * DVec3::Y * -f64::from(place),
             },
-            tag: 0,
+            tag: MaterialTag(0),
         };
         let solids: Vec<Solid> = (1..=slabs as u32).map(slab).collect();
         let normal = turned * DVec3::Y;
@@ -167,7 +167,7 @@ fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(50.0, (high - low) / 2.0, 50.0)),
                 translation: normal * ((high + low) / 2.0),
             },
-            tag,
+            tag: MaterialTag(tag),
         };
         let off = between(rng, 0.0, 80f64.to_radians());
         let direction = aside(rng, normal) * off.sin() - normal * off.cos();

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::exact::{Exact, Vector, cross, dot, vector};
-use crate::csg::{Hit, Primitive, RayStart, Solid, Stack, Surface, Tree};
+use crate::csg::{Hit, MaterialTag, Primitive, RayStart, RootId, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 
 /// A sphere, cylinder or cone at its place.
@@ -12,7 +12,7 @@ pub(super) struct Subject {
     pub scene_from_own: DAffine3,
     pub own_from_scene: DAffine3,
     tree: Tree,
-    root: u32,
+    root: RootId,
     /// The inverse of the map times its determinant, row by row, and that determinant, which is positive.
     rows: [Vector; 3],
     determinant: Exact,
@@ -38,7 +38,8 @@ impl Subject {
     /// The map must not mirror.
     pub fn new(primitive: Primitive, scene_from_own: DAffine3) -> Self {
         let mut tree = Tree::default();
-        let root = tree.add(&Solid::Placed { primitive, scene_from_own, tag: 0 }).map_or(0, |(root, _)| root);
+        let solid = Solid::Placed { primitive, scene_from_own, tag: MaterialTag(0) };
+        let root = tree.add(&solid).map(|(root, _)| root).unwrap_or_default();
         let DMat3 { x_axis, y_axis, z_axis } = scene_from_own.matrix3;
         let [x, y, z] = [x_axis, y_axis, z_axis].map(vector);
         let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];

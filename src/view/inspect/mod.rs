@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
-use crate::csg::SpanDiagram;
+use crate::csg::{MaterialTag, RootId, SpanDiagram};
 use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
@@ -35,7 +35,7 @@ pub struct Inspected {
     /// The ray that is looked at.
     pub chosen: ChosenRay,
     /// What this ray passes: the root of each solid, and the stays in it and in what it is made of.
-    pub figures: Vec<(u32, SpanDiagram)>,
+    pub figures: Vec<(RootId, SpanDiagram)>,
     materials: Arc<[(String, Material)]>,
     lights: usize,
 }
@@ -90,12 +90,12 @@ impl Inspected {
     }
 
     /// What a material is called, if it has a name.
-    fn name(&self, tag: u32) -> Option<&str> {
-        self.materials.get(tag as usize).map(|(name, _)| &**name).filter(|name| !name.is_empty())
+    fn name(&self, tag: MaterialTag) -> Option<&str> {
+        self.materials.get(tag.index()).map(|(name, _)| &**name).filter(|name| !name.is_empty())
     }
 
-    fn material(&self, tag: u32) -> Material {
-        self.materials.get(tag as usize).map(|(_, material)| *material).unwrap_or_default()
+    fn material(&self, tag: MaterialTag) -> Material {
+        self.materials.get(tag.index()).map(|(_, material)| *material).unwrap_or_default()
     }
 
     /// What a ray met, in a word or two.
