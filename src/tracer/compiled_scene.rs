@@ -101,6 +101,11 @@ impl CompiledScene {
         }
     }
 
+    /// All roots: those without bounds, then the others.
+    pub fn roots(&self) -> impl Iterator<Item = RootId> {
+        self.unbounded.iter().copied().chain(self.bounded.roots())
+    }
+
     pub fn finish(&self, surface: Surface) -> &Shading {
         &self.finishes[self.tree.leaf(surface).tag.index()]
     }

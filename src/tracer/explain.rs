@@ -92,8 +92,7 @@ impl Tracer {
     /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
     /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
     pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(RootId, SpanDiagram)> {
-        let roots = self.world.unbounded.iter().copied().chain(self.world.bounded.roots());
-        let figures = roots.map(|root| (root, self.world.tree.figure(root, ray, start)));
+        let figures = self.world.roots().map(|root| (root, self.world.tree.figure(root, ray, start)));
         let mut passed: Vec<(f64, RootId, SpanDiagram)> =
             figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));

@@ -38,7 +38,7 @@ impl CompiledScene {
     pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(RootId, Hit)> {
         let HitScratch { spans, boxes, .. } = memory;
         let mut nearest: Option<(RootId, Hit)> = None;
-        let mut test = |root: RootId, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
+        let test = |root: RootId, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
                 let slack = ray.tolerance(hit.t);
                 let is_nearer = nearest.is_none_or(|(other, best)| {
@@ -58,12 +58,21 @@ impl CompiledScene {
             }
             None => t_max,
         };
-        let mut t_max = f64::INFINITY;
-        for &root in &self.unbounded {
-            t_max = test(root, t_max);
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, f64::INFINITY, boxes, test);
         nearest
+    }
+
+    /// Visits the solids that `ray` may meet before `t_max`: those without bounds, then the others, nearer boxes first.
+    /// `visit` returns the new `t_max`; a negative one ends the search.
+    #[inline(always)]
+    fn visit_roots(&self, ray: &Ray, mut t_max: f64, pending: &mut Pending, mut visit: impl FnMut(RootId, f64) -> f64) {
+        for &root in &self.unbounded {
+            t_max = visit(root, t_max);
+            if t_max < 0.0 {
+                return;
+            }
+        }
+        self.bounded.visit(ray, t_max, pending, visit);
     }
 
     /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
@@ -80,7 +89,7 @@ impl CompiledScene {
         let HitScratch { spans, boxes, surfaces, media: inside } = memory;
         let mut arriving = 1.0;
         surfaces.clear();
-        let mut test = |root: RootId, t_max: f64| {
+        let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                 let kt = self.finish(hit.surface).kt;
                 surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
@@ -89,12 +98,7 @@ impl CompiledScene {
             });
             if arriving > 0.0 { t_max } else { -1.0 }
         };
-        for &root in &self.unbounded {
-            if test(root, t_max) < 0.0 {
-                return 0.0;
-            }
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, t_max, boxes, test);
         if arriving == 0.0 || surfaces.is_empty() {
             return arriving;
         }
@@ -109,7 +113,7 @@ impl CompiledScene {
     pub fn light_ends(&self, ray: &Ray, start: RayStart, t_max: f64, memory: &mut HitScratch) -> f64 {
         let HitScratch { spans, boxes, .. } = memory;
         let mut end = t_max;
-        let mut test = |root: RootId, t_max: f64| {
+        let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
                 let passes = self.finish(hit.surface).kt > 0.0;
                 if !passes {
@@ -119,11 +123,7 @@ impl CompiledScene {
             });
             end
         };
-        let mut t_max = t_max;
-        for &root in &self.unbounded {
-            t_max = test(root, t_max);
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, t_max, boxes, test);
         end
     }
 }

@@ -65,7 +65,7 @@ impl Tracer {
     /// What the compiled scene kept and dropped, in figures.
     pub fn compiled(&self) -> SceneStats {
         let world = &self.world;
-        let roots: Vec<RootId> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
+        let roots: Vec<RootId> = world.roots().collect();
         let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
         let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag.index()]);
         let mut primitives = BTreeMap::new();
