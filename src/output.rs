@@ -11,22 +11,54 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum OutputError {
     /// The path can never hold the file: found before the work of making what goes into it.
-    #[error("cannot write {path}: {why}")]
+    #[error("cannot write {path}: {problem}")]
     Path {
-        /// Where it was to go.
+        /// The path of the file.
         path: PathBuf,
-        /// What is wrong with that.
-        why: String,
+        /// What is wrong with it.
+        problem: PathProblem,
     },
     /// Writing failed, for instance because the disk is full; the partial file has been removed.
     #[error("writing {path} failed, nothing of it was kept: {source}")]
     Write {
-        /// Where it was to go.
+        /// The path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
+
+/// Why a path can never hold the file.
+#[derive(Debug, PartialEq, Eq, Error)]
+pub enum PathProblem {
+    /// It ends in a separator, `.` or `..`.
+    #[error("it does not name a file")]
+    NoFileName,
+    /// No usual file system takes so long a name.
+    #[error("its name is longer than {MAX_NAME_BYTES} bytes")]
+    LongName,
+    /// It names a directory.
+    #[error("it is a directory; name a file in it")]
+    Directory,
+    /// It names a device, a pipe or a socket.
+    #[error("it is not a regular file")]
+    NotRegular,
+    /// The file is write-protected.
+    #[error("it is read-only")]
+    ReadOnly,
+    /// It is a symbolic link to nothing.
+    #[error("it is a link that leads nowhere")]
+    DanglingLink,
+    /// The file's directory is missing.
+    #[error("its directory does not exist")]
+    NoDirectory,
+    /// What else the system says. The kind alone: the error itself would name the temporary file.
+    #[error("{0}")]
+    System(io::ErrorKind),
+}
+
+/// The longest file name of all usual file systems.
+const MAX_NAME_BYTES: usize = 255;
 
 /// Makes sure that a file can be written to `path`, before the work of making what goes into it.
 ///
@@ -87,34 +119,31 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 
 /// A temporary file beside the place where `path` is to be put, and that place.
 fn begin(path: &Path) -> Result<(NamedTempFile, PathBuf), OutputError> {
-    let refuse = |why: String| OutputError::Path { path: path.to_owned(), why };
+    let refuse = |problem| OutputError::Path { path: path.to_owned(), problem };
     let target = target(path).map_err(refuse)?;
     let file = temporary_beside(&target).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
-        // Without the name of the temporary file, which means nothing to anybody.
-        kind => refuse(kind.to_string()),
+        io::ErrorKind::NotFound => refuse(PathProblem::NoDirectory),
+        kind => refuse(PathProblem::System(kind)),
     })?;
     Ok((file, target))
 }
 
 /// Where a file of that name is to be put: behind a link, the file that it leads to. Or why there can be none.
-fn target(path: &Path) -> Result<PathBuf, String> {
-    /// Of a name, in bytes, on every usual file system.
-    const LONGEST: usize = 255;
+fn target(path: &Path) -> Result<PathBuf, PathProblem> {
     let ends_as_directory = path.to_string_lossy().ends_with(std::path::is_separator);
     let Some(name) = path.file_name().filter(|_| !ends_as_directory) else {
-        return Err("it does not name a file".into());
+        return Err(PathProblem::NoFileName);
     };
-    if name.len() > LONGEST {
-        return Err(format!("its name is longer than {LONGEST} bytes"));
+    if name.len() > MAX_NAME_BYTES {
+        return Err(PathProblem::LongName);
     }
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err("it is a directory; name a file in it".into()),
+        Ok(found) if found.is_dir() => Err(PathProblem::Directory),
         // Renaming over a device would replace it.
-        Ok(found) if !found.is_file() => Err("it is not a regular file".into()),
-        Ok(found) if found.permissions().readonly() => Err("it is read-only".into()),
-        Ok(_) => fs::canonicalize(path).map_err(|error| error.kind().to_string()),
-        Err(_) if path.is_symlink() => Err("it is a link that leads nowhere".into()),
+        Ok(found) if !found.is_file() => Err(PathProblem::NotRegular),
+        Ok(found) if found.permissions().readonly() => Err(PathProblem::ReadOnly),
+        Ok(_) => fs::canonicalize(path).map_err(|error| PathProblem::System(error.kind())),
+        Err(_) if path.is_symlink() => Err(PathProblem::DanglingLink),
         Err(_) => Ok(path.to_owned()),
     }
 }

@@ -2,12 +2,13 @@
 
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
+use thiserror::Error;
 
 use crate::sentence::shown;
 
@@ -55,32 +56,76 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
-/// The text of a file. `what` it is to be stands in errors, as does what is said if there is none.
+/// Why the text of a file could not be read.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// There is no such file, and this is what there is instead.
+    #[error("there is no such file, and no built-in {what} of that name (the built-in names are {known})")]
+    Missing {
+        /// What the file was to be.
+        what: &'static str,
+        /// The names of the built-in ones.
+        known: String,
+    },
+    /// The path cannot be looked up.
+    #[error("the file cannot be found: {0}")]
+    Find(io::Error),
+    /// The path names a directory.
+    #[error("this is a directory, not a {0} file")]
+    Directory(&'static str),
+    /// The path names a device, a pipe or a socket.
+    #[error("this is not a regular file")]
+    NotRegular,
+    /// The file cannot be opened.
+    #[error("the file cannot be opened: {0}")]
+    Open(io::Error),
+    /// Reading failed.
+    #[error("the file cannot be read: {0}")]
+    Read(io::Error),
+    /// It is larger than anything that a person writes.
+    #[error("the file is larger than {max} MiB; that is no {0}", max = MAX_BYTES >> 20)]
+    TooLarge(&'static str),
+    /// A line, counted from 1, is not UTF-8.
+    #[error("line {0}: the file is not text (UTF-8)")]
+    NotText(usize),
+}
+
+impl From<ReadError> for FileError {
+    fn from(error: ReadError) -> Self {
+        Self::new(None, &error.to_string())
+    }
+}
+
+/// Reads the text of a file. Errors call it a `what`, and list the `built_in` names if there is no such file.
 ///
 /// # Errors
-/// A sentence.
-pub fn read(path: &Path, what: &str, none: impl FnOnce() -> String) -> Result<String, String> {
-    // Looked at before it is opened, since opening a pipe waits for somebody to write.
+/// A [`ReadError`], which does not name the file.
+pub fn read<'a>(
+    path: &Path,
+    what: &'static str,
+    built_in: impl IntoIterator<Item = &'a str>,
+) -> Result<String, ReadError> {
+    // The kind of file is checked before it is opened, since opening a pipe waits for a writer.
     let data = fs::metadata(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => none(),
-        _ => format!("the file cannot be found: {error}"),
+        ErrorKind::NotFound => ReadError::Missing { what, known: built_in.into_iter().collect::<Vec<_>>().join(", ") },
+        _ => ReadError::Find(error),
     })?;
     if data.is_dir() {
-        return Err(format!("this is a directory, not a {what} file"));
+        return Err(ReadError::Directory(what));
     }
     if !data.is_file() {
-        return Err("this is not a regular file".into());
+        return Err(ReadError::NotRegular);
     }
-    let file = File::open(path).map_err(|error| format!("the file cannot be opened: {error}"))?;
+    let file = File::open(path).map_err(ReadError::Open)?;
     let mut bytes = Vec::new();
     // A file may grow while it is read.
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| format!("the file cannot be read: {error}"))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(ReadError::Read)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(format!("the file is larger than {} MiB; that is no {what}", MAX_BYTES >> 20));
+        return Err(ReadError::TooLarge(what));
     }
     String::from_utf8(bytes).map_err(|error| {
         let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
-        format!("line {line}: the file is not text (UTF-8)")
+        ReadError::NotText(line)
     })
 }
 

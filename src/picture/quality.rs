@@ -1,6 +1,7 @@
 //! How good a picture is to be: few knobs, each with a bound or a limit that can be said.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// How good a picture is to be. What a run file does not say is as by default.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,14 +28,44 @@ impl Quality {
     pub const MOST_DEPTH: u32 = 100;
 
     /// # Errors
-    /// A sentence, if a knob is beyond its range.
-    pub fn check(&self) -> Result<(), String> {
-        let is_within = |ok: bool, what: String| if ok { Ok(()) } else { Err(what) };
-        let (samples, depth) = (1..=Self::MOST_SAMPLES, 1..=Self::MOST_DEPTH);
-        is_within(samples.contains(&self.samples), format!("the samples are not 1 to {}", Self::MOST_SAMPLES))?;
-        is_within((0.0..1.0).contains(&self.threshold), "the threshold is not 0 or a part of 1".into())?;
-        is_within(depth.contains(&self.max_depth), format!("the depth is not 1 to {}", Self::MOST_DEPTH))?;
-        is_within((0.0..1.0).contains(&self.cutoff), "the cutoff is not 0 or a part of 1".into())
+    /// The first knob that is out of its range.
+    pub fn check(&self) -> Result<(), QualityError> {
+        if !(1..=Self::MOST_SAMPLES).contains(&self.samples) {
+            return Err(QualityError::Samples(self.samples));
+        }
+        if !(0.0..1.0).contains(&self.threshold) {
+            return Err(QualityError::Threshold(self.threshold));
+        }
+        if !(1..=Self::MOST_DEPTH).contains(&self.max_depth) {
+            return Err(QualityError::Depth(self.max_depth));
+        }
+        if !(0.0..1.0).contains(&self.cutoff) {
+            return Err(QualityError::Cutoff(self.cutoff));
+        }
+        Ok(())
+    }
+}
+
+/// The knob that is out of its range, and its value.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum QualityError {
+    /// [`Quality::samples`].
+    #[error("samples is {0}; it must be 1 to {max}", max = Quality::MOST_SAMPLES)]
+    Samples(u32),
+    /// [`Quality::threshold`].
+    #[error("threshold is {0}; it must be at least 0 and less than 1")]
+    Threshold(f64),
+    /// [`Quality::max_depth`].
+    #[error("max_depth is {0}; it must be 1 to {max}", max = Quality::MOST_DEPTH)]
+    Depth(u32),
+    /// [`Quality::cutoff`].
+    #[error("cutoff is {0}; it must be at least 0 and less than 1")]
+    Cutoff(f64),
+}
+
+impl From<QualityError> for String {
+    fn from(error: QualityError) -> Self {
+        error.to_string()
     }
 }
 

@@ -33,12 +33,9 @@ impl Opened {
         {
             return Self::from_text(&name, text);
         }
-        let none = || {
-            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
-            format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
-        };
-        let text = ron_file::read(path, "scene", none).map_err(|message| FileError::new(None, &message));
-        text.and_then(|text| Self::from_text(&name, &text))
+        let text = ron_file::read(path, "scene", BUILT_IN.iter().map(|(name, _)| *name));
+        text.map_err(FileError::from)
+            .and_then(|text| Self::from_text(&name, &text))
             .map(|opened| Self { path: Some(path.into()), ..opened })
             .map_err(|error| error.of(argument))
     }
@@ -58,7 +55,8 @@ impl Scene {
     pub fn parse(text: &str) -> Result<Self, FileError> {
         const DEEP: &str = "solids stand in solids too deep; give the inner ones names";
         let file: SceneFile = ron_file::parse(text, "scene", "a camera and objects", DEEP)?;
-        resolve(file)
-            .map_err(|wrong| FileError::new(wrong.name.and_then(|name| find_name(text, &name)), &wrong.message))
+        resolve(file).map_err(|error| {
+            FileError::new(error.name.as_deref().and_then(|name| find_name(text, name)), &error.to_string())
+        })
     }
 }

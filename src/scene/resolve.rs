@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DVec3};
+use thiserror::Error;
 
 use super::syntax::{SceneFile, SolidFields, Transform};
 use super::{Material, Scene};
@@ -10,11 +11,35 @@ use crate::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use crate::geometry::{rotation, turn_y_to};
 use crate::sentence;
 
-/// A name that leads nowhere, or too far.
-pub(super) struct NameError {
-    /// Which name, if it is one that is to be found in the text.
+/// Why a scene's solids could not be resolved.
+#[derive(Debug, Error)]
+#[error("{}{problem}", object.map(|index| format!("object {}: ", index + 1)).unwrap_or_default())]
+pub(super) struct ResolveError {
+    /// The name at which the text shows the problem, if there is one.
     pub name: Option<String>,
-    pub message: String,
+    /// The index of the object that has the problem, where no name says it.
+    object: Option<usize>,
+    problem: Problem,
+}
+
+#[derive(Debug, Error)]
+enum Problem {
+    #[error("there is no {what} `{name}`; {known}")]
+    UnknownName { what: &'static str, name: String, known: String },
+    #[error("a solid uses itself: {0}")]
+    Circle(String),
+    #[error("solids stand in solids more than {MAX_DEPTH} deep; use fewer levels")]
+    TooDeep,
+    #[error("the scene has more than {MAX_LEAVES} primitives once its named solids are put in; use fewer")]
+    TooManyPrimitives,
+    #[error("its transforms make a solid too large or too small to be computed with; check the factors of Scale")]
+    OutOfRange,
+}
+
+impl ResolveError {
+    fn new(name: Option<&str>, problem: Problem) -> Self {
+        Self { name: name.map(str::to_owned), object: None, problem }
+    }
 }
 
 /// A scene that needs more leaves than this after all named solids are put in is a mistake.
@@ -24,7 +49,7 @@ const MAX_DEPTH: usize = 100;
 /// The tag of solids without a material.
 const NO_MATERIAL: MaterialTag = MaterialTag(0);
 
-pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
+pub(super) fn resolve(file: SceneFile) -> Result<Scene, ResolveError> {
     let mut materials: Vec<Material> = vec![Material::default()];
     let mut tags = BTreeMap::new();
     let mut called = vec![String::new()];
@@ -40,7 +65,7 @@ pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
         let solid = names.place(object, DAffine3::IDENTITY, NO_MATERIAL);
         // Of what has no name, at least the place in the list is told.
         solids.push(solid.map_err(|wrong| match wrong.name {
-            None => NameError { message: format!("objects[{index}]: {}", wrong.message), ..wrong },
+            None => ResolveError { object: Some(index), ..wrong },
             Some(_) => wrong,
         })?);
     }
@@ -68,7 +93,7 @@ struct NameResolver<'a> {
 
 impl<'a> NameResolver<'a> {
     /// `outer` and `tag` are the transform and material of what the solid stands in.
-    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
+    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         use SolidFields as S;
         let (S::Sphere { material, transform, .. }
         | S::HalfSpace { material, transform, .. }
@@ -89,8 +114,7 @@ impl<'a> NameResolver<'a> {
         let outer = outer * map;
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            let name = self.path.last().map(|&name| name.to_owned());
-            return Err(NameError { name, message: format!("solids stand in solids more than {MAX_DEPTH} deep") });
+            return Err(ResolveError::new(self.path.last().copied(), Problem::TooDeep));
         }
         let placed = match solid {
             S::Union { of, .. } => Solid::Union(self.all(of, outer, tag)?),
@@ -103,16 +127,20 @@ impl<'a> NameResolver<'a> {
         Ok(placed)
     }
 
-    fn all(&mut self, solids: &'a [SolidFields], outer: DAffine3, tag: MaterialTag) -> Result<Vec<Solid>, NameError> {
+    fn all(
+        &mut self,
+        solids: &'a [SolidFields],
+        outer: DAffine3,
+        tag: MaterialTag,
+    ) -> Result<Vec<Solid>, ResolveError> {
         solids.iter().map(|solid| self.place(solid, outer, tag)).collect()
     }
 
-    fn used(&mut self, name: &'a str, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
+    fn used(&mut self, name: &'a str, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         let solid = self.solids.get(name).ok_or_else(|| unknown("solid", name, self.solids.keys()))?;
         if let Some(from) = self.path.iter().position(|&user| user == name) {
             let circle: Vec<_> = self.path[from..].iter().chain([&name]).map(|name| shown(name)).collect();
-            let circle = circle.join(" → ");
-            return Err(NameError { name: Some(name.into()), message: format!("a solid uses itself: {circle}") });
+            return Err(ResolveError::new(Some(name), Problem::Circle(circle.join(" → "))));
         }
         self.used.insert(name);
         self.path.push(name);
@@ -121,23 +149,17 @@ impl<'a> NameResolver<'a> {
         Ok(placed)
     }
 
-    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, NameError> {
+    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         self.leaves += 1;
         if self.leaves > MAX_LEAVES {
-            return Err(NameError {
-                name: self.path.last().map(|&name| name.to_owned()),
-                message: format!("the scene has more than {MAX_LEAVES} primitives once its named solids are put in"),
-            });
+            return Err(ResolveError::new(self.path.last().copied(), Problem::TooManyPrimitives));
         }
         let (primitive, own) = primitive(leaf);
         let scene_from_own = outer * own;
         // A determinant that overflows would make the inverse 0.
         let is_normal = scene_from_own.matrix3.determinant().is_normal();
         if !is_normal || !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
-            return Err(NameError {
-                name: self.path.last().map(|&name| name.to_owned()),
-                message: "its transforms make a solid too large or too small to be computed with".into(),
-            });
+            return Err(ResolveError::new(self.path.last().copied(), Problem::OutOfRange));
         }
         Ok(Solid::Placed { primitive, scene_from_own, tag })
     }
@@ -193,14 +215,14 @@ fn along(from: DVec3, to: DVec3, radius: f64) -> DAffine3 {
     DAffine3 { matrix3, translation: from + half }
 }
 
-fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k String>) -> NameError {
+fn unknown<'k>(what: &'static str, name: &str, known: impl Iterator<Item = &'k String>) -> ResolveError {
     const SHOWN: usize = 12;
     let mut known: Vec<_> = known.map(|name| shown(name)).collect();
     let more = if known.len() > SHOWN { " and others" } else { "" };
     known.truncate(SHOWN);
     let known =
         if known.is_empty() { "none is defined".into() } else { format!("known are {}{more}", known.join(", ")) };
-    NameError { name: Some(name.into()), message: format!("there is no {what} `{}`; {known}", shown(name)) }
+    ResolveError::new(Some(name), Problem::UnknownName { what, name: shown(name), known })
 }
 
 fn shown(name: &str) -> String {

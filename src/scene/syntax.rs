@@ -5,6 +5,7 @@ use std::fmt;
 
 use glam::DVec3;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+use thiserror::Error;
 
 use super::{Camera, Light, Material, validate};
 
@@ -169,17 +170,26 @@ pub(super) struct CameraFields {
     field_of_view: f64,
 }
 
+/// Why a camera sees nothing.
+#[derive(Debug, Error)]
+pub(super) enum CameraError {
+    #[error("eye and look_at must be different points")]
+    NoDirection,
+    #[error("up must not lie along the line from eye to look_at")]
+    NoUp,
+}
+
 impl TryFrom<CameraFields> for Camera {
-    type Error = &'static str;
+    type Error = CameraError;
 
     fn try_from(fields: CameraFields) -> Result<Self, Self::Error> {
         let CameraFields { eye, look_at, up, field_of_view } = fields;
         let sight = (look_at - eye).normalize_or_zero();
         if sight == DVec3::ZERO {
-            return Err("eye and look_at must be different points");
+            return Err(CameraError::NoDirection);
         }
         if sight.cross(up).length() < 1e-9 {
-            return Err("up must not lie along the line from eye to look_at");
+            return Err(CameraError::NoUp);
         }
         Ok(Self { eye, look_at, up, field_of_view })
     }

@@ -78,7 +78,7 @@ fn small(whole: Size) -> Result<Size, String> {
     const PIXELS: f64 = 160.0 * 120.0;
     let part = (PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
     let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
-    Size::new(side(whole.width()), side(whole.height()))
+    Ok(Size::new(side(whole.width()), side(whole.height()))?)
 }
 
 #[cfg(test)]
