@@ -37,7 +37,7 @@ impl FileError {
     }
 
     /// The same, of a file.
-    pub fn of(self, file: &str) -> Self {
+    pub fn in_file(self, file: &str) -> Self {
         Self { file: Some(file.to_owned()), ..self }
     }
 }
@@ -161,7 +161,7 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
 }
 
 /// How long the comment or the string is that begins here, if one does.
-pub fn skipped(rest: &str) -> Option<usize> {
+pub fn comment_or_string_length(rest: &str) -> Option<usize> {
     if rest.starts_with("//") {
         return Some(rest.find('\n').unwrap_or(rest.len()));
     }
@@ -187,8 +187,9 @@ pub fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
         if rest.starts_with(&quoted) {
             return Some(place(text, text.len() - rest.len()));
         }
-        let skipped = skipped(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
-        rest = &rest[skipped..];
+        let comment_or_string_length =
+            comment_or_string_length(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
+        rest = &rest[comment_or_string_length..];
     }
     None
 }
@@ -234,7 +235,7 @@ fn item(text: &str, from: usize, step: &str) -> Option<usize> {
             ',' if depth == 1 => (number, begins) = (number + 1, true),
             _ => {}
         }
-        at += skipped(rest).unwrap_or(c.len_utf8());
+        at += comment_or_string_length(rest).unwrap_or(c.len_utf8());
     }
     None
 }

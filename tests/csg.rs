@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 fn placed(primitive: Primitive, scale: DVec3, degrees: DVec3, at: DVec3, tag: u32) -> Solid {
     let matrix3 = rotation(degrees) * DMat3::from_diagonal(scale);
-    Solid::Placed { primitive, scene_from_own: DAffine3 { matrix3, translation: at }, tag: MaterialTag(tag) }
+    Solid::Placed { primitive, scene_from_local: DAffine3 { matrix3, translation: at }, tag: MaterialTag(tag) }
 }
 
 fn ball(at: DVec3, tag: u32) -> Solid {
@@ -83,7 +83,7 @@ fn one_sees_through_a_bore_with_coincident_caps() {
         let place = DAffine3 { matrix3: turn, translation: at };
         Solid::Placed {
             primitive: Primitive::Cylinder,
-            scene_from_own: place * back * lengthen * up * scale,
+            scene_from_local: place * back * lengthen * up * scale,
             tag: MaterialTag(1),
         }
     };

@@ -3,7 +3,7 @@
 use anel::csg::{Operation, SolidKind, SpanDiagram};
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
-use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
+use anel::tracer::{ExplainedSample, RayCounts, RayKind, Scratch, Tracer};
 use anel::view::Inspected;
 
 fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
@@ -11,7 +11,11 @@ fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
 }
 
 /// For each pixel what it is told of it, and its colour.
-fn each_pixel(scene: &Scene, quality: Quality, mut each: impl FnMut(&Tracer, Vec<Explained>, [f32; 3], RayCounts)) {
+fn each_pixel(
+    scene: &Scene,
+    quality: Quality,
+    mut each: impl FnMut(&Tracer, Vec<ExplainedSample>, [f32; 3], RayCounts),
+) {
     let size = Size::new(40, 30).expect("a small picture");
     let tracer = Tracer::new(scene, size, quality);
     for pixel in 0..size.pixels() {
@@ -31,7 +35,7 @@ fn the_sum_of_all_terms_is_the_colour_of_the_pixel() {
         for (name, scene) in built_in() {
             each_pixel(&scene, quality, |_, samples, colour, _| {
                 // To the last bit.
-                assert_eq!(Explained::mean(&samples).as_vec3().to_array(), colour, "{name}");
+                assert_eq!(ExplainedSample::mean(&samples).as_vec3().to_array(), colour, "{name}");
                 for sample in &samples {
                     let (colour, brought) = (sample.colour(), sample.brings(0));
                     assert!(brought.abs_diff_eq(colour, 1e-12 * (1.0 + colour.length())), "{name}");
@@ -73,7 +77,7 @@ fn the_tree_has_all_rays_and_each_weighs_what_the_equation_says() {
 /// Where the stays of a composition begin and end, by its operands' alone.
 fn recomputed(operation: Operation, operands: &[SpanDiagram]) -> impl Fn(f64) -> bool {
     move |t| {
-        let mut holds = operands.iter().map(|operand| operand.stays.iter().any(|[from, to]| *from <= t && t <= *to));
+        let mut holds = operands.iter().map(|operand| operand.spans.iter().any(|[from, to]| *from <= t && t <= *to));
         match operation {
             Operation::Union => holds.any(|holds| holds),
             Operation::Intersection => holds.all(|holds| holds),
@@ -83,14 +87,14 @@ fn recomputed(operation: Operation, operands: &[SpanDiagram]) -> impl Fn(f64) ->
 }
 
 fn assert_made_of_its_operands(figure: &SpanDiagram, name: &str) {
-    if let SolidKind::Composition(operation) = figure.what {
+    if let SolidKind::Composition(operation) = figure.kind {
         let mut places: Vec<f64> =
-            figure.operands.iter().flat_map(|operand| operand.stays.concat()).filter(|t| t.is_finite()).collect();
+            figure.operands.iter().flat_map(|operand| operand.spans.concat()).filter(|t| t.is_finite()).collect();
         places.sort_by(f64::total_cmp);
         let holds = recomputed(operation, &figure.operands);
         for pair in places.windows(2).filter(|pair| pair[1] - pair[0] > 1e-6) {
             let middle = (pair[0] + pair[1]) / 2.0;
-            let is_inside = figure.stays.iter().any(|[from, to]| *from < middle && middle < *to);
+            let is_inside = figure.spans.iter().any(|[from, to]| *from < middle && middle < *to);
             assert_eq!(is_inside, holds(middle), "{name}: {operation:?} at {middle}: {figure:#?}");
         }
     }
@@ -128,13 +132,13 @@ fn figures_show_what_a_ray_passes_and_what_it_hits() {
     for (name, scene) in built_in() {
         each_pixel(&scene, Quality::default(), |tracer, samples, _, _| {
             for ray in samples[0].rays.iter().take(4) {
-                let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
+                let figures = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
                 figures.iter().for_each(|(_, figure)| assert_made_of_its_operands(figure, name));
                 let Some(met) = ray.met else { continue };
                 // Where the ray ends, a stay of the solid that it met begins or ends.
                 let (_, figure) =
                     figures.iter().find(|(root, _)| *root == met.start.root).expect("the solid that it met");
-                let near = figure.stays.concat().iter().any(|t| (t - ray.path.to).abs() < 1e-9 * (1.0 + t.abs()));
+                let near = figure.spans.concat().iter().any(|t| (t - ray.path.to).abs() < 1e-9 * (1.0 + t.abs()));
                 assert!(near, "{name}: {} is not in {figure:#?}", ray.path.to);
             }
         });

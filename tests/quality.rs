@@ -115,12 +115,12 @@ fn a_preview_costs_the_picture_nothing() {
             let preview = tracer.preview().expect("a preview");
             assert_eq!(preview.step(), step);
             for (x, y) in [(0, 0), (16, 32), (64, 16)] {
-                assert_eq!(preview.guess(x, y), plain.0[(y * 75 + x) as usize], "{name}: a pixel that is known");
+                assert_eq!(preview.interpolate(x, y), plain.0[(y * 75 + x) as usize], "{name}: a pixel that is known");
             }
             assert!(traced(&tracer) == plain, "{name}: with every {step}th pixel known beforehand");
         }
         let preview = tracer.preview().expect("the whole picture");
-        let whole: Vec<_> = (0..size.pixels()).map(|pixel| preview.guess(pixel % 75, pixel / 75)).collect();
+        let whole: Vec<_> = (0..size.pixels()).map(|pixel| preview.interpolate(pixel % 75, pixel / 75)).collect();
         assert!(whole == plain.0, "{name}");
     }
 }

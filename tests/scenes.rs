@@ -110,7 +110,7 @@ fn a_union_that_is_taken_apart_looks_the_same() {
         let mut kept_whole = scene.clone();
         let around = Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3::from_scale(DVec3::splat(1e5)),
+            scene_from_local: DAffine3::from_scale(DVec3::splat(1e5)),
             tag: MaterialTag(0),
         };
         for solid in &mut kept_whole.solids {

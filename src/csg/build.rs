@@ -8,12 +8,12 @@ use super::{Leaf, LeafIndex, Pass, Passes, RootId, Solid};
 use crate::geometry::{Aabb, split};
 
 /// Of more operands a union is a tree.
-const FEW: usize = 4;
+const MAX_FLAT_OPERANDS: usize = 4;
 
 impl Tree {
-    /// Nothing yet; solids will be compiled by these reductions.
-    pub fn new(reductions: Passes) -> Self {
-        Self { reductions, ..Self::default() }
+    /// Nothing yet; solids will be compiled by these passes.
+    pub fn new(passes: Passes) -> Self {
+        Self { passes, ..Self::default() }
     }
 
     /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
@@ -23,9 +23,9 @@ impl Tree {
 
     fn add_node(&mut self, solid: &Solid) -> Option<(NodeIndex, Aabb)> {
         let (operation, solids) = match solid {
-            Solid::Placed { primitive, scene_from_own, tag } => {
-                let shapes = self.reductions.has(Pass::Shapes);
-                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag, shapes);
+            Solid::Placed { primitive, scene_from_local, tag } => {
+                let shapes = self.passes.has(Pass::SceneShapes);
+                let (leaf, bounds) = Leaf::new(primitive, scene_from_local, *tag, shapes);
                 let index = LeafIndex(self.leaves.len() as u32);
                 self.leaves.push(leaf);
                 return Some((self.push(NodeKind::Leaf(index), bounds), bounds));
@@ -47,7 +47,7 @@ impl Tree {
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
                     bounds = bounds.intersection(child_bounds);
-                    if bounds.is_empty() && self.reductions.has(Pass::Reach) {
+                    if bounds.is_empty() && self.passes.has(Pass::CullEmpty) {
                         self.dropped.empty += 1;
                         return None;
                     }
@@ -60,7 +60,7 @@ impl Tree {
                 }
                 Operation::Difference => {
                     let Some((child, child_bounds)) = child else { continue };
-                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Pass::Reach) {
+                    if bounds.intersection(child_bounds).is_empty() && self.passes.has(Pass::CullEmpty) {
                         self.dropped.out_of_reach += 1;
                     } else {
                         children.push(child);
@@ -73,8 +73,8 @@ impl Tree {
         }
         match operation {
             Operation::Union => return Some((self.union_of(&children), bounds)),
-            Operation::Intersection if self.reductions.has(Pass::Convex) => self.join_convex(&mut children),
-            Operation::Difference if children.len() - 1 > FEW && self.reductions.has(Pass::Neighbours) => {
+            Operation::Intersection if self.passes.has(Pass::ConvexSpans) => self.join_convex(&mut children),
+            Operation::Difference if children.len() - 1 > MAX_FLAT_OPERANDS && self.passes.has(Pass::UnionTrees) => {
                 let taken = self.union_of(&children[1..]);
                 children.splice(1.., [taken]);
             }
@@ -101,9 +101,9 @@ impl Tree {
             return *only;
         }
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let is_tree = parts.len() > FEW && self.reductions.has(Pass::Neighbours);
-        let place = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
-        let children = match parts.split_at_mut(place) {
+        let is_tree = parts.len() > MAX_FLAT_OPERANDS && self.passes.has(Pass::UnionTrees);
+        let middle = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
+        let children = match parts.split_at_mut(middle) {
             ([], all) => all.iter().map(|(part, _)| *part).collect(),
             (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
         };
@@ -116,13 +116,13 @@ impl Tree {
         let mut bounds = Aabb::ALL;
         let mut joined = 0;
         for &child in &*children {
-            let Node { kind, bounds: own } = &self.nodes[child.index()];
+            let Node { kind, bounds: child_bounds } = &self.nodes[child.index()];
             match kind {
                 NodeKind::Leaf(leaf) if self.leaves[leaf.index()].is_convex() => leaves.push(*leaf),
                 NodeKind::Convex(inner) => leaves.extend(inner),
                 _ => break,
             }
-            bounds = bounds.intersection(*own);
+            bounds = bounds.intersection(*child_bounds);
             joined += 1;
         }
         if joined > 1 {
@@ -133,7 +133,7 @@ impl Tree {
 
     /// Gives up the boxes of all compositions, if they are not asked for.
     pub fn finish(&mut self) {
-        if !self.reductions.has(Pass::Boxes) {
+        if !self.passes.has(Pass::CompositionBounds) {
             self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);
         }
     }

@@ -1,7 +1,7 @@
 //! The boolean operations on a ray's spans (Roth, *Ray Casting for Modeling Solids*, 1982).
 //!
 //! Spans are kept as sorted events: even ones enter, odd ones leave. Events of the two operands that differ by less
-//! than the ray's tolerance are one event, and only a change of the net state is kept: so faces that coincide, which
+//! than the ray's tolerance are one crossing, and only a change of the net state is kept: so faces that coincide, which
 //! rounding puts in any order, neither leave slivers of nothing nor of solid.
 
 use super::Surface;
@@ -28,7 +28,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    fn of(self, a: bool, b: bool) -> bool {
+    fn combine(self, a: bool, b: bool) -> bool {
         match self {
             Self::Union => a | b,
             Self::Intersection => a & b,
@@ -61,7 +61,7 @@ pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usiz
             in_b = !in_b;
             b += 1;
         }
-        let now = operation.of(in_a, in_b);
+        let now = operation.combine(in_a, in_b);
         if now != state {
             state = now;
             // Of faces that coincide, the first operand's is seen, if it changed anything at all. A union's operands
@@ -70,8 +70,8 @@ pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usiz
             let is_first = !changed_b
                 || operation != Operation::Union
                 || stack[group_a].surface.leaf < stack[group_b].surface.leaf;
-            let event = stack[if changed_a && is_first { group_a } else { group_b }];
-            stack.push(event);
+            let crossing = stack[if changed_a && is_first { group_a } else { group_b }];
+            stack.push(crossing);
         }
         if a == second && !in_a && operation != Operation::Union {
             break;

@@ -23,5 +23,5 @@ pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
 pub use span_diagram::{SolidKind, SpanDiagram};
-pub use traverse::{Hit, RayStart, Stack, rank};
-pub use tree::{Dropped, Tree};
+pub use traverse::{Hit, RayStart, Stack, tie_break};
+pub use tree::{DroppedCounts, Tree};

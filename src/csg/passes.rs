@@ -4,64 +4,64 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pass {
     /// What is proved empty is dropped, and what reaches none of that which it would be taken from.
-    Reach,
+    CullEmpty,
     /// A union of many is a tree of unions of neighbours.
-    Neighbours,
+    UnionTrees,
     /// Convex primitives that are intersected are one span.
-    Convex,
+    ConvexSpans,
     /// Balls, and boxes along the axes, are kept in the scene's coordinates.
-    Shapes,
+    SceneShapes,
     /// Compositions are tested only by rays that meet their boxes.
-    Boxes,
+    CompositionBounds,
     /// An opaque union is as many solids as it has parts.
-    Apart,
+    SplitUnions,
     /// Solids are in a hierarchy of boxes.
-    Hierarchy,
+    Bvh,
     /// Whole exponents are powers by multiplication.
-    Powers,
+    IntegerPowers,
 }
 
 impl Pass {
     /// All of them.
     pub const ALL: [Self; 8] = [
-        Self::Reach,
-        Self::Neighbours,
-        Self::Convex,
-        Self::Shapes,
-        Self::Boxes,
-        Self::Apart,
-        Self::Hierarchy,
-        Self::Powers,
+        Self::CullEmpty,
+        Self::UnionTrees,
+        Self::ConvexSpans,
+        Self::SceneShapes,
+        Self::CompositionBounds,
+        Self::SplitUnions,
+        Self::Bvh,
+        Self::IntegerPowers,
     ];
 
     /// What it does, as a sentence.
-    pub fn says(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
-            Self::Reach => "what is empty or out of reach is dropped",
-            Self::Neighbours => "a union of many is a tree of unions of neighbours",
-            Self::Convex => "convex primitives that are intersected are one span",
-            Self::Shapes => "balls, and boxes along the axes, are kept in the scene's coordinates",
-            Self::Boxes => "compositions are tested only by rays that meet their boxes",
-            Self::Apart => "an opaque union is as many solids as it has parts",
-            Self::Hierarchy => "solids are in a hierarchy of boxes",
-            Self::Powers => "whole exponents are powers by multiplication",
+            Self::CullEmpty => "what is empty or out of reach is dropped",
+            Self::UnionTrees => "a union of many is a tree of unions of neighbours",
+            Self::ConvexSpans => "convex primitives that are intersected are one span",
+            Self::SceneShapes => "balls, and boxes along the axes, are kept in the scene's coordinates",
+            Self::CompositionBounds => "compositions are tested only by rays that meet their boxes",
+            Self::SplitUnions => "an opaque union is as many solids as it has parts",
+            Self::Bvh => "solids are in a hierarchy of boxes",
+            Self::IntegerPowers => "whole exponents are powers by multiplication",
         }
     }
 }
 
-/// Some of the reductions; all of them by default.
+/// Some of the passes; all of them by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Passes(u16);
 
 impl Passes {
     /// All but this one.
-    pub fn without(self, reduction: Pass) -> Self {
-        Self(self.0 & !(1 << reduction as u16))
+    pub fn without(self, pass: Pass) -> Self {
+        Self(self.0 & !(1 << pass as u16))
     }
 
     /// Whether this one is among them.
-    pub fn has(self, reduction: Pass) -> bool {
-        self.0 >> reduction as u16 & 1 == 1
+    pub fn has(self, pass: Pass) -> bool {
+        self.0 >> pass as u16 & 1 == 1
     }
 }
 

@@ -62,7 +62,7 @@ impl Primitive {
                 let radius = bottom + (top - bottom) * (p.y + 1.0) / 2.0;
                 across <= radius * radius && p.y.abs() <= 1.0
             }
-            Self::Torus { tube } => torus::side(*tube, p) <= 0.0,
+            Self::Torus { tube } => torus::implicit(*tube, p) <= 0.0,
             Self::Quadric(q) => {
                 let products = DVec3::new(p.x * p.y, p.y * p.z, p.z * p.x);
                 q.squares.dot(p * p) + q.products.dot(products) + q.linear.dot(p) + q.constant <= 0.0

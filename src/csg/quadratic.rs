@@ -18,11 +18,11 @@ impl Intervals {
     ///
     /// The roots come from the form that never subtracts nearly equal numbers (Kahan; Press et al., *Numerical
     /// Recipes*, §5.6): with q = −(b ± √(b² − ac)) they are q / a and c / q, which stay right as a goes to 0.
-    pub fn of(a: f64, b: f64, c: f64) -> Self {
+    pub fn solve(a: f64, b: f64, c: f64) -> Self {
         Self::with_discriminant(a, b, c, b * b - a * c)
     }
 
-    /// As [`Intervals::of`], for callers that know b² − ac more exactly.
+    /// As [`Intervals::solve`], for callers that know b² − ac more exactly.
     #[inline(always)]
     pub fn with_discriminant(a: f64, b: f64, c: f64, discriminant: f64) -> Self {
         if discriminant <= 0.0 || discriminant.is_nan() {
@@ -61,17 +61,17 @@ mod tests {
 
     #[test]
     fn a_vanishing_square_leaves_one_root_and_loses_nothing() {
-        assert_eq!(Intervals::of(0.0, 1.0, -4.0), Intervals::Between(f64::NEG_INFINITY, 2.0));
-        assert_eq!(Intervals::of(0.0, -1.0, -4.0), Intervals::Between(-2.0, f64::INFINITY));
-        let Intervals::Between(_, root) = Intervals::of(1e-30, 1.0, -4.0) else { panic!() };
+        assert_eq!(Intervals::solve(0.0, 1.0, -4.0), Intervals::Between(f64::NEG_INFINITY, 2.0));
+        assert_eq!(Intervals::solve(0.0, -1.0, -4.0), Intervals::Between(-2.0, f64::INFINITY));
+        let Intervals::Between(_, root) = Intervals::solve(1e-30, 1.0, -4.0) else { panic!() };
         assert_eq!(root, 2.0);
     }
 
     #[test]
     fn a_constant_is_everywhere_or_nowhere() {
-        assert_eq!(Intervals::of(0.0, 0.0, -1.0), Intervals::Always);
-        assert_eq!(Intervals::of(0.0, 0.0, 1.0), Intervals::Never);
-        assert_eq!(Intervals::of(-1.0, 0.0, -1.0), Intervals::Always);
+        assert_eq!(Intervals::solve(0.0, 0.0, -1.0), Intervals::Always);
+        assert_eq!(Intervals::solve(0.0, 0.0, 1.0), Intervals::Never);
+        assert_eq!(Intervals::solve(-1.0, 0.0, -1.0), Intervals::Always);
     }
 
     proptest! {
@@ -81,7 +81,7 @@ mod tests {
         ) {
             let value = (a * t + 2.0 * b) * t + c;
             prop_assume!(value.abs() > 1e-9);
-            let inside = match Intervals::of(a, b, c) {
+            let inside = match Intervals::solve(a, b, c) {
                 Intervals::Never => false,
                 Intervals::Always => true,
                 Intervals::Between(first, last) => first <= t && t <= last,
@@ -93,7 +93,7 @@ mod tests {
         #[test]
         fn starting_on_the_surface_is_the_case_of_no_constant(a in -3.0..3.0f64, b in -3.0..3.0f64) {
             prop_assume!(a.abs() > 1e-6 && b.abs() > 1e-6);
-            prop_assert_eq!(Intervals::from_surface(a, b), Intervals::of(a, b, 0.0));
+            prop_assert_eq!(Intervals::from_surface(a, b), Intervals::solve(a, b, 0.0));
         }
     }
 }

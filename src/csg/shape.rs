@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::quadratic::Intervals;
-use super::span::{BOTTOM, CURVED, Spans};
+use super::span::{BOTTOM_CAP, CURVED, Spans};
 use super::torus;
 use super::{LeafIndex, MaterialTag, Primitive};
 use crate::geometry::{Aabb, Ray};
@@ -45,13 +45,13 @@ enum Shape {
     /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
     /// are measured from there, since near a tip all is small that decides whether it is hit.
     Cone {
-        own: LocalFrame,
+        frame: LocalFrame,
         base: f64,
         waist: f64,
         slope: f64,
     },
     Torus {
-        own: LocalFrame,
+        frame: LocalFrame,
         tube: f64,
     },
     /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
@@ -65,7 +65,7 @@ enum Shape {
 
 #[derive(Clone, Debug)]
 struct LocalFrame {
-    own_from_scene: DAffine3,
+    local_from_scene: DAffine3,
     /// Outward normals of the faces at x = 1, y = 1, z = 1, in the scene and of length 1.
     axis_normals: [DVec3; 3],
 }
@@ -75,18 +75,19 @@ impl Leaf {
     /// `shapes`, balls and boxes along the axes are stored as such.
     pub(super) fn new(
         primitive: &Primitive,
-        scene_from_own: &DAffine3,
+        scene_from_local: &DAffine3,
         tag: MaterialTag,
         shapes: bool,
     ) -> (Self, Aabb) {
-        let own_from_scene = scene_from_own.inverse();
-        let to_own = own_from_scene.matrix3;
-        let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];
-        let centre = scene_from_own.translation;
-        let own = || LocalFrame {
-            own_from_scene,
+        let local_from_scene = scene_from_local.inverse();
+        let to_local = local_from_scene.matrix3;
+        let columns =
+            [scene_from_local.matrix3.x_axis, scene_from_local.matrix3.y_axis, scene_from_local.matrix3.z_axis];
+        let centre = scene_from_local.translation;
+        let frame = || LocalFrame {
+            local_from_scene,
             // Normals go by the inverse transpose, whose columns are the rows of the inverse.
-            axis_normals: [0, 1, 2].map(|axis| to_own.row(axis).normalize()),
+            axis_normals: [0, 1, 2].map(|axis| to_local.row(axis).normalize()),
         };
         let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
         let about = |half: DVec3| Aabb { min: centre - half, max: centre + half };
@@ -95,21 +96,21 @@ impl Leaf {
                 Some(radius) => (Shape::Ball { centre, radius }, about(DVec3::splat(radius))),
                 None => {
                     let half = columns.iter().map(|&column| column * column).sum::<DVec3>().map(f64::sqrt);
-                    (Shape::Ellipsoid(own()), about(half))
+                    (Shape::Ellipsoid(frame()), about(half))
                 }
             },
             Primitive::HalfSpace { normal, offset } => {
-                let carried = to_own.transpose() * normal;
+                let carried = to_local.transpose() * normal;
                 let length = carried.length();
-                let (normal, offset) = (carried / length, (offset - normal.dot(own_from_scene.translation)) / length);
+                let (normal, offset) = (carried / length, (offset - normal.dot(local_from_scene.translation)) / length);
                 (Shape::HalfSpace { normal, offset }, half_space_bounds(normal, offset))
             }
             Primitive::Cube => {
-                let bounds = Aabb::of_cube(scene_from_own);
+                let bounds = Aabb::of_cube(scene_from_local);
                 let along_axes = shapes && (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
-                (if along_axes { Shape::Block(bounds) } else { Shape::Cube(own()) }, bounds)
+                (if along_axes { Shape::Block(bounds) } else { Shape::Cube(frame()) }, bounds)
             }
-            Primitive::Cylinder => (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2]))),
+            Primitive::Cylinder => (Shape::Cylinder(frame()), about(columns[1].abs() + round(columns[0], columns[2]))),
             Primitive::Cone { bottom, top } => {
                 let disc = |radius: f64, y: f64| {
                     let (middle, half) = (centre + columns[1] * y, round(columns[0], columns[2]) * radius);
@@ -117,7 +118,7 @@ impl Leaf {
                 };
                 let (base, waist) = if top < bottom { (1.0, top) } else { (-1.0, bottom) };
                 (
-                    Shape::Cone { own: own(), base, waist, slope: (top - bottom) / 2.0 },
+                    Shape::Cone { frame: frame(), base, waist, slope: (top - bottom) / 2.0 },
                     disc(bottom, -1.0).union(disc(top, 1.0)),
                 )
             }
@@ -125,7 +126,7 @@ impl Leaf {
                 // What a ball of the tube's radius covers whose centre goes round the circle.
                 let [x, y, z] = columns;
                 let ball = (x * x + y * y + z * z).map(f64::sqrt) * tube;
-                (Shape::Torus { own: own(), tube }, about(round(x, z) + ball))
+                (Shape::Torus { frame: frame(), tube }, about(round(x, z) + ball))
             }
             Primitive::Quadric(q) => {
                 let [xy, yz, zx] = (q.products / 2.0).to_array();
@@ -136,8 +137,8 @@ impl Leaf {
                 );
                 let shape = Shape::Quadric {
                     centre,
-                    square: to_own.transpose() * square * to_own,
-                    half_linear: to_own.transpose() * q.linear / 2.0,
+                    square: to_local.transpose() * square * to_local,
+                    half_linear: to_local.transpose() * q.linear / 2.0,
                     constant: q.constant,
                 };
                 (shape, Aabb::ALL)
@@ -183,12 +184,12 @@ impl Leaf {
             Shape::Block(block) => {
                 Spans::slabs(ray.origin, ray.direction, block.min.to_array(), block.max.to_array(), start)
             }
-            Shape::Cube(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Cube(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 Spans::slabs(o, d, [-1.0; 3], [1.0; 3], start)
             }
-            Shape::Ellipsoid(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Ellipsoid(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 let (a, b) = (d.length_squared(), o.dot(d));
                 Spans::curved(if start.is_some() {
                     Intervals::from_surface(a, b)
@@ -197,8 +198,8 @@ impl Leaf {
                     Intervals::with_discriminant(a, b, o.length_squared() - 1.0, a * (1.0 - closest.length_squared()))
                 })
             }
-            Shape::Cylinder(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Cylinder(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 let (a, b) = (d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z);
                 let inside = if start == Some(CURVED) {
                     Intervals::from_surface(a, b)
@@ -208,8 +209,8 @@ impl Leaf {
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
-            Shape::Cone { own, base, waist, slope } => {
-                let (o, d) = own.carry(ray);
+            Shape::Cone { frame, base, waist, slope } => {
+                let (o, d) = frame.ray_to_local(ray);
                 let from_base = o - DVec3::Y * *base;
                 let rise = slope * d.y;
                 let a = d.x * d.x + d.z * d.z - rise * rise;
@@ -219,13 +220,13 @@ impl Leaf {
                 } else {
                     from_closest_approach(from_base, d, |o| {
                         let radius = waist + slope * o.y;
-                        Intervals::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
+                        Intervals::solve(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
                     })
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
-            Shape::Torus { own, tube } => {
-                let (o, d) = own.carry(ray);
+            Shape::Torus { frame, tube } => {
+                let (o, d) = frame.ray_to_local(ray);
                 torus::spans(*tube, o, d, start.is_some())
             }
             Shape::Quadric { centre, square, half_linear, constant } => {
@@ -238,7 +239,7 @@ impl Leaf {
                 } else {
                     from_closest_approach(o, d, |o| {
                         let c = (*square * o + 2.0 * *half_linear).dot(o) + constant;
-                        Intervals::of(a, half(o), c)
+                        Intervals::solve(a, half(o), c)
                     })
                 })
             }
@@ -270,25 +271,25 @@ impl Leaf {
         match &self.shape {
             Shape::Ball { centre, radius } => (point - *centre) / *radius,
             Shape::HalfSpace { normal, .. } => *normal,
-            Shape::Block(_) => DVec3::AXES[usize::from(face / 2)] * side(face),
-            Shape::Cube(own) => own.axis_normals[usize::from(face / 2)] * side(face),
-            Shape::Cylinder(own) | Shape::Cone { own, .. } if face != CURVED => {
-                own.axis_normals[1] * side(face - BOTTOM)
+            Shape::Block(_) => DVec3::AXES[usize::from(face / 2)] * face_sign(face),
+            Shape::Cube(frame) => frame.axis_normals[usize::from(face / 2)] * face_sign(face),
+            Shape::Cylinder(frame) | Shape::Cone { frame, .. } if face != CURVED => {
+                frame.axis_normals[1] * face_sign(face - BOTTOM_CAP)
             }
-            Shape::Ellipsoid(own) => own.carry_back(own.point(point)),
-            Shape::Cylinder(own) => {
-                let q = own.point(point);
-                own.carry_back(DVec3::new(q.x, 0.0, q.z))
+            Shape::Ellipsoid(frame) => frame.normal_to_scene(frame.point_to_local(point)),
+            Shape::Cylinder(frame) => {
+                let q = frame.point_to_local(point);
+                frame.normal_to_scene(DVec3::new(q.x, 0.0, q.z))
             }
-            Shape::Cone { own, base, waist, slope } => {
-                let q = own.point(point);
-                own.carry_back(DVec3::new(q.x, -slope * (waist + slope * (q.y - base)), q.z))
+            Shape::Cone { frame, base, waist, slope } => {
+                let q = frame.point_to_local(point);
+                frame.normal_to_scene(DVec3::new(q.x, -slope * (waist + slope * (q.y - base)), q.z))
             }
-            Shape::Torus { own, .. } => {
-                let q = own.point(point);
+            Shape::Torus { frame, .. } => {
+                let q = frame.point_to_local(point);
                 // From the nearest point of the circle.
                 let outward = 1.0 - 1.0 / q.x.hypot(q.z);
-                own.carry_back(DVec3::new(q.x * outward, q.y, q.z * outward))
+                frame.normal_to_scene(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
             Shape::Quadric { centre, square, half_linear, .. } => {
                 (*square * (point - *centre) + *half_linear).normalize_or(DVec3::Y)
@@ -298,18 +299,18 @@ impl Leaf {
 }
 
 impl LocalFrame {
-    fn carry(&self, ray: &Ray) -> (DVec3, DVec3) {
-        (self.own_from_scene.transform_point3(ray.origin), self.own_from_scene.transform_vector3(ray.direction))
+    fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        (self.local_from_scene.transform_point3(ray.origin), self.local_from_scene.transform_vector3(ray.direction))
     }
 
-    fn point(&self, point: DVec3) -> DVec3 {
-        self.own_from_scene.transform_point3(point)
+    fn point_to_local(&self, point: DVec3) -> DVec3 {
+        self.local_from_scene.transform_point3(point)
     }
 
     /// A normal from own coordinates into the scene, by the inverse transpose of the way there.
-    fn carry_back(&self, normal: DVec3) -> DVec3 {
+    fn normal_to_scene(&self, normal: DVec3) -> DVec3 {
         // The zero vector is the apex of a cone, where no normal is right.
-        (self.own_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
+        (self.local_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
     }
 }
 
@@ -325,7 +326,7 @@ fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals)
 }
 
 /// −1 for an even face, 1 for an odd one.
-fn side(face: u8) -> f64 {
+fn face_sign(face: u8) -> f64 {
     if face.is_multiple_of(2) { -1.0 } else { 1.0 }
 }
 

@@ -12,7 +12,7 @@ pub enum Solid {
         /// What it is, in its own coordinates.
         primitive: Primitive,
         /// Puts it into the scene; invertible.
-        scene_from_own: DAffine3,
+        scene_from_local: DAffine3,
         /// The caller's number for its surface (which material it has).
         tag: MaterialTag,
     },
@@ -28,8 +28,8 @@ impl Solid {
     /// Whether `point` is in the solid; for points on its boundary the answer may be either.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
-            Self::Placed { primitive, scene_from_own, .. } => {
-                primitive.contains(scene_from_own.inverse().transform_point3(point))
+            Self::Placed { primitive, scene_from_local, .. } => {
+                primitive.contains(scene_from_local.inverse().transform_point3(point))
             }
             Self::Union(solids) => solids.iter().any(|solid| solid.contains(point)),
             Self::Intersection(solids) => !solids.is_empty() && solids.iter().all(|solid| solid.contains(point)),

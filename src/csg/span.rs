@@ -7,7 +7,7 @@ use super::quadratic::Intervals;
 /// The curved face of a ball, cylinder, cone, torus or quadric.
 pub(super) const CURVED: u8 = 0;
 /// The lower cap of a cylinder or cone; the upper one follows.
-pub(super) const BOTTOM: u8 = 1;
+pub(super) const BOTTOM_CAP: u8 = 1;
 
 /// A ray's stay inside a leaf: it enters through one face and leaves through another.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl Spans {
     /// rounding at an apex leaves two, the longer.
     pub fn capped(inside: Intervals, y: f64, speed: f64, start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
-        if !span.cut([-1.0, 1.0], y, speed, BOTTOM, start) {
+        if !span.clip_slab([-1.0, 1.0], y, speed, BOTTOM_CAP, start) {
             return Self::default();
         }
         let clip = |from: f64, to: f64| {
@@ -74,7 +74,7 @@ impl Spans {
     pub fn slabs(o: DVec3, d: DVec3, min: [f64; 3], max: [f64; 3], start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
         for axis in 0..3 {
-            if !span.cut([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
+            if !span.clip_slab([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
                 return Self::default();
             }
         }
@@ -83,15 +83,15 @@ impl Spans {
 }
 
 impl Span {
-    /// Keeps what lies between two parallel faces at `places`, numbered `face` and `face + 1`; false if that is
+    /// Keeps what lies between two parallel faces at `planes`, numbered `face` and `face + 1`; false if that is
     /// nothing.
     #[inline(always)]
-    fn cut(&mut self, places: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
+    fn clip_slab(&mut self, planes: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
         if speed == 0.0 {
-            return places[0] < position && position < places[1];
+            return planes[0] < position && position < planes[1];
         }
         let distance = |side: u8| {
-            if start == Some(face + side) { 0.0 } else { (places[usize::from(side)] - position) / speed }
+            if start == Some(face + side) { 0.0 } else { (planes[usize::from(side)] - position) / speed }
         };
         let (near, far) = if speed > 0.0 { (0, 1) } else { (1, 0) };
         let (from, to) = (distance(near), distance(far));

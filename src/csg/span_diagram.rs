@@ -10,9 +10,9 @@ use crate::geometry::Ray;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpanDiagram {
     /// What the solid is.
-    pub what: SolidKind,
+    pub kind: SolidKind,
     /// Where the ray enters and leaves it, in order; distances along the ray, which may be infinite or negative.
-    pub stays: Vec<[f64; 2]>,
+    pub spans: Vec<[f64; 2]>,
     /// What it is made of.
     pub operands: Vec<SpanDiagram>,
 }
@@ -34,43 +34,43 @@ pub enum SolidKind {
 impl Tree {
     /// The stays of a whole line, of which `ray` is a part, in the solid `root` and in its operands. `start` is where the
     /// ray starts, if it starts on a solid.
-    pub fn figure(&self, root: RootId, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
+    pub fn span_diagram(&self, root: RootId, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
-        let mut events = self.node_events(root.node(), ray, start);
+        let mut crossings = self.node_crossings(root.node(), ray, start);
         // As a ray meets them.
         let is_leaf = matches!(self.nodes[root.node().index()].kind, NodeKind::Leaf(_));
         if start.is_none() && !is_leaf {
-            let are_one = |earlier, later| coincide(&self.leaves, earlier, later, ray);
-            events = without_slivers(&events, are_one).collect();
+            let is_sliver = |earlier, later| coincide(&self.leaves, earlier, later, ray);
+            crossings = without_slivers(&crossings, is_sliver).collect();
         }
-        self.figure_of(root.node(), &events, ray, start)
+        self.node_diagram(root.node(), &crossings, ray, start)
     }
 
-    fn node_events(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
+    fn node_crossings(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-        let mut events = Vec::new();
-        self.events(node, ray, start, EVERYWHERE, &mut events);
-        events
+        let mut crossings = Vec::new();
+        self.push_crossings(node, ray, start, EVERYWHERE, &mut crossings);
+        crossings
     }
 
-    /// The figure of a node with these events.
-    fn figure_of(&self, node: NodeIndex, events: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
-        let (what, operands) = match &self.nodes[node.index()].kind {
+    /// The figure of a node with these crossings.
+    fn node_diagram(&self, node: NodeIndex, crossings: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
+        let (kind, operands) = match &self.nodes[node.index()].kind {
             NodeKind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
             NodeKind::Convex(leaves) => {
                 let operand = |&leaf: &LeafIndex| {
-                    let spans = self.leaf_stays(leaf, ray, start);
-                    SpanDiagram { what: self.primitive(leaf), stays: stays(&spans), operands: Vec::new() }
+                    let crossings = self.leaf_crossings(leaf, ray, start);
+                    SpanDiagram { kind: self.primitive(leaf), spans: spans_of(&crossings), operands: Vec::new() }
                 };
                 (SolidKind::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
             }
             NodeKind::Composition { operation, children } => {
                 let operand =
-                    |&child: &NodeIndex| self.figure_of(child, &self.node_events(child, ray, start), ray, start);
+                    |&child: &NodeIndex| self.node_diagram(child, &self.node_crossings(child, ray, start), ray, start);
                 (SolidKind::Composition(*operation), children.iter().map(operand).collect())
             }
         };
-        SpanDiagram { what, stays: stays(events), operands }
+        SpanDiagram { kind, spans: spans_of(crossings), operands }
     }
 
     fn primitive(&self, leaf: LeafIndex) -> SolidKind {
@@ -79,6 +79,6 @@ impl Tree {
     }
 }
 
-fn stays(events: &[Crossing]) -> Vec<[f64; 2]> {
-    events.chunks_exact(2).map(|pair| [pair[0].t, pair[1].t]).collect()
+fn spans_of(crossings: &[Crossing]) -> Vec<[f64; 2]> {
+    crossings.chunks_exact(2).map(|pair| [pair[0].t, pair[1].t]).collect()
 }

@@ -27,9 +27,9 @@ pub struct RayStart {
     /// Its face.
     pub surface: Surface,
     /// Whether the solid is left there, as seen along the ray that came.
-    pub leaves: bool,
+    pub exits: bool,
     /// Whether this ray turns back to where that one came from.
-    pub turned: bool,
+    pub reversed: bool,
 }
 
 /// Where in the scene's own order a crossing stands among those at the same place.
@@ -37,15 +37,15 @@ pub struct RayStart {
 /// Boundaries of solids that touch lie at one place, and rounding puts them in any order along a ray. If a ray took
 /// them as they came it would cross some twice and some never, so they have one order: what is entered comes before
 /// what is left, and then what stands first in the scene. A ray that turns back there passes them in reverse.
-pub fn rank(root: RootId, enters: bool, turned: bool) -> (bool, RootId) {
-    (enters == turned, root)
+pub fn tie_break(root: RootId, enters: bool, reversed: bool) -> (bool, RootId) {
+    (enters == reversed, root)
 }
 
 impl RayStart {
     /// Whether the ray has yet to cross the boundary of another solid at the same place.
-    fn has_before_it(&self, root: RootId, enters: bool) -> bool {
-        let (here, other) = ((self.leaves, self.root), rank(root, enters, self.turned));
-        if self.turned { other < here } else { other > here }
+    fn is_before(&self, root: RootId, enters: bool) -> bool {
+        let (here, other) = ((self.exits, self.root), tie_break(root, enters, self.reversed));
+        if self.reversed { other < here } else { other > here }
     }
 }
 
@@ -84,48 +84,48 @@ impl Tree {
         mut visit: impl FnMut(Hit) -> bool,
     ) {
         let slack = ray.tolerance(0.0);
-        // A ray that starts on this solid does not meet it there again. On any other solid it may: of what touches
+        // A ray that starts on this solid does not report it there again. On any other solid it may: of what touches
         // the solid that it starts on, it meets at 0 what it has not passed, on whichever side of 0 rounding puts it.
         let on_this = start.is_some_and(|start| start.root == root);
-        let is_met_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.has_before_it(root, enters));
-        let counts = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_met_at_0(enters)));
+        let is_crossed_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.is_before(root, enters));
+        let is_on_ray = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_crossed_at_0(enters)));
         let start = start.filter(|_| on_this).map(|start| start.surface);
-        let mut meet = |event: Crossing, enters: bool| {
-            !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
+        let mut report = |crossing: Crossing, enters: bool| {
+            !is_on_ray(crossing.t, enters) || visit(Hit { t: crossing.t.max(0.0), surface: crossing.surface, enters })
         };
         // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
         // starts on this solid starts there exactly, and may be inside as briefly as it likes.
-        let are_one =
+        let is_sliver =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root.node().index()].kind {
             NodeKind::Leaf(leaf) => {
                 let [first, second] = self.leaf_spans(*leaf, ray, start);
                 let mut go_on = true;
                 if let Some([enter, leave]) = first {
-                    go_on = meet(enter, true) && meet(leave, false);
+                    go_on = report(enter, true) && report(leave, false);
                 }
                 if let Some([enter, leave]) = second.filter(|_| go_on)
-                    && meet(enter, true)
+                    && report(enter, true)
                 {
-                    meet(leave, false);
+                    report(leave, false);
                 }
             }
             NodeKind::Convex(leaves) => {
                 if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
-                    && !are_one(enter, leave)
-                    && meet(enter, true)
+                    && !is_sliver(enter, leave)
+                    && report(enter, true)
                 {
-                    meet(leave, false);
+                    report(leave, false);
                 }
             }
             NodeKind::Composition { operation, children } => {
                 stack.clear();
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // Whoever asks has looked at the bounds.
-                self.composition_events(*operation, children, ray, start, window, stack);
+                self.push_composition_crossings(*operation, children, ray, start, window, stack);
                 let mut enters = true;
-                for event in without_slivers(stack, are_one) {
-                    if !meet(event, enters) {
+                for crossing in without_slivers(stack, is_sliver) {
+                    if !report(crossing, enters) {
                         return;
                     }
                     enters = !enters;
@@ -134,9 +134,9 @@ impl Tree {
         }
     }
 
-    /// Pushes the events of a node. Spans that lie outside `window` may be left out.
+    /// Pushes the crossings of a node. Spans that lie outside `window` may be left out.
     #[inline(always)]
-    pub(super) fn events(
+    pub(super) fn push_crossings(
         &self,
         node: NodeIndex,
         ray: &Ray,
@@ -146,13 +146,13 @@ impl Tree {
     ) {
         let Node { bounds, kind } = &self.nodes[node.index()];
         if bounds.entry(ray, window[0], window[1]).is_some() {
-            self.events_within_bounds(kind, ray, start, window, stack);
+            self.push_crossings_within_bounds(kind, ray, start, window, stack);
         }
     }
 
-    /// As [`Tree::events`], for a ray that is known to meet the node's bounds.
+    /// As [`Tree::push_crossings`], for a ray that is known to report the node's bounds.
     #[inline(always)]
-    fn events_within_bounds(
+    fn push_crossings_within_bounds(
         &self,
         kind: &NodeKind,
         ray: &Ray,
@@ -181,12 +181,12 @@ impl Tree {
                 }
             }
             NodeKind::Composition { operation, children } => {
-                self.composition_events(*operation, children, ray, start, window, stack);
+                self.push_composition_crossings(*operation, children, ray, start, window, stack);
             }
         }
     }
 
-    fn composition_events(
+    fn push_composition_crossings(
         &self,
         operation: Operation,
         children: &[NodeIndex],
@@ -200,9 +200,9 @@ impl Tree {
             let second = stack.len();
             if index == 0 && operation == Operation::Difference {
                 // The bounds of a difference are those of its first operand.
-                self.events_within_bounds(&self.nodes[child.index()].kind, ray, start, window, stack);
+                self.push_crossings_within_bounds(&self.nodes[child.index()].kind, ray, start, window, stack);
             } else {
-                self.events(child, ray, start, window, stack);
+                self.push_crossings(child, ray, start, window, stack);
                 if index > 0 {
                     merge(operation, stack, first, second, ray);
                 }
@@ -220,15 +220,15 @@ impl Tree {
         }
     }
 
-    /// The events of a leaf.
-    pub(super) fn leaf_stays(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
+    /// The crossings of a leaf.
+    pub(super) fn leaf_crossings(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
     }
 
     #[inline(always)]
     fn leaf_spans(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
-        let spans = self.leaves[leaf.index()].spans(ray, face_of(start, leaf));
-        [spans.first, spans.second].map(|span| span.map(|span| span_events(leaf, span)))
+        let spans = self.leaves[leaf.index()].spans(ray, start_face(start, leaf));
+        [spans.first, spans.second].map(|span| span.map(|span| span_crossings(leaf, span)))
     }
 
     /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
@@ -236,8 +236,8 @@ impl Tree {
     fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
         let mut stay: Option<[Crossing; 2]> = None;
         for &leaf in leaves {
-            let span = self.leaves[leaf.index()].spans(ray, face_of(start, leaf)).first?;
-            let [enter, leave] = span_events(leaf, span);
+            let span = self.leaves[leaf.index()].spans(ray, start_face(start, leaf)).first?;
+            let [enter, leave] = span_crossings(leaf, span);
             let [first, last] = stay.get_or_insert([enter, leave]);
             if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
                 *first = enter;
@@ -254,13 +254,13 @@ impl Tree {
 }
 
 #[inline(always)]
-fn span_events(leaf: LeafIndex, span: Span) -> [Crossing; 2] {
-    let event = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
-    [event(span.from, span.from_face), event(span.to, span.to_face)]
+fn span_crossings(leaf: LeafIndex, span: Span) -> [Crossing; 2] {
+    let crossing = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
+    [crossing(span.from, span.from_face), crossing(span.to, span.to_face)]
 }
 
 /// The face of `leaf` that a ray starts on.
 #[inline(always)]
-fn face_of(start: Option<Surface>, leaf: LeafIndex) -> Option<u8> {
+fn start_face(start: Option<Surface>, leaf: LeafIndex) -> Option<u8> {
     start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
 }

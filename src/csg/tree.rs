@@ -12,13 +12,13 @@ use crate::geometry::Aabb;
 pub struct Tree {
     pub(super) leaves: Vec<Leaf>,
     pub(super) nodes: Vec<Node>,
-    pub(super) reductions: Passes,
-    pub(super) dropped: Dropped,
+    pub(super) passes: Passes,
+    pub(super) dropped: DroppedCounts,
 }
 
 /// What was left out of solids, since nothing of it can be seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Dropped {
+pub struct DroppedCounts {
     /// Compositions that were proved empty.
     pub empty: usize,
     /// Operands of differences that take nothing away.
@@ -44,7 +44,7 @@ pub(super) enum NodeKind {
 
 impl Tree {
     /// What was left out.
-    pub fn dropped(&self) -> Dropped {
+    pub fn dropped(&self) -> DroppedCounts {
         self.dropped
     }
 

@@ -2,7 +2,7 @@
 
 mod split;
 
-pub use split::{MAX_UNBALANCED, split};
+pub use split::{MAX_SAH_DEPTH, split};
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
@@ -15,7 +15,7 @@ pub struct Ray {
     pub direction: DVec3,
     /// 1 / `direction`, component by component; very large where that is 0, but finite, so that no product with it
     /// is NaN.
-    pub inverse: DVec3,
+    pub inverse_direction: DVec3,
     /// The largest coordinate that the origin was computed from. Rounding errors along the ray are a few parts in
     /// 10¹⁶ of this and of the distance, so a tolerance made of both follows the scene's own scale.
     pub scale: f64,
@@ -28,9 +28,9 @@ impl Ray {
     /// `direction` must have length 1.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
         const LARGEST: f64 = 1e300;
-        let inverse = direction.map(|component| fast_min(fast_max(1.0 / component, -LARGEST), LARGEST));
+        let inverse_direction = direction.map(|component| fast_min(fast_max(1.0 / component, -LARGEST), LARGEST));
         let size = origin.abs();
-        Self { origin, direction, inverse, scale: fast_max(fast_max(size.x, size.y), size.z) }
+        Self { origin, direction, inverse_direction, scale: fast_max(fast_max(size.x, size.y), size.z) }
     }
 
     /// The ray that goes on from the point at distance `t` of this one.
@@ -115,14 +115,14 @@ impl Aabb {
     /// the very plane of a face may miss, so what must not be missed needs a box that is [`Aabb::padded`].
     #[inline(always)]
     pub fn entry(&self, ray: &Ray, from: f64, to: f64) -> Option<f64> {
-        self.stay(ray, from, to).map(|[near, _]| near)
+        self.span(ray, from, to).map(|[near, _]| near)
     }
 
     /// As [`Aabb::entry`], and where it leaves; never more than `to`.
     #[inline(always)]
-    pub fn stay(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
-        let a = (self.min - ray.origin) * ray.inverse;
-        let b = (self.max - ray.origin) * ray.inverse;
+    pub fn span(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
+        let a = (self.min - ray.origin) * ray.inverse_direction;
+        let b = (self.max - ray.origin) * ray.inverse_direction;
         let near = fast_max(fast_max(fast_min(a.x, b.x), fast_min(a.y, b.y)), fast_max(fast_min(a.z, b.z), from));
         let far = fast_min(fast_min(fast_max(a.x, b.x), fast_max(a.y, b.y)), fast_min(fast_max(a.z, b.z), to));
         (near <= far).then_some([near, far])

@@ -4,7 +4,7 @@ use super::Aabb;
 
 /// Below this depth [`split`] halves by count, so that no hierarchy is deeper than this and the number of times that
 /// its boxes can be halved.
-pub const MAX_UNBALANCED: u32 = 32;
+pub const MAX_SAH_DEPTH: u32 = 32;
 
 /// Orders numbered boxes so that those before the place that is returned are one part, and the others another: where
 /// the surface area heuristic expects least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using
@@ -16,7 +16,7 @@ pub fn split<Id: Ord>(boxes: &mut [(Id, Aabb)], depth: u32) -> Option<usize> {
     if boxes.len() < 2 {
         return None;
     }
-    if depth >= MAX_UNBALANCED {
+    if depth >= MAX_SAH_DEPTH {
         sort_along(boxes, 0);
         return Some(boxes.len() / 2);
     }

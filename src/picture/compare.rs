@@ -10,7 +10,7 @@ use super::frame::{Colour, Frame, srgb8};
 pub struct Difference {
     /// The root of the mean squared error in linear light, over all pixels and channels; at least 0.
     pub rmse: f64,
-    /// Pixels of which a channel is more than [`Difference::SAME`] apart, in 8-bit sRGB.
+    /// Pixels of which a channel is more than [`Difference::TOLERANCE`] apart, in 8-bit sRGB.
     pub wrong_pixels: u32,
     /// The least structural similarity of a block of 8 × 8 pixels, from −1 to 1 (the same), of the luminance in 8-bit sRGB
     /// (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, *Image quality assessment: from error visibility to structural
@@ -20,7 +20,7 @@ pub struct Difference {
 
 impl Difference {
     /// How far apart two 8-bit sRGB values are taken for the same.
-    pub const SAME: u8 = 2;
+    pub const TOLERANCE: u8 = 2;
 
     /// # Panics
     /// If the pictures are not of one size.
@@ -35,7 +35,7 @@ impl Difference {
 }
 
 /// By how much the channel differs that differs most.
-pub fn apart(a: [u8; 3], b: [u8; 3]) -> u8 {
+pub fn max_channel_difference(a: [u8; 3], b: [u8; 3]) -> u8 {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
@@ -47,31 +47,31 @@ fn rmse(pixels: &[Colour], reference: &[Colour]) -> f64 {
 }
 
 fn wrong_pixels(picture: &Frame, reference: &Frame) -> u32 {
-    let is_wrong = |(&a, &b): (&Colour, &Colour)| apart(srgb8(a), srgb8(b)) > Difference::SAME;
+    let is_wrong = |(&a, &b): (&Colour, &Colour)| max_channel_difference(srgb8(a), srgb8(b)) > Difference::TOLERANCE;
     picture.pixels().iter().zip(reference.pixels()).filter(|&pair| is_wrong(pair)).count() as u32
 }
 
 /// The side of a block.
-const BLOCK: u32 = 8;
+const BLOCK_SIDE_PX: u32 = 8;
 
 fn worst_ssim(picture: &Frame, reference: &Frame) -> f64 {
-    let (size, pixels) = (picture.size(), [grey(picture), grey(reference)]);
+    let (size, pixels) = (picture.size(), [luminances(picture), luminances(reference)]);
     let block = |x: u32, y: u32| {
-        let (columns, rows) = (x..(x + BLOCK).min(size.width()), y..(y + BLOCK).min(size.height()));
+        let (columns, rows) = (x..(x + BLOCK_SIDE_PX).min(size.width()), y..(y + BLOCK_SIDE_PX).min(size.height()));
         let places = rows.flat_map(|y| columns.clone().map(move |x| (y * size.width() + x) as usize));
         ssim(places.map(|place| (pixels[0][place], pixels[1][place])))
     };
-    let corners = starts(size.height()).flat_map(|y| starts(size.width()).map(move |x| (x, y)));
+    let corners = block_starts(size.height()).flat_map(|y| block_starts(size.width()).map(move |x| (x, y)));
     corners.map(|(x, y)| block(x, y)).fold(1.0, f64::min)
 }
 
 /// Where blocks begin along a side: one after the other, but the last one ends with the picture.
-fn starts(side: u32) -> impl Iterator<Item = u32> + Clone {
-    (0..side.div_ceil(BLOCK)).map(move |block| (block * BLOCK).min(side.saturating_sub(BLOCK)))
+fn block_starts(side: u32) -> impl Iterator<Item = u32> + Clone {
+    (0..side.div_ceil(BLOCK_SIDE_PX)).map(move |block| (block * BLOCK_SIDE_PX).min(side.saturating_sub(BLOCK_SIDE_PX)))
 }
 
 /// The luminance of the 8-bit sRGB picture, 0 to 255 (the weights of Rec. ITU-R BT.709).
-fn grey(frame: &Frame) -> Vec<f64> {
+fn luminances(frame: &Frame) -> Vec<f64> {
     let luminance = |&pixel: &Colour| {
         let [red, green, blue] = srgb8(pixel).map(f64::from);
         0.2126 * red + 0.7152 * green + 0.0722 * blue

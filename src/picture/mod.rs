@@ -8,7 +8,7 @@ mod png;
 mod quality;
 mod size;
 
-pub use compare::{Difference, apart};
+pub use compare::{Difference, max_channel_difference};
 pub use division::{Atom, Division, atoms_in, push_atom};
 pub use frame::{Colour, Frame, srgb8};
 pub use png::{encode_png, write_png};

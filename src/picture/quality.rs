@@ -7,12 +7,12 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Quality {
-    /// At most n × n samples a pixel, from 1 to [`Quality::MOST_SAMPLES`].
+    /// At most n × n samples a pixel, from 1 to [`Quality::MAX_SAMPLES`].
     pub samples: u32,
     /// A pixel gets no more samples once they are the same within this, its corners among them, or once the error of
     /// their mean is estimated as no more than this; in linear light and in every channel. At 0 every pixel gets all.
     pub threshold: f64,
-    /// The limit of the tree of rays, from 1 to [`Quality::MOST_DEPTH`] (§3: "for example 10 levels"); a primary ray is level 1.
+    /// The limit of the tree of rays, from 1 to [`Quality::MAX_DEPTH`] (§3: "for example 10 levels"); a primary ray is level 1.
     pub max_depth: u32,
     /// What rays that are too weak to be followed (§3: "irrelevant") would count, all those of a sample together, at
     /// most: at least 0 and less than 1. The limit of the tree of rays comes on top.
@@ -23,20 +23,20 @@ pub struct Quality {
 
 impl Quality {
     /// n × n samples at most.
-    pub const MOST_SAMPLES: u32 = 64;
+    pub const MAX_SAMPLES: u32 = 64;
     /// The deepest tree of rays.
-    pub const MOST_DEPTH: u32 = 100;
+    pub const MAX_DEPTH: u32 = 100;
 
     /// # Errors
     /// The first knob that is out of its range.
     pub fn check(&self) -> Result<(), QualityError> {
-        if !(1..=Self::MOST_SAMPLES).contains(&self.samples) {
+        if !(1..=Self::MAX_SAMPLES).contains(&self.samples) {
             return Err(QualityError::Samples(self.samples));
         }
         if !(0.0..1.0).contains(&self.threshold) {
             return Err(QualityError::Threshold(self.threshold));
         }
-        if !(1..=Self::MOST_DEPTH).contains(&self.max_depth) {
+        if !(1..=Self::MAX_DEPTH).contains(&self.max_depth) {
             return Err(QualityError::Depth(self.max_depth));
         }
         if !(0.0..1.0).contains(&self.cutoff) {
@@ -50,13 +50,13 @@ impl Quality {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum QualityError {
     /// [`Quality::samples`].
-    #[error("samples is {0}; it must be 1 to {max}", max = Quality::MOST_SAMPLES)]
+    #[error("samples is {0}; it must be 1 to {max}", max = Quality::MAX_SAMPLES)]
     Samples(u32),
     /// [`Quality::threshold`].
     #[error("threshold is {0}; it must be at least 0 and less than 1")]
     Threshold(f64),
     /// [`Quality::max_depth`].
-    #[error("max_depth is {0}; it must be 1 to {max}", max = Quality::MOST_DEPTH)]
+    #[error("max_depth is {0}; it must be 1 to {max}", max = Quality::MAX_DEPTH)]
     Depth(u32),
     /// [`Quality::cutoff`].
     #[error("cutoff is {0}; it must be at least 0 and less than 1")]

@@ -37,7 +37,7 @@ impl Opened {
         text.map_err(FileError::from)
             .and_then(|text| Self::from_text(&name, &text))
             .map(|opened| Self { path: Some(path.into()), ..opened })
-            .map_err(|error| error.of(argument))
+            .map_err(|error| error.in_file(argument))
     }
 
     /// # Errors

@@ -155,13 +155,13 @@ impl<'a> NameResolver<'a> {
             return Err(ResolveError::new(self.path.last().copied(), Problem::TooManyPrimitives));
         }
         let (primitive, own) = primitive(leaf);
-        let scene_from_own = outer * own;
+        let scene_from_local = outer * own;
         // A determinant that overflows would make the inverse 0.
-        let is_normal = scene_from_own.matrix3.determinant().is_normal();
-        if !is_normal || !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
+        let is_normal = scene_from_local.matrix3.determinant().is_normal();
+        if !is_normal || !scene_from_local.is_finite() || !scene_from_local.inverse().is_finite() {
             return Err(ResolveError::new(self.path.last().copied(), Problem::OutOfRange));
         }
-        Ok(Solid::Placed { primitive, scene_from_own, tag })
+        Ok(Solid::Placed { primitive, scene_from_local, tag })
     }
 }
 

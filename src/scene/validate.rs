@@ -4,14 +4,14 @@ use glam::DVec3;
 use serde::de::{Deserialize, Deserializer, Error};
 
 /// No coordinate exceeds this, so that squares and products of a few of them stay finite.
-const LARGEST: f64 = 1e12;
+const MAX_COORDINATE: f64 = 1e12;
 
 pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    check(f64::deserialize(from)?, |x| x.abs() <= LARGEST, "a number between -1e12 and 1e12")
+    check(f64::deserialize(from)?, |x| x.abs() <= MAX_COORDINATE, "a number between -1e12 and 1e12")
 }
 
 pub(super) fn positive<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    check(f64::deserialize(from)?, |x| (1e-12..=LARGEST).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
+    check(f64::deserialize(from)?, |x| (1e-12..=MAX_COORDINATE).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
 }
 
 pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
@@ -31,7 +31,7 @@ pub(super) fn angle_of_view<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D
 }
 
 pub(super) fn vector<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
-    each(from, |x| x.abs() <= LARGEST, "three numbers between -1e12 and 1e12")
+    each(from, |x| x.abs() <= MAX_COORDINATE, "three numbers between -1e12 and 1e12")
 }
 
 pub(super) fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {

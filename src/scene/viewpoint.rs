@@ -3,10 +3,10 @@
 use glam::{DQuat, DVec3};
 
 use super::{Camera, Opened};
-use crate::ron_file::skipped;
+use crate::ron_file::comment_or_string_length;
 
 /// The line of sight keeps so many degrees from straight up and straight down, where it would flip over.
-const POLE: f64 = 4.0;
+const MIN_POLE_ANGLE_DEGREES: f64 = 4.0;
 
 impl Camera {
     /// Goes round what it looks at, by angles in degrees: to the right, and up.
@@ -15,7 +15,8 @@ impl Camera {
         let away = self.eye - self.look_at;
         let height = axis.angle_between(away).to_degrees();
         // Up makes the angle to the pole smaller.
-        let wanted = (height - up).clamp(POLE.min(height), (180.0 - POLE).max(height));
+        let wanted =
+            (height - up).clamp(MIN_POLE_ANGLE_DEGREES.min(height), (180.0 - MIN_POLE_ANGLE_DEGREES).max(height));
         let side = axis.cross(away).normalize();
         let turned = DQuat::from_axis_angle(side, (wanted - height).to_radians()) * away;
         let turned = DQuat::from_axis_angle(axis, right.to_radians()) * turned;
@@ -40,8 +41,8 @@ impl Camera {
 
 impl Opened {
     /// The same scene seen by another camera, with a text that says so; `None` if the text cannot say it.
-    pub fn seen_by(&self, camera: Camera) -> Option<Self> {
-        let place = camera_in(&self.text)?;
+    pub fn with_camera(&self, camera: Camera) -> Option<Self> {
+        let place = camera_range(&self.text)?;
         let vector = |DVec3 { x, y, z }: DVec3| format!("({x:?}, {y:?}, {z:?})");
         let said = format!(
             "(eye: {}, look_at: {}, up: {}, field_of_view: {:?})",
@@ -60,12 +61,12 @@ impl Opened {
 }
 
 /// Where a scene's text has the fields of its camera, brackets included.
-fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
+fn camera_range(text: &str) -> Option<std::ops::Range<usize>> {
     let bytes = text.as_bytes();
     let (mut at, mut depth, mut start) = (0, 0_i32, None);
     while at < bytes.len() {
         let rest = &text[at..];
-        if let Some(length) = skipped(rest) {
+        if let Some(length) = comment_or_string_length(rest) {
             at += length;
             continue;
         }
@@ -79,7 +80,7 @@ fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
                     return Some(start..at + 1);
                 }
             }
-            b'c' if depth == 1 && start.is_none() && is_camera(text, at) => {
+            b'c' if depth == 1 && start.is_none() && camera_begins(text, at) => {
                 at += rest.find('(')?;
                 (start, depth) = (Some(at), depth + 1);
             }
@@ -91,7 +92,7 @@ fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
 }
 
 /// Whether the field `camera` begins here.
-fn is_camera(text: &str, at: usize) -> bool {
+fn camera_begins(text: &str, at: usize) -> bool {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let before = text[..at].chars().next_back().is_some_and(is_word);
     let after = text[at..].strip_prefix("camera").is_some_and(|rest| rest.trim_start().starts_with(':'));
@@ -126,7 +127,7 @@ mod tests {
             for (right, up) in ways {
                 camera = camera.orbit(right, up);
                 let angle = camera.up.angle_between(camera.eye - camera.look_at).to_degrees();
-                prop_assert!((POLE - 1e-6..=180.0 - POLE + 1e-6).contains(&angle), "{angle}");
+                prop_assert!((MIN_POLE_ANGLE_DEGREES - 1e-6..=180.0 - MIN_POLE_ANGLE_DEGREES + 1e-6).contains(&angle), "{angle}");
             }
         }
 
@@ -136,11 +137,11 @@ mod tests {
         ) {
             let opened = opened(BUILT_IN[scene].0);
             let camera = opened.scene.camera.orbit(right, up).dolly(factor).pan(by, -by);
-            let moved = opened.seen_by(camera).unwrap();
+            let moved = opened.with_camera(camera).unwrap();
             prop_assert_eq!(moved.scene.camera.eye, camera.eye);
             prop_assert_eq!(moved.scene.solids.len(), opened.scene.solids.len());
             // And says it again.
-            prop_assert!(moved.seen_by(opened.scene.camera).is_some());
+            prop_assert!(moved.with_camera(opened.scene.camera).is_some());
         }
     }
 
@@ -160,7 +161,7 @@ mod tests {
                     camera : Camera(eye: (0, 1, 5), look_at: (0, 0, 0)), objects: [Use(solid: \"(\")])";
         let opened = Opened::from_text("tricky", text).unwrap();
         let camera = opened.scene.camera.dolly(2.0);
-        let moved = opened.seen_by(camera).unwrap();
+        let moved = opened.with_camera(camera).unwrap();
         assert_eq!(moved.scene.camera.eye, DVec3::new(0.0, 2.0, 10.0));
         assert!(moved.text.starts_with("// camera: (no)\nScene(/* camera: ( */ materials: {\"camera: (\""));
     }

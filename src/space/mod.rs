@@ -12,6 +12,6 @@ mod octree;
 mod owners;
 mod traffic;
 
-pub use octree::{Leaf, Octree};
-pub use owners::{Deal, deal};
+pub use octree::{LeafCell, Octree};
+pub use owners::{Partition, assign_owners};
 pub use traffic::{ANSWER_BYTES, RAY_BYTES, Traffic, traffic};

@@ -11,12 +11,12 @@ pub struct Octree {
     bounds: Aabb,
     /// The first is the whole.
     cells: Vec<Cell>,
-    leaves: Vec<Leaf>,
+    leaves: Vec<LeafCell>,
 }
 
 /// A cell that is not cut any more.
 #[derive(Clone, Copy, Debug)]
-pub struct Leaf {
+pub struct LeafCell {
     /// Where it is.
     pub bounds: Aabb,
     /// How many of the octree's boxes reach into it; at least 1.
@@ -33,9 +33,9 @@ enum Cell {
 
 impl Octree {
     /// A cell that holds no more boxes than this is not cut; nor is one that all its boxes fill.
-    pub const MOST_BOXES: usize = 4;
+    pub const MAX_BOXES: usize = 4;
     /// Nor is one that was cut out of others this many times: 64 cells along each side of the whole.
-    pub const MOST_CUTS: u32 = 6;
+    pub const MAX_DEPTH: u32 = 6;
 
     /// `boxes` must be finite. The octree's own box is padded, so that no ray in the plane of its faces is lost.
     pub fn new(boxes: &[Aabb]) -> Self {
@@ -46,27 +46,27 @@ impl Octree {
     }
 
     /// The leaves by number.
-    pub fn leaves(&self) -> &[Leaf] {
+    pub fn leaves(&self) -> &[LeafCell] {
         &self.leaves
     }
 
     /// Hands over the numbers of the leaves that `ray` crosses up to the distance `to`, each once, in the order in
     /// which it does. A point between cells belongs to one of them.
     pub fn walk(&self, ray: &Ray, to: f64, mut visit: impl FnMut(u32)) {
-        if let Some(stay) = self.bounds.stay(ray, 0.0, to) {
+        if let Some(stay) = self.bounds.span(ray, 0.0, to) {
             self.walk_cell(0, self.bounds, ray, stay, &mut visit);
         }
     }
 
-    fn fill(&mut self, cell: usize, bounds: Aabb, boxes: &[Aabb], cuts: u32) {
+    fn fill(&mut self, cell: usize, bounds: Aabb, boxes: &[Aabb], depth: u32) {
         if boxes.is_empty() {
             return;
         }
         // Where boxes fill the cell, its parts would hold as many.
         let parts_hold_less = boxes.iter().any(|one| one.intersection(bounds) != bounds);
-        if boxes.len() <= Self::MOST_BOXES || cuts == Self::MOST_CUTS || !parts_hold_less {
+        if boxes.len() <= Self::MAX_BOXES || depth == Self::MAX_DEPTH || !parts_hold_less {
             self.cells[cell] = Cell::Leaf(self.leaves.len() as u32);
-            self.leaves.push(Leaf { bounds, boxes: boxes.len() as u32 });
+            self.leaves.push(LeafCell { bounds, boxes: boxes.len() as u32 });
             return;
         }
         let first = self.cells.len();
@@ -75,7 +75,7 @@ impl Octree {
         for octant in 0..8 {
             let part = part(bounds, octant);
             let inside: Vec<_> = boxes.iter().copied().filter(|one| !one.intersection(part).is_empty()).collect();
-            self.fill(first + octant, part, &inside, cuts + 1);
+            self.fill(first + octant, part, &inside, depth + 1);
         }
     }
 
@@ -87,10 +87,10 @@ impl Octree {
             Cell::Leaf(leaf) => return visit(leaf),
             Cell::Inner(first) => first as usize,
         };
-        let planes = (bounds.centre() - ray.origin) * ray.inverse;
+        let planes = (bounds.centre() - ray.origin) * ray.inverse_direction;
         let mut octant = 0;
         for axis in 0..3 {
-            let (is_ahead, goes_up) = (planes[axis] > from, ray.inverse[axis] > 0.0);
+            let (is_ahead, goes_up) = (planes[axis] > from, ray.inverse_direction[axis] > 0.0);
             octant |= usize::from(is_ahead != goes_up) << axis;
         }
         let mut order = [0, 1, 2];
@@ -142,9 +142,9 @@ mod tests {
     }
 
     /// Where the ray is in a leaf that is grown by `by` on all sides (shrunk, if negative).
-    fn stay(octree: &Octree, leaf: u32, by: f64, ray: &Ray, to: f64) -> Option<[f64; 2]> {
+    fn span(octree: &Octree, leaf: u32, by: f64, ray: &Ray, to: f64) -> Option<[f64; 2]> {
         let Aabb { min, max } = octree.leaves()[leaf as usize].bounds;
-        Aabb { min: min - by, max: max + by }.stay(ray, 0.0, to)
+        Aabb { min: min - by, max: max + by }.span(ray, 0.0, to)
     }
 
     proptest! {
@@ -162,9 +162,9 @@ mod tests {
             let walked = walk(&octree, &ray, to);
             for leaf in 0..octree.leaves().len() as u32 {
                 let times = walked.iter().filter(|&&other| other == leaf).count();
-                if stay(&octree, leaf, -SLACK, &ray, to).is_some() {
+                if span(&octree, leaf, -SLACK, &ray, to).is_some() {
                     prop_assert_eq!(times, 1, "leaf {} is crossed", leaf);
-                } else if stay(&octree, leaf, SLACK, &ray, to).is_none() {
+                } else if span(&octree, leaf, SLACK, &ray, to).is_none() {
                     prop_assert_eq!(times, 0, "leaf {} is far from the ray", leaf);
                 } else {
                     prop_assert!(times <= 1, "leaf {} is met twice", leaf);
@@ -172,8 +172,8 @@ mod tests {
             }
             for pair in walked.windows(2) {
                 // Stays in what is shrunk touch nowhere, so their order leaves no doubt.
-                let stays = [pair[0], pair[1]].map(|leaf| stay(&octree, leaf, -SLACK, &ray, to));
-                if let [Some([_, leaves]), Some([enters, _])] = stays {
+                let spans = [pair[0], pair[1]].map(|leaf| span(&octree, leaf, -SLACK, &ray, to));
+                if let [Some([_, leaves]), Some([enters, _])] = spans {
                     prop_assert!(leaves <= enters, "{leaves} is after {enters}");
                 }
             }
@@ -182,14 +182,14 @@ mod tests {
         #[test]
         fn leaves_hold_what_reaches_into_them_and_no_more_than_is_allowed(boxes in boxes(), point in place()) {
             let octree = Octree::new(&boxes);
-            let finest = (octree.bounds.max - octree.bounds.min) / f64::from(1 << Octree::MOST_CUTS);
+            let finest = (octree.bounds.max - octree.bounds.min) / f64::from(1 << Octree::MAX_DEPTH);
             for leaf in octree.leaves() {
                 let reach = boxes.iter().filter(|one| !one.intersection(leaf.bounds).is_empty()).count();
                 prop_assert_eq!(reach, leaf.boxes as usize);
                 let fills = |one: &&Aabb| one.intersection(leaf.bounds) == leaf.bounds;
                 let is_filled = boxes.iter().filter(fills).count() == reach;
                 let is_finest = (leaf.bounds.max - leaf.bounds.min).cmple(finest * 1.001).all();
-                prop_assert!(reach > 0 && (reach <= Octree::MOST_BOXES || is_finest || is_filled));
+                prop_assert!(reach > 0 && (reach <= Octree::MAX_BOXES || is_finest || is_filled));
             }
             let holds = |one: &Aabb| !one.intersection(Aabb { min: point, max: point }).is_empty();
             let in_leaf = octree.leaves().iter().any(|leaf| holds(&leaf.bounds));

@@ -2,7 +2,7 @@
 
 /// How leaves are dealt to owners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deal {
+pub enum Partition {
     /// Each owner gets a run of leaves in Morton order, such that all have about the same work. Neighbours mostly have
     /// one owner.
     Runs,
@@ -11,10 +11,10 @@ pub enum Deal {
 }
 
 /// The owner of each leaf, below `owners`, which must not be 0. `work` tells each leaf's work, in any unit.
-pub fn deal(how: Deal, work: &[u64], owners: u32) -> Vec<u32> {
+pub fn assign_owners(how: Partition, work: &[u64], owners: u32) -> Vec<u32> {
     match how {
-        Deal::Runs => runs(work, owners),
-        Deal::RoundRobin => (0..work.len() as u32).map(|leaf| leaf % owners).collect(),
+        Partition::Runs => runs(work, owners),
+        Partition::RoundRobin => (0..work.len() as u32).map(|leaf| leaf % owners).collect(),
     }
 }
 
@@ -43,7 +43,7 @@ mod tests {
             work in prop::collection::vec(prop_oneof![Just(0), 0u64..100, 0u64..10_000], 0..100),
             owners in 1u32..40,
         ) {
-            let dealt = deal(Deal::Runs, &work, owners);
+            let dealt = assign_owners(Partition::Runs, &work, owners);
             prop_assert_eq!(dealt.len(), work.len());
             prop_assert!(dealt.is_sorted() && dealt.iter().all(|&owner| owner < owners));
             let mean = work.iter().sum::<u64>() as f64 / f64::from(owners);

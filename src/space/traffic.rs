@@ -1,7 +1,7 @@
 //! How often rays would change hands.
 
-use super::{Deal, Octree, deal};
-use crate::tracer::{Path, RayKind, Tracer, step_for};
+use super::{Octree, Partition, assign_owners};
+use crate::tracer::{Path, RayKind, Tracer, sampling_step};
 
 /// What a ray weighs on a wire, in bytes, at least: an envelope of 16 (as every message has, see
 /// [`Message::bytes`](crate::balance::Message::bytes)), origin and direction as six 64-bit floats, 8 for its weight,
@@ -61,10 +61,10 @@ impl Traffic {
 ///
 /// A ray that starts where another ended begins with the owner where that one ended. Outside of the octree and in its
 /// empty cells nothing has to be done that not everybody could do, so a ray stays there with whoever has it.
-pub fn traffic(tracer: &Tracer, owners: u32, how: Deal, every: u32) -> Traffic {
+pub fn traffic(tracer: &Tracer, owners: u32, how: Partition, every: u32) -> Traffic {
     let octree = Octree::new(&tracer.boxes());
-    let owner_of = deal(how, &work(tracer, &octree), owners);
-    let mut count = Count::new(&octree, &owner_of, owners);
+    let owner_of = assign_owners(how, &work(tracer, &octree), owners);
+    let mut count = TrafficCounter::new(&octree, &owner_of, owners);
     tracer.paths_of_some(every, |path| count.add(&path));
     count.scaled(tracer.size().pixels().into(), tracer.size().pixels().div_ceil(every).into())
 }
@@ -75,7 +75,7 @@ fn work(tracer: &Tracer, octree: &Octree) -> Vec<u64> {
     /// Pixels looked at, about: few, but thousands of rays.
     const PIXELS: u32 = 2000;
     let mut work = vec![0; octree.leaves().len()];
-    tracer.paths_of_some(step_for(tracer.size(), PIXELS), |path| {
+    tracer.paths_of_some(sampling_step(tracer.size(), PIXELS), |path| {
         octree.walk(&path.ray, path.to, |leaf| {
             work[leaf as usize] += u64::from(octree.leaves()[leaf as usize].boxes);
         });
@@ -84,7 +84,7 @@ fn work(tracer: &Tracer, octree: &Octree) -> Vec<u64> {
 }
 
 /// Follows rays from owner to owner.
-struct Count<'a> {
+struct TrafficCounter<'a> {
     octree: &'a Octree,
     owner_of: &'a [u32],
     /// With whom the rays of the present sample ended, by their numbers; nobody, if they met no leaf.
@@ -98,7 +98,7 @@ struct Count<'a> {
     work: Vec<u64>,
 }
 
-impl<'a> Count<'a> {
+impl<'a> TrafficCounter<'a> {
     fn new(octree: &'a Octree, owner_of: &'a [u32], owners: u32) -> Self {
         let (ended, work) = (Vec::new(), vec![0; owners as usize]);
         Self { octree, owner_of, ended, rays: 0, staying: 0, messages: 0, answers: 0, most: 0, work }

@@ -1,7 +1,7 @@
 //! A hierarchy of bounding boxes over solids.
 
 use crate::csg::RootId;
-use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, fast_max, fast_min, split};
+use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
 
 /// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
 #[derive(Debug, Default)]
@@ -30,7 +30,7 @@ struct Child {
 /// Boxes still to be visited, and where the ray enters them: one at most on each unbalanced level, and on the 32 that
 /// halve at most 2³² solids. Kept from ray to ray, since clearing it would cost more than a box.
 #[derive(Debug)]
-pub(super) struct Pending([(f64, Child); MAX_UNBALANCED as usize + 32]);
+pub(super) struct Pending([(f64, Child); MAX_SAH_DEPTH as usize + 32]);
 
 impl Default for Pending {
     fn default() -> Self {
@@ -134,7 +134,7 @@ impl Node {
     fn entries(&self, ray: &Ray, t_max: f64) -> [f64; 2] {
         let (mut near, mut far) = ([0.0; 2], [t_max; 2]);
         for axis in 0..3 {
-            let (origin, inverse) = (ray.origin[axis], ray.inverse[axis]);
+            let (origin, inverse) = (ray.origin[axis], ray.inverse_direction[axis]);
             let distance = |places: [f64; 2]| places.map(|place| (place - origin) * inverse);
             let (a, b) = (distance(self.min[axis]), distance(self.max[axis]));
             for side in 0..2 {

@@ -19,9 +19,9 @@ pub(super) struct CompiledScene {
     pub lights: Vec<Light>,
     /// The solids that transmit and that the eye is in.
     pub eye_media: Vec<Medium>,
-    pub finishes: Vec<Shading>,
+    pub shadings: Vec<Shading>,
     /// What the scene's file has.
-    pub given: SourceCounts,
+    pub source: SourceCounts,
     /// Solids that were proved empty.
     pub dropped: usize,
 }
@@ -56,13 +56,13 @@ impl Exponent {
 }
 
 impl CompiledScene {
-    pub fn new(scene: &Scene, reductions: Passes) -> Self {
-        let mut tree = Tree::new(reductions);
+    pub fn new(scene: &Scene, passes: Passes) -> Self {
+        let mut tree = Tree::new(passes);
         let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
         let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
-            if reductions.has(Pass::Apart) {
-                split(solid, scene, &mut solids);
+            if passes.has(Pass::SplitUnions) {
+                split_unions(solid, scene, &mut solids);
             } else {
                 solids.push(solid);
             }
@@ -86,17 +86,13 @@ impl CompiledScene {
         tree.finish();
         Self {
             tree,
-            bounded: if reductions.has(Pass::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
+            bounded: if passes.has(Pass::Bvh) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
             unbounded,
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
-            finishes: scene
-                .materials
-                .iter()
-                .map(|material| Shading::new(material, scene.ambient, reductions))
-                .collect(),
-            given: SourceCounts::of(&scene.solids),
+            shadings: scene.materials.iter().map(|material| Shading::new(material, scene.ambient, passes)).collect(),
+            source: SourceCounts::of(&scene.solids),
             dropped,
         }
     }
@@ -106,17 +102,17 @@ impl CompiledScene {
         self.unbounded.iter().copied().chain(self.bounded.roots())
     }
 
-    pub fn finish(&self, surface: Surface) -> &Shading {
-        &self.finishes[self.tree.leaf(surface).tag.index()]
+    pub fn shading(&self, surface: Surface) -> &Shading {
+        &self.shadings[self.tree.leaf(surface).tag.index()]
     }
 }
 
 /// Takes unions apart where nobody can tell: an opaque union seen from outside looks like its parts one by one, and
 /// each of them has closer bounds.
-fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
+fn split_unions<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
     match solid {
         Solid::Union(solids) if is_opaque(solid, scene) && !solid.contains(scene.camera.eye) => {
-            solids.iter().for_each(|solid| split(solid, scene, parts));
+            solids.iter().for_each(|solid| split_unions(solid, scene, parts));
         }
         _ => parts.push(solid),
     }
@@ -132,14 +128,14 @@ fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
 }
 
 impl Shading {
-    fn new(material: &Material, ambient: DVec3, reductions: Passes) -> Self {
+    fn new(material: &Material, ambient: DVec3, passes: Passes) -> Self {
         let Material { colour, ka, kd, ks, kt, n, ior } = *material;
         Self {
             ambient: colour * ambient * ka,
             diffuse: colour * kd,
             ks,
             kt,
-            exponent: if n.fract() == 0.0 && reductions.has(Pass::Powers) {
+            exponent: if n.fract() == 0.0 && passes.has(Pass::IntegerPowers) {
                 Exponent::Whole(n as i32)
             } else {
                 Exponent::Real(n)

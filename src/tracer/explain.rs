@@ -10,9 +10,9 @@ use crate::geometry::Ray;
 
 /// One sample of a pixel.
 #[derive(Clone, Debug, Default)]
-pub struct Explained {
+pub struct ExplainedSample {
     /// Its primary, reflected and refracted rays in the order in which they were traced; a ray's number is its place here.
-    pub rays: Vec<RayNotes>,
+    pub rays: Vec<ExplainedRay>,
     /// Whether it is one of those whose mean the pixel is: a corner may only tell that more samples are needed.
     pub counts: bool,
     /// What the rays that were left out would have counted together: no more than the cutoff.
@@ -23,7 +23,7 @@ pub struct Explained {
 
 /// A ray, and all that it brings but for what comes by the rays that start at its end.
 #[derive(Clone, Debug)]
-pub struct RayNotes {
+pub struct ExplainedRay {
     /// Its way.
     pub path: Path,
 
@@ -41,14 +41,14 @@ pub struct RayNotes {
     pub too_deep: f64,
 }
 
-impl RayNotes {
+impl ExplainedRay {
     /// What it brings, but for what comes by rays that start at its end.
     pub fn colour(&self) -> DVec3 {
         self.lights.iter().fold(self.ambient, |sum, lit| sum + lit.coming * (lit.diffuse + lit.specular))
     }
 }
 
-impl Explained {
+impl ExplainedSample {
     /// The sample's colour: what all its rays bring, each times what the sample keeps of it.
     pub fn colour(&self) -> DVec3 {
         self.rays.iter().fold(DVec3::ZERO, |sum, ray| sum + ray.colour() * ray.path.weight)
@@ -66,7 +66,7 @@ impl Explained {
         if self.counts { 1.0 / counting as f64 } else { 0.0 }
     }
 
-    /// What comes by the ray of this number (its place in [`Explained::rays`]) and all that follow from it, times what the
+    /// What comes by the ray of this number (its place in [`ExplainedSample::rays`]) and all that follow from it, times what the
     /// sample keeps of it.
     pub fn brings(&self, number: usize) -> DVec3 {
         let mut sums: Vec<DVec3> = self.rays.iter().map(|ray| ray.colour() * ray.path.weight).collect();
@@ -83,7 +83,7 @@ impl Explained {
 
 impl Tracer {
     /// Traces one pixel (its position in scan order) and tells all of each of its samples.
-    pub fn explain(&self, pixel: u32, scratch: &mut Scratch) -> Vec<Explained> {
+    pub fn explain(&self, pixel: u32, scratch: &mut Scratch) -> Vec<ExplainedSample> {
         let mut notes = Notes::default();
         self.pixel(pixel, scratch, &mut notes);
         notes.0
@@ -91,27 +91,29 @@ impl Tracer {
 
     /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
     /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
-    pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(RootId, SpanDiagram)> {
-        let figures = self.world.roots().map(|root| (root, self.world.tree.figure(root, ray, start)));
-        let mut passed: Vec<(f64, RootId, SpanDiagram)> =
-            figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
+    pub fn span_diagrams(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(RootId, SpanDiagram)> {
+        let diagrams = self.scene.roots().map(|root| (root, self.scene.tree.span_diagram(root, ray, start)));
+        let mut passed: Vec<(f64, RootId, SpanDiagram)> = diagrams
+            .map(|(root, diagram)| (first_entry(&diagram), root, diagram))
+            .filter(|(enter, ..)| *enter <= to)
+            .collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
-        passed.into_iter().map(|(_, root, figure)| (root, figure)).collect()
+        passed.into_iter().map(|(_, root, diagram)| (root, diagram)).collect()
     }
 }
 
 /// Where a ray first enters a solid or any of its operands; infinite if it enters none.
-fn entered(figure: &SpanDiagram) -> f64 {
-    let own = figure.stays.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
-    figure.operands.iter().map(entered).fold(own, f64::min)
+fn first_entry(diagram: &SpanDiagram) -> f64 {
+    let own = diagram.spans.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
+    diagram.operands.iter().map(first_entry).fold(own, f64::min)
 }
 
 /// Writes everything down.
 #[derive(Default)]
-struct Notes(Vec<Explained>);
+struct Notes(Vec<ExplainedSample>);
 
 impl Observer for Notes {
-    fn see(&mut self, path: impl FnOnce() -> Path) {
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path) {
         let path = path();
         match path.kind {
             RayKind::Shadow => {
@@ -119,10 +121,10 @@ impl Observer for Notes {
                 ray.into_iter().for_each(|ray| ray.shadows.push(path));
                 return;
             }
-            RayKind::Primary => self.0.push(Explained::default()),
+            RayKind::Primary => self.0.push(ExplainedSample::default()),
             RayKind::Reflected | RayKind::Refracted => {}
         }
-        let ray = RayNotes {
+        let ray = ExplainedRay {
             path,
 
             met: None,
@@ -137,7 +139,7 @@ impl Observer for Notes {
 
     fn note(&mut self, note: impl FnOnce() -> Note) {
         let note = note();
-        if let Note::FirstCount(count) = note {
+        if let Note::CornersCount(count) = note {
             self.0.iter_mut().enumerate().for_each(|(place, sample)| sample.counts = count || place >= 4);
             return;
         }
@@ -152,7 +154,7 @@ impl Observer for Notes {
             Note::TooDeep(weight) => ray.too_deep = weight,
             // What is left of a sum may be less than nothing by rounding.
             Note::LeftOut(weight, rays) => (sample.left_out, sample.rays_left_out) = (weight.max(0.0), rays),
-            Note::FirstCount(_) => {}
+            Note::CornersCount(_) => {}
         }
     }
 }

@@ -6,37 +6,37 @@
 use super::bvh::Pending;
 use super::compiled_scene::CompiledScene;
 use super::media::Medium;
-use crate::csg::{Hit, RayStart, RootId, Stack, rank};
+use crate::csg::{Hit, RayStart, RootId, Stack, tie_break};
 use crate::geometry::Ray;
 
-/// What finding a hit needs of memory, kept from ray to ray.
+/// What finding a hit needs of scratch, kept from ray to ray.
 #[derive(Debug, Default)]
 pub(super) struct HitScratch {
     spans: Stack,
     boxes: Pending,
-    surfaces: Vec<Transparent>,
+    surfaces: Vec<TransparentCrossing>,
     media: Vec<RootId>,
 }
 
 /// A surface that lets light through, on the way of a shadow ray.
 #[derive(Debug)]
-struct Transparent {
+struct TransparentCrossing {
     t: f64,
     root: RootId,
     enters: bool,
     kt: f64,
 }
 
-/// Whether a ray is on its way back at the distance `t`: it turned where it starts and is still there.
-pub(super) fn has_turned_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
-    start.is_some_and(|start| start.turned) && t <= ray.tolerance(0.0)
+/// Whether a ray is on its way back at the distance `t`: it reversed where it starts and is still there.
+pub(super) fn is_reversed_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
+    start.is_some_and(|start| start.reversed) && t <= ray.tolerance(0.0)
 }
 
 impl CompiledScene {
     /// The nearest boundary on `ray`, and the root that it bounds.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(RootId, Hit)> {
-        let HitScratch { spans, boxes, .. } = memory;
+    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, scratch: &mut HitScratch) -> Option<(RootId, Hit)> {
+        let HitScratch { spans, boxes, .. } = scratch;
         let mut nearest: Option<(RootId, Hit)> = None;
         let test = |root: RootId, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
@@ -45,9 +45,10 @@ impl CompiledScene {
                     if (hit.t - best.t).abs() > slack {
                         return hit.t < best.t;
                     }
-                    let turned = has_turned_at(start, ray, hit.t);
-                    let (this, other) = (rank(root, hit.enters, turned), rank(other, best.enters, turned));
-                    if turned { this > other } else { this < other }
+                    let reversed = is_reversed_at(start, ray, hit.t);
+                    let (this, other) =
+                        (tie_break(root, hit.enters, reversed), tie_break(other, best.enters, reversed));
+                    if reversed { this > other } else { this < other }
                 });
                 if is_nearer {
                     nearest = Some((root, hit));
@@ -78,21 +79,21 @@ impl CompiledScene {
     /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
     /// every surface between two media on the way, 0 behind anything that does not transmit.
     #[inline(always)]
-    pub fn light_arriving(
+    pub fn light_transmittance(
         &self,
         ray: &Ray,
         start: RayStart,
         media: &[Medium],
         t_max: f64,
-        memory: &mut HitScratch,
+        scratch: &mut HitScratch,
     ) -> f64 {
-        let HitScratch { spans, boxes, surfaces, media: inside } = memory;
+        let HitScratch { spans, boxes, surfaces, media: inside } = scratch;
         let mut arriving = 1.0;
         surfaces.clear();
         let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
-                let kt = self.finish(hit.surface).kt;
-                surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
+                let kt = self.shading(hit.surface).kt;
+                surfaces.push(TransparentCrossing { t: hit.t, root, enters: hit.enters, kt });
                 arriving = if kt > 0.0 { arriving } else { 0.0 };
                 kt > 0.0
             });
@@ -104,18 +105,18 @@ impl CompiledScene {
         }
         inside.clear();
         inside.extend(media.iter().map(|medium| medium.root));
-        passing(surfaces, inside, ray, start.turned)
+        transmittance(surfaces, inside, ray, start.reversed)
     }
 
     /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
-    /// transmits nothing, else at `t_max`. Unlike [`CompiledScene::light_arriving`] it goes on from the first that it finds to
+    /// transmits nothing, else at `t_max`. Unlike [`CompiledScene::light_transmittance`] it goes on from the first that it finds to
     /// the nearest.
-    pub fn light_ends(&self, ray: &Ray, start: RayStart, t_max: f64, memory: &mut HitScratch) -> f64 {
-        let HitScratch { spans, boxes, .. } = memory;
+    pub fn shadow_ray_end(&self, ray: &Ray, start: RayStart, t_max: f64, scratch: &mut HitScratch) -> f64 {
+        let HitScratch { spans, boxes, .. } = scratch;
         let mut end = t_max;
         let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
-                let passes = self.finish(hit.surface).kt > 0.0;
+                let passes = self.shading(hit.surface).kt > 0.0;
                 if !passes {
                     end = hit.t;
                 }
@@ -129,18 +130,18 @@ impl CompiledScene {
 }
 
 /// What part of light passes these surfaces, of which those inside a medium that stands before theirs are not there.
-/// `inside` are the roots that the ray is in where it starts; it may have `turned` there.
-fn passing(surfaces: &mut [Transparent], inside: &mut Vec<RootId>, ray: &Ray, turned: bool) -> f64 {
+/// `inside` are the roots that the ray is in where it starts; it may have `reversed` there.
+fn transmittance(surfaces: &mut [TransparentCrossing], inside: &mut Vec<RootId>, ray: &Ray, reversed: bool) -> f64 {
     surfaces.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
-    let touch = |a: &Transparent, b: &Transparent| b.t - a.t <= ray.tolerance(b.t);
+    let touch = |a: &TransparentCrossing, b: &TransparentCrossing| b.t - a.t <= ray.tolerance(b.t);
     let mut part = 1.0;
     for together in surfaces.chunk_by_mut(touch) {
-        let turned = turned && together[0].t <= ray.tolerance(0.0);
-        together.sort_unstable_by_key(|surface| rank(surface.root, surface.enters, turned));
-        if turned {
+        let reversed = reversed && together[0].t <= ray.tolerance(0.0);
+        together.sort_unstable_by_key(|surface| tie_break(surface.root, surface.enters, reversed));
+        if reversed {
             together.reverse();
         }
-        for &mut Transparent { root, enters, kt, .. } in together {
+        for &mut TransparentCrossing { root, enters, kt, .. } in together {
             if !inside.iter().any(|&other| other < root) {
                 part *= kt;
             }

@@ -33,7 +33,7 @@ impl MediaSets {
         self.all.clear();
         self.sets.clear();
         self.all.extend_from_slice(eye);
-        self.found(0)
+        self.intern(0)
     }
 
     /// All that a ray is in.
@@ -42,12 +42,12 @@ impl MediaSets {
     }
 
     /// What fills the place around the boundary of `root`: of all others that the ray is in, the first in the scene.
-    pub fn around(&self, media: Media, root: RootId) -> Option<Medium> {
+    pub fn surrounding(&self, media: Media, root: RootId) -> Option<Medium> {
         self.get(media).iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root).copied()
     }
 
     /// What a ray is in after it has entered or left `medium`.
-    pub fn beyond(&mut self, media: Media, medium: Medium, enters: bool) -> Media {
+    pub fn after_crossing(&mut self, media: Media, medium: Medium, enters: bool) -> Media {
         let start = self.all.len();
         for index in media.start..media.end {
             if self.all[index].root != medium.root {
@@ -57,15 +57,15 @@ impl MediaSets {
         if enters {
             self.all.push(medium);
         }
-        self.found(start)
+        self.intern(start)
     }
 
     /// The set that begins at `start` and is the last; an equal one, if one of the last has been the same. So rays that
     /// go in and out of the same solids, however many, take no memory.
-    fn found(&mut self, start: usize) -> Media {
-        const LOOKED_AT: usize = 16;
+    fn intern(&mut self, start: usize) -> Media {
+        const RECENT_SETS: usize = 16;
         let new = Media { start, end: self.all.len() };
-        let known = self.sets.iter().rev().take(LOOKED_AT).find(|known| self.get(**known) == self.get(new));
+        let known = self.sets.iter().rev().take(RECENT_SETS).find(|known| self.get(**known) == self.get(new));
         match known.copied() {
             Some(known) => {
                 self.all.truncate(start);
@@ -91,10 +91,10 @@ mod tests {
     fn the_first_in_the_scene_fills_a_place() {
         let mut sets = MediaSets::default();
         let start = sets.restart(&[medium(7)]);
-        let around = |sets: &MediaSets, media, root| sets.around(media, RootId(root));
+        let around = |sets: &MediaSets, media, root| sets.surrounding(media, RootId(root));
         assert_eq!((around(&sets, start, 3), around(&sets, start, 7)), (Some(medium(7)), None));
-        let three = sets.beyond(start, medium(3), true);
-        let inside = sets.beyond(three, medium(5), true);
+        let three = sets.after_crossing(start, medium(3), true);
+        let inside = sets.after_crossing(three, medium(5), true);
         assert_eq!([3, 5, 9].map(|root| around(&sets, inside, root)), [5, 3, 3].map(|root| Some(medium(root))));
         assert_eq!(sets.get(start), [medium(7)]);
         assert_eq!(sets.get(three), [medium(7), medium(3)]);
@@ -106,12 +106,12 @@ mod tests {
         let start = sets.restart(&[medium(0)]);
         let mut media = start;
         for root in 0..1000 {
-            media = sets.beyond(media, medium(1 + root % 3), true);
-            media = sets.beyond(media, medium(1 + root % 3), false);
+            media = sets.after_crossing(media, medium(1 + root % 3), true);
+            media = sets.after_crossing(media, medium(1 + root % 3), false);
             assert_eq!(media, start);
         }
         assert_eq!(sets.all.len(), 1 + 3 * 2);
-        media = sets.beyond(media, medium(0), false);
+        media = sets.after_crossing(media, medium(0), false);
         assert_eq!((sets.get(media), sets.get(start)), (&[][..], &[medium(0)][..]));
     }
 }

@@ -14,7 +14,7 @@ mod ray_queue;
 mod scene_stats;
 mod shade;
 
-pub use explain::{Explained, RayNotes};
+pub use explain::{ExplainedRay, ExplainedSample};
 pub use observer::{Intersection, LightTerm, Path, RayKind};
 pub use preview::Preview;
 pub use scene_stats::SceneStats;
@@ -32,7 +32,7 @@ use crate::scene::Scene;
 use camera::RayCamera;
 use compiled_scene::CompiledScene;
 use observer::{Note, Observer};
-use pattern::Pattern;
+use pattern::SamplePattern;
 
 /// How many rays of each kind were traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,7 +75,7 @@ impl AddAssign for RayCounts {
 /// A compiled scene, seen by its camera at one size and quality; shared by all threads.
 #[derive(Debug)]
 pub struct Tracer {
-    world: CompiledScene,
+    scene: CompiledScene,
     camera: RayCamera,
     size: Size,
     quality: Quality,
@@ -85,13 +85,13 @@ pub struct Tracer {
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        Self::reduced(scene, size, quality, Passes::default())
+        Self::with_passes(scene, size, quality, Passes::default())
     }
 
-    /// Compiles `scene` by some of the reductions only. The picture is the same.
-    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Passes) -> Self {
+    /// Compiles `scene` by some of the passes only. The picture is the same.
+    pub fn with_passes(scene: &Scene, size: Size, quality: Quality, passes: Passes) -> Self {
         Self {
-            world: CompiledScene::new(scene, reductions),
+            scene: CompiledScene::new(scene, passes),
             camera: RayCamera::new(&scene.camera, size),
             size,
             quality,
@@ -112,31 +112,31 @@ impl Tracer {
     /// The boxes of all primitives of solids with bounds, each no larger than its solid's. Outside of its box a
     /// primitive cannot matter.
     pub fn boxes(&self) -> Vec<Aabb> {
-        self.world.bounded.roots().flat_map(|root| self.world.tree.boxes_of(root)).collect()
+        self.scene.bounded.roots().flat_map(|root| self.scene.tree.boxes_of(root)).collect()
     }
 
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.
     ///
     /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        out.extend(pixels.map(|pixel| self.known_or_traced(pixel, scratch)));
+        out.extend(pixels.map(|pixel| self.previewed_or_traced(pixel, scratch)));
     }
 
-    fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Observer) -> Colour {
+    fn pixel(&self, pixel: u32, scratch: &mut Scratch, observer: &mut impl Observer) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
-        let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
+        let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, observer);
         let Quality { samples, threshold, .. } = self.quality;
-        let pattern = || Pattern::new(x, y, self.quality.pattern);
+        let pattern = || SamplePattern::new(x, y, self.quality.pattern);
         let (colour, corners_count) = match samples {
             1 => (at([0.5; 2]), true),
-            _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern(), at),
+            _ if threshold > 0.0 => adaptive_mean(samples.pow(2), threshold, pattern(), at),
             _ => {
                 let pattern = pattern();
                 let all = (0..samples.pow(2)).map(|index| at(pattern.sample(index)));
                 (all.sum::<DVec3>() / f64::from(samples.pow(2)), true)
             }
         };
-        watch.note(|| Note::FirstCount(corners_count));
+        observer.note(|| Note::CornersCount(corners_count));
         colour.as_vec3().to_array()
     }
 }
@@ -148,7 +148,12 @@ impl Tracer {
 /// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
 /// estimated as no more than that.
 /// Also returns whether the corners are among the samples whose mean it is.
-fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> (DVec3, bool) {
+fn adaptive_mean(
+    max_samples: u32,
+    threshold: f64,
+    pattern: SamplePattern,
+    mut at: impl FnMut([f64; 2]) -> DVec3,
+) -> (DVec3, bool) {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(&mut at);
     let within = [0, 1, 2, 3].map(|index| at(pattern.sample(index)));
     let all = || corners.iter().chain(&within);
@@ -160,13 +165,13 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
     let mut sum: DVec3 = within.iter().sum();
     let mut squares: DVec3 = within.iter().map(|&colour| colour * colour).sum();
     let mut count = 4;
-    while count < most {
-        for index in count..most.min(4 * count) {
+    while count < max_samples {
+        for index in count..max_samples.min(4 * count) {
             let colour = at(pattern.sample(index));
             sum += colour;
             squares += colour * colour;
         }
-        count = most.min(4 * count);
+        count = max_samples.min(4 * count);
         let samples = f64::from(count);
         // As if the samples were independent. They are spread better than that, so that this is too much rather than
         // too little.
@@ -181,6 +186,6 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
 /// A step in scan order at which about so many pixels of a picture are looked at.
 ///
 /// An odd one seldom divides a width, so that the pixels are in many columns.
-pub fn step_for(size: Size, looked_at: u32) -> u32 {
+pub fn sampling_step(size: Size, looked_at: u32) -> u32 {
     (size.pixels() / looked_at) | 1
 }

@@ -81,7 +81,7 @@ pub(super) enum Note {
     /// What was left out of the whole sample, and how many rays these were.
     LeftOut(f64, u64),
     /// Of all samples: whether the pixel is the mean of all of them, or of all but the first four.
-    FirstCount(bool),
+    CornersCount(bool),
 }
 
 impl LightTerm {
@@ -99,7 +99,7 @@ impl LightTerm {
 /// Whoever looks on while rays are traced. It is compiled in, so that nobody costs nothing.
 pub(super) trait Observer {
     /// A ray was traced; `path` tells its way, which may take work.
-    fn see(&mut self, path: impl FnOnce() -> Path);
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path);
 
     /// Something is known of the ray whose path was seen last, but for shadow rays.
     fn note(&mut self, _: impl FnOnce() -> Note) {}
@@ -110,11 +110,11 @@ pub(super) struct NoObserver;
 
 impl Observer for NoObserver {
     #[inline(always)]
-    fn see(&mut self, _: impl FnOnce() -> Path) {}
+    fn ray_traced(&mut self, _: impl FnOnce() -> Path) {}
 }
 
 impl<F: FnMut(Path)> Observer for F {
-    fn see(&mut self, path: impl FnOnce() -> Path) {
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path) {
         self(path());
     }
 }

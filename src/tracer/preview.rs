@@ -25,7 +25,7 @@ impl Preview {
     }
 
     /// What the picture probably looks like there: between the pixels around that are known, as far as each is away.
-    pub fn guess(&self, x: u32, y: u32) -> Colour {
+    pub fn interpolate(&self, x: u32, y: u32) -> Colour {
         let (column, row) = (x / self.step, y / self.step);
         let part = |place: u32| (place % self.step) as f32 / self.step as f32;
         let (across, along) = (part(x), part(y));
@@ -79,7 +79,7 @@ impl Tracer {
 
     /// The pixel at this position in scan order, traced now unless it was before.
     #[inline(always)]
-    pub(super) fn known_or_traced(&self, pixel: u32, scratch: &mut Scratch) -> Colour {
+    pub(super) fn previewed_or_traced(&self, pixel: u32, scratch: &mut Scratch) -> Colour {
         match self.preview.as_ref().and_then(|preview| preview.get(pixel)) {
             Some((colour, rays)) => {
                 scratch.rays += *rays;

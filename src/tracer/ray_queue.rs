@@ -28,36 +28,36 @@ pub(super) struct QueuedRay {
 
 /// So many rays wait in the order of their weights at most; others are traced at once, so that however many rays a
 /// sample needs, they take some megabytes at most.
-const MOST_WAITING: usize = 1 << 16;
+const MAX_WAITING_RAYS: usize = 1 << 16;
 
 /// Of those that are traced at once, one is left out that counts no more than this part of what may still be left out:
 /// else each would be followed to the last level.
-const LEFT_OUT: f64 = 1e-3;
+const NEGLIGIBLE_PART: f64 = 1e-3;
 
 /// The rays of a sample that wait to be traced.
 ///
 /// The ray that counts most is traced first, until all that wait together count no more than the cutoff. So what is lost
 /// has a limit: to end each branch where it is weak (Hall and Greenberg, *A Testbed for Realistic Image Synthesis*, 1983)
-/// says nothing of what many weak branches add up to.
+/// says nothing of what many weak queue add up to.
 #[derive(Debug, Default)]
 pub(super) struct RayQueue {
     waiting: BinaryHeap<Waiting>,
-    /// Where those that wait are, and places that are free.
-    places: Vec<QueuedRay>,
-    free: Vec<u32>,
+    /// Where those that wait are, and slots that are free_slots.
+    slots: Vec<QueuedRay>,
+    free_slots: Vec<u32>,
     /// To be traced before those that wait, the last one first.
-    at_once: Vec<QueuedRay>,
+    overflow: Vec<QueuedRay>,
     /// What all of them count together, and what was left out already.
     weight: f64,
     /// What was left out of those to be traced at once: at most half of the cutoff.
     left_out: f64,
     /// How many rays these are.
-    dropped: u64,
+    rays_left_out: u64,
     /// How many were traced.
     traced: u64,
 }
 
-/// A branch that waits: its weight, when it came, and its place.
+/// A branch that waits: its weight, when it came, and its slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Waiting(f64, Reverse<u64>, u32);
 
@@ -80,28 +80,28 @@ impl RayQueue {
     /// Begins with a primary ray, which is traced now.
     pub fn restart(&mut self) {
         self.waiting.clear();
-        self.places.clear();
-        self.free.clear();
-        self.at_once.clear();
+        self.slots.clear();
+        self.free_slots.clear();
+        self.overflow.clear();
         self.weight = 0.0;
         self.left_out = 0.0;
-        self.dropped = 0;
+        self.rays_left_out = 0;
         self.traced = 1;
     }
 
     #[inline(always)]
     pub fn add(&mut self, branch: QueuedRay) {
         self.weight += branch.weight;
-        if self.waiting.len() == MOST_WAITING {
-            self.at_once.push(branch);
+        if self.waiting.len() == MAX_WAITING_RAYS {
+            self.overflow.push(branch);
             return;
         }
-        let place = self.free.pop().unwrap_or(self.places.len() as u32);
-        match self.places.get_mut(place as usize) {
-            Some(free) => *free = branch,
-            None => self.places.push(branch),
+        let slot = self.free_slots.pop().unwrap_or(self.slots.len() as u32);
+        match self.slots.get_mut(slot as usize) {
+            Some(free_slots) => *free_slots = branch,
+            None => self.slots.push(branch),
         }
-        self.waiting.push(Waiting(branch.weight, Reverse(branch.from.unwrap_or(0)), place));
+        self.waiting.push(Waiting(branch.weight, Reverse(branch.from.unwrap_or(0)), slot));
     }
 
     /// The next to be traced, unless what waits counts no more than `cutoff`.
@@ -110,10 +110,10 @@ impl RayQueue {
         if self.weight <= cutoff {
             return None;
         }
-        let next = self.next_at_once(cutoff).or_else(|| {
-            let Waiting(_, _, place) = self.waiting.pop()?;
-            self.free.push(place);
-            Some(self.places[place as usize])
+        let next = self.next_overflow(cutoff).or_else(|| {
+            let Waiting(_, _, slot) = self.waiting.pop()?;
+            self.free_slots.push(slot);
+            Some(self.slots[slot as usize])
         })?;
         self.weight -= next.weight;
         let number = self.traced;
@@ -122,23 +122,23 @@ impl RayQueue {
     }
 
     /// What all of them that were not traced count together.
-    pub fn weight(&self) -> f64 {
+    pub fn remaining_weight(&self) -> f64 {
         self.weight
     }
 
     /// How many of them were not traced.
-    pub fn rays(&self) -> u64 {
-        (self.waiting.len() + self.at_once.len()) as u64 + self.dropped
+    pub fn remaining_rays(&self) -> u64 {
+        (self.waiting.len() + self.overflow.len()) as u64 + self.rays_left_out
     }
 
     #[inline(always)]
-    fn next_at_once(&mut self, cutoff: f64) -> Option<QueuedRay> {
-        while let Some(next) = self.at_once.pop() {
-            if next.weight > LEFT_OUT * (cutoff / 2.0 - self.left_out) {
+    fn next_overflow(&mut self, cutoff: f64) -> Option<QueuedRay> {
+        while let Some(next) = self.overflow.pop() {
+            if next.weight > NEGLIGIBLE_PART * (cutoff / 2.0 - self.left_out) {
                 return Some(next);
             }
             self.left_out += next.weight;
-            self.dropped += 1;
+            self.rays_left_out += 1;
         }
         None
     }
@@ -162,10 +162,10 @@ mod tests {
         fn what_counts_most_comes_first_and_what_is_left_counts_no_more_than_the_cutoff(
             weights in prop::collection::vec(1e-6..1.0f64, 0..50), cutoff in 0.0..3.0f64
         ) {
-            let mut branches = RayQueue::default();
-            branches.restart();
-            weights.iter().for_each(|&weight| branches.add(branch(weight)));
-            let traced: Vec<f64> = std::iter::from_fn(|| branches.next(cutoff)).map(|branch| branch.weight).collect();
+            let mut queue = RayQueue::default();
+            queue.restart();
+            weights.iter().for_each(|&weight| queue.add(branch(weight)));
+            let traced: Vec<f64> = std::iter::from_fn(|| queue.next(cutoff)).map(|branch| branch.weight).collect();
             prop_assert!(traced.is_sorted_by(|a, b| a >= b));
             let mut left = weights;
             left.sort_by(|a, b| b.total_cmp(a));
@@ -178,16 +178,16 @@ mod tests {
 
     #[test]
     fn however_many_rays_there_are_they_take_little_memory() {
-        let mut branches = RayQueue::default();
-        branches.restart();
-        branches.add(branch(1.0));
+        let mut queue = RayQueue::default();
+        queue.restart();
+        queue.add(branch(1.0));
         for _ in 0..1_000_000 {
-            let next = branches.next(0.0).expect("more of them");
-            branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.6) });
+            let next = queue.next(0.0).expect("more of them");
+            queue.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.6) });
             if next.level < 60 {
-                branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.4) });
+                queue.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.4) });
             }
         }
-        assert!(branches.places.len() <= MOST_WAITING && branches.at_once.len() < 100);
+        assert!(queue.slots.len() <= MAX_WAITING_RAYS && queue.overflow.len() < 100);
     }
 }

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{RayKind, Tracer, step_for};
-use crate::csg::{Dropped, RootId, Solid};
+use super::{RayKind, Tracer, sampling_step};
+use crate::csg::{DroppedCounts, RootId, Solid};
 
 /// What a compiled scene kept and dropped.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SceneStats {
     /// What the scene has as it is written.
-    pub given: SourceCounts,
+    #[serde(rename = "given")]
+    pub source: SourceCounts,
     /// Solids that a ray is tested against one by one. Opaque unions count as their parts.
     pub solids: usize,
     /// Solids of these that are made of several primitives.
@@ -26,7 +27,7 @@ pub struct SceneStats {
     pub dropped: usize,
     /// What of other solids was dropped.
     #[serde(flatten)]
-    pub parts_dropped: Dropped,
+    pub parts_dropped: DroppedCounts,
     /// Lights.
     pub lights: usize,
     /// Whether any surface reflects other solids: if not, no reflection code runs.
@@ -46,45 +47,45 @@ pub struct SourceCounts {
 
 impl SourceCounts {
     pub(super) fn of(solids: &[Solid]) -> Self {
-        let mut given = Self::default();
+        let mut counts = Self::default();
         for solid in solids {
             match solid {
-                Solid::Placed { .. } => given.primitives += 1,
+                Solid::Placed { .. } => counts.primitives += 1,
                 Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
                     let inner = Self::of(solids);
-                    given.primitives += inner.primitives;
-                    given.operations += 1 + inner.operations;
+                    counts.primitives += inner.primitives;
+                    counts.operations += 1 + inner.operations;
                 }
             }
         }
-        given
+        counts
     }
 }
 
 impl Tracer {
     /// What the compiled scene kept and dropped, in figures.
-    pub fn compiled(&self) -> SceneStats {
-        let world = &self.world;
-        let roots: Vec<RootId> = world.roots().collect();
-        let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
-        let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag.index()]);
+    pub fn scene_stats(&self) -> SceneStats {
+        let scene = &self.scene;
+        let roots: Vec<RootId> = scene.roots().collect();
+        let leaves: Vec<_> = roots.iter().flat_map(|&root| scene.tree.leaves_of(root)).collect();
+        let shadings = || leaves.iter().map(|leaf| &scene.shadings[leaf.tag.index()]);
         let mut primitives = BTreeMap::new();
         for leaf in &leaves {
             *primitives.entry(leaf.kind()).or_default() += 1;
         }
-        let operations = roots.iter().map(|&root| world.tree.operations_of(root));
+        let operations = roots.iter().map(|&root| scene.tree.operations_of(root));
         SceneStats {
-            given: world.given,
+            source: scene.source,
             solids: roots.len(),
             compositions: operations.clone().filter(|&operations| operations > 0).count(),
-            unbounded: world.unbounded.len(),
+            unbounded: scene.unbounded.len(),
             operations: operations.sum(),
             primitives,
-            dropped: world.dropped,
-            parts_dropped: world.tree.dropped(),
-            lights: world.lights.len(),
-            reflects: finishes().any(|finish| finish.ks > 0.0),
-            transmits: finishes().any(|finish| finish.kt > 0.0),
+            dropped: scene.dropped,
+            parts_dropped: scene.tree.dropped(),
+            lights: scene.lights.len(),
+            reflects: shadings().any(|shading| shading.ks > 0.0),
+            transmits: shadings().any(|shading| shading.kt > 0.0),
         }
     }
 
@@ -94,7 +95,7 @@ impl Tracer {
         /// About so many pixels are looked at.
         const PIXELS: u32 = 3000;
         let mut levels = Vec::new();
-        self.paths_of_some(step_for(self.size, PIXELS), |path| {
+        self.paths_of_some(sampling_step(self.size, PIXELS), |path| {
             if path.kind != RayKind::Shadow {
                 let level = path.level as usize;
                 levels.resize(levels.len().max(level), 0);

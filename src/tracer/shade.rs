@@ -5,12 +5,12 @@
 use glam::DVec3;
 
 use super::compiled_scene::Shading;
-use super::intersect::{HitScratch, has_turned_at};
+use super::intersect::{HitScratch, is_reversed_at};
 use super::media::{Media, MediaSets, Medium};
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::ray_queue::{QueuedRay, RayQueue};
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, RayStart, RootId, rank};
+use crate::csg::{Hit, RayStart, RootId, tie_break};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
@@ -19,9 +19,9 @@ use crate::scene::Light;
 pub struct Scratch {
     /// Rays traced with this scratch so far.
     pub rays: RayCounts,
-    memory: HitScratch,
+    hits: HitScratch,
     media: MediaSets,
-    branches: RayQueue,
+    queue: RayQueue,
 }
 
 /// A hit with what the equation needs of it.
@@ -35,7 +35,7 @@ struct ShadingPoint<'a> {
     /// What the ray is in before it.
     media: Media,
     /// What is around the solid, if that transmits and it is not air.
-    around: Option<Medium>,
+    surrounding: Option<Medium>,
 }
 
 impl ShadingPoint<'_> {
@@ -45,17 +45,17 @@ impl ShadingPoint<'_> {
     }
 
     /// For rays that stay on the side from which the place was met: to a light, or reflected.
-    fn turned(&self) -> RayStart {
-        RayStart { turned: !self.start.turned, ..self.start }
+    fn reversed(&self) -> RayStart {
+        RayStart { reversed: !self.start.reversed, ..self.start }
     }
 }
 
 impl Tracer {
     /// The colour that a primary ray brings, in linear light.
-    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
+    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
         scratch.rays.count(RayKind::Primary);
-        let media = scratch.media.restart(&self.world.eye_media);
-        scratch.branches.restart();
+        let media = scratch.media.restart(&self.scene.eye_media);
+        scratch.queue.restart();
         let primary = QueuedRay {
             kind: RayKind::Primary,
             weight: 1.0,
@@ -66,33 +66,33 @@ impl Tracer {
             start: None,
             media,
         };
-        let mut colour = self.colour(&primary, scratch, watch);
-        while let Some(branch) = scratch.branches.next(self.quality.cutoff) {
-            scratch.rays.count(branch.kind);
-            colour += self.colour(&branch, scratch, watch) * branch.weight;
+        let mut colour = self.colour(&primary, scratch, observer);
+        while let Some(queued) = scratch.queue.next(self.quality.cutoff) {
+            scratch.rays.count(queued.kind);
+            colour += self.colour(&queued, scratch, observer) * queued.weight;
         }
-        watch.note(|| Note::LeftOut(scratch.branches.weight(), scratch.branches.rays()));
+        observer.note(|| Note::LeftOut(scratch.queue.remaining_weight(), scratch.queue.remaining_rays()));
         colour
     }
 
     /// The colour that a ray brings, but for what comes by rays that start at its end: these now wait.
     #[inline(always)]
-    fn colour(&self, branch: &QueuedRay, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
-        let QueuedRay { ray, start, media, .. } = branch;
-        let nearest = self.world.nearest(ray, *start, &mut scratch.memory);
-        let around = self.around(nearest, *media, scratch);
-        if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, around)) {
-            let turned = has_turned_at(*start, ray, hit.t);
-            let place = self.place(ray, root, &hit, turned, *media, around);
-            return self.colour_behind(branch, place, scratch, watch);
+    fn colour(&self, queued: &QueuedRay, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
+        let QueuedRay { ray, start, media, .. } = queued;
+        let nearest = self.scene.nearest(ray, *start, &mut scratch.hits);
+        let surrounding = self.surrounding(nearest, *media, scratch);
+        if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, surrounding)) {
+            let reversed = is_reversed_at(*start, ray, hit.t);
+            let place = self.place(ray, root, &hit, reversed, *media, surrounding);
+            return self.colour_behind(queued, place, scratch, observer);
         }
-        watch.see(|| path(branch, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
+        observer.ray_traced(|| path(queued, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
         let Some((root, hit)) = nearest else {
-            watch.note(|| Note::Background(self.world.background));
-            return self.world.background;
+            observer.note(|| Note::Background(self.scene.background));
+            return self.scene.background;
         };
-        let place = self.place(ray, root, &hit, has_turned_at(*start, ray, hit.t), *media, around);
-        self.shade(ray, &place, branch, scratch, watch)
+        let place = self.place(ray, root, &hit, is_reversed_at(*start, ray, hit.t), *media, surrounding);
+        self.shade(ray, &place, queued, scratch, observer)
     }
 
     /// The colour of a ray that meets a boundary that is not there, since another medium fills the place: of what it meets
@@ -100,31 +100,31 @@ impl Tracer {
     #[cold]
     fn colour_behind<'a>(
         &'a self,
-        branch: &QueuedRay,
+        queued: &QueuedRay,
         mut place: ShadingPoint<'a>,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
-        let (mut ray, mut passed) = (branch.ray, 0.0);
+        let (mut ray, mut passed) = (queued.ray, 0.0);
         loop {
-            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
+            let media = scratch.media.after_crossing(place.media, place.medium(), place.enters);
             ray = ray.onward(place.t, ray.direction);
             passed += place.t;
             let start = Some(place.start);
-            let nearest = self.world.nearest(&ray, start, &mut scratch.memory);
-            let around = self.around(nearest, media, scratch);
+            let nearest = self.scene.nearest(&ray, start, &mut scratch.hits);
+            let surrounding = self.surrounding(nearest, media, scratch);
             if let Some((root, hit)) = nearest {
-                place = self.place(&ray, root, &hit, has_turned_at(start, &ray, hit.t), media, around);
-                if is_hidden(root, around) {
+                place = self.place(&ray, root, &hit, is_reversed_at(start, &ray, hit.t), media, surrounding);
+                if is_hidden(root, surrounding) {
                     continue;
                 }
             }
-            watch.see(|| path(branch, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
+            observer.ray_traced(|| path(queued, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
             return match nearest {
-                Some(_) => self.shade(&ray, &place, branch, scratch, watch),
+                Some(_) => self.shade(&ray, &place, queued, scratch, observer),
                 None => {
-                    watch.note(|| Note::Background(self.world.background));
-                    self.world.background
+                    observer.note(|| Note::Background(self.scene.background));
+                    self.scene.background
                 }
             };
         }
@@ -132,9 +132,9 @@ impl Tracer {
 
     /// What is around the solid that is met, if that transmits and it is not air.
     #[inline(always)]
-    fn around(&self, nearest: Option<(RootId, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
-        let (root, _) = nearest.filter(|(_, hit)| self.world.finish(hit.surface).kt > 0.0)?;
-        scratch.media.around(media, root)
+    fn surrounding(&self, nearest: Option<(RootId, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
+        let (root, _) = nearest.filter(|(_, hit)| self.scene.shading(hit.surface).kt > 0.0)?;
+        scratch.media.surrounding(media, root)
     }
 
     #[inline(always)]
@@ -142,47 +142,47 @@ impl Tracer {
         &self,
         ray: &Ray,
         place: &ShadingPoint<'_>,
-        branch: &QueuedRay,
+        queued: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
         let finish = place.finish;
         let mut colour = finish.ambient;
-        watch.note(|| {
+        observer.note(|| {
             let ShadingPoint { start, enters, normal, media, .. } = *place;
-            let met = Intersection { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
+            let met = Intersection { start, tag: self.scene.tree.leaf(start.surface).tag, enters, normal };
             Note::Intersection { met, ambient: colour, inside: scratch.media.get(media).len() }
         });
-        for index in 0..self.world.lights.len() {
-            colour += self.light(index, ray, place, branch, scratch, watch);
+        for index in 0..self.scene.lights.len() {
+            colour += self.light(index, ray, place, queued, scratch, observer);
         }
         if finish.ks == 0.0 && finish.kt == 0.0 {
             return colour;
         }
-        if branch.level == self.quality.max_depth {
-            watch.note(|| Note::TooDeep(branch.weight * (finish.ks + finish.kt)));
+        if queued.level == self.quality.max_depth {
+            observer.note(|| Note::TooDeep(queued.weight * (finish.ks + finish.kt)));
             return colour;
         }
         let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, place)).flatten();
         // Light that is not let through is reflected: under total internal reflection It comes from there.
         let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
         let mut follow = |kind, coefficient: f64, direction, start, media| {
-            scratch.branches.add(QueuedRay {
+            scratch.queue.add(QueuedRay {
                 kind,
-                weight: branch.weight * coefficient,
-                level: branch.level + 1,
+                weight: queued.weight * coefficient,
+                level: queued.level + 1,
                 number: 0,
-                from: Some(branch.number),
+                from: Some(queued.number),
                 ray: ray.onward(place.t, direction),
                 start: Some(start),
                 media,
             });
         };
         if reflection > 0.0 {
-            follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.turned(), place.media);
+            follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.reversed(), place.media);
         }
         if let Some(direction) = refracted {
-            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
+            let media = scratch.media.after_crossing(place.media, place.medium(), place.enters);
             follow(RayKind::Refracted, finish.kt, direction, place.start, media);
         }
         colour
@@ -194,20 +194,20 @@ impl Tracer {
         ray: &Ray,
         root: RootId,
         hit: &Hit,
-        turned: bool,
+        reversed: bool,
         media: Media,
-        around: Option<Medium>,
+        surrounding: Option<Medium>,
     ) -> ShadingPoint<'_> {
-        let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
+        let outward = self.scene.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         ShadingPoint {
-            start: RayStart { root, surface: hit.surface, leaves: rank(root, hit.enters, turned).0, turned },
+            start: RayStart { root, surface: hit.surface, exits: tie_break(root, hit.enters, reversed).0, reversed },
             enters: hit.enters,
             t: hit.t,
             normal,
-            finish: self.world.finish(hit.surface),
+            finish: self.scene.shading(hit.surface),
             media,
-            around,
+            surrounding,
         }
     }
 
@@ -218,12 +218,12 @@ impl Tracer {
         index: usize,
         ray: &Ray,
         place: &ShadingPoint<'_>,
-        branch: &QueuedRay,
+        queued: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
         let point = ray.at(place.t);
-        let (direction, distance, intensity) = match self.world.lights[index] {
+        let (direction, distance, intensity) = match self.scene.lights[index] {
             Light::Point { position, colour } => {
                 let way = position - point;
                 let distance = way.length();
@@ -238,20 +238,21 @@ impl Tracer {
             return DVec3::ZERO;
         }
         scratch.rays.count(RayKind::Shadow);
-        let Scratch { memory, media, .. } = scratch;
+        let Scratch { hits, media, .. } = scratch;
         let onward = ray.onward(place.t, direction);
-        watch.see(|| Path {
+        observer.ray_traced(|| Path {
             kind: RayKind::Shadow,
-            level: branch.level,
-            from: Some(branch.number),
-            weight: branch.weight,
+            level: queued.level,
+            from: Some(queued.number),
+            weight: queued.weight,
             ray: onward,
-            start: Some(place.turned()),
-            to: self.world.light_ends(&onward, place.turned(), distance, memory),
+            start: Some(place.reversed()),
+            to: self.scene.shadow_ray_end(&onward, place.reversed(), distance, hits),
         });
-        let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
+        let arriving =
+            self.scene.light_transmittance(&onward, place.reversed(), media.get(place.media), distance, hits);
         if arriving == 0.0 {
-            watch.note(|| {
+            observer.note(|| {
                 Note::LightTerm(LightTerm {
                     light: index,
                     arriving,
@@ -271,24 +272,24 @@ impl Tracer {
             }
         }
         let coming = intensity * arriving;
-        watch.note(|| Note::LightTerm(LightTerm { light: index, arriving, coming, diffuse, specular }));
+        observer.note(|| Note::LightTerm(LightTerm { light: index, arriving, coming, diffuse, specular }));
         coming * (diffuse + specular)
     }
 }
 
 /// Whether what is around the solid `root` fills it too.
-fn is_hidden(root: RootId, around: Option<Medium>) -> bool {
-    around.is_some_and(|medium| medium.root < root)
+fn is_hidden(root: RootId, surrounding: Option<Medium>) -> bool {
+    surrounding.is_some_and(|medium| medium.root < root)
 }
 
-fn path(branch: &QueuedRay, to: f64) -> Path {
+fn path(queued: &QueuedRay, to: f64) -> Path {
     Path {
-        kind: branch.kind,
-        level: branch.level,
-        from: branch.from,
-        weight: branch.weight,
-        ray: branch.ray,
-        start: branch.start,
+        kind: queued.kind,
+        level: queued.level,
+        from: queued.from,
+        weight: queued.weight,
+        ray: queued.ray,
+        start: queued.start,
         to,
     }
 }
@@ -300,7 +301,7 @@ fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
 
 /// Snell's law, between the place's solid and what is around it; nothing under total internal reflection.
 fn refract(direction: DVec3, place: &ShadingPoint<'_>) -> Option<DVec3> {
-    let (inside, outside) = (place.finish.ior, place.around.map_or(1.0, |medium| medium.ior));
+    let (inside, outside) = (place.finish.ior, place.surrounding.map_or(1.0, |medium| medium.ior));
     let ratio = if place.enters { outside / inside } else { inside / outside };
     let cosine = -direction.dot(place.normal);
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);

@@ -215,12 +215,12 @@ impl Leaf {
             3 => there * DAffine3::from_rotation_y(angle) * DAffine3::from_rotation_y(-angle) * scale,
             _ => there * self.symmetry(rng, angle) * scale,
         };
-        let scene_from_own = if rng.bool() {
+        let scene_from_local = if rng.bool() {
             *motion * own
         } else {
             DAffine3 { matrix3: motion.matrix3 * own.matrix3, translation: motion.transform_point3(own.translation) }
         };
-        Solid::Placed { primitive: self.primitive, scene_from_own, tag: MaterialTag(tag) }
+        Solid::Placed { primitive: self.primitive, scene_from_local, tag: MaterialTag(tag) }
     }
 
     /// A turn that leaves the leaf what it is.

@@ -57,9 +57,9 @@ fn moved(scene: &Scene, turn: DMat3, factor: f64, shift: DVec3) -> Scene {
 fn changed(solid: &Solid, change: &impl Fn(DAffine3, MaterialTag) -> (DAffine3, MaterialTag)) -> Solid {
     let all = |solids: &[Solid]| solids.iter().map(|solid| changed(solid, change)).collect();
     match solid {
-        Solid::Placed { primitive, scene_from_own, tag } => {
-            let (scene_from_own, tag) = change(*scene_from_own, *tag);
-            Solid::Placed { primitive: *primitive, scene_from_own, tag }
+        Solid::Placed { primitive, scene_from_local, tag } => {
+            let (scene_from_local, tag) = change(*scene_from_local, *tag);
+            Solid::Placed { primitive: *primitive, scene_from_local, tag }
         }
         Solid::Union(solids) => Solid::Union(all(solids)),
         Solid::Intersection(solids) => Solid::Intersection(all(solids)),

@@ -35,7 +35,7 @@ impl Jobs {
         self.start_many("measure", failed, move |tell| {
             let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
             let tell = |finding| tell(JobResult::Found(number, finding));
-            tell(Finding::Needs(tracer.compiled(), tracer.levels()));
+            tell(Finding::Needs(tracer.scene_stats(), tracer.levels()));
             tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
         });
         number

@@ -76,9 +76,9 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let through = place.translation + aside(rng, axis) * between(rng, 0.0, 0.3);
         let ray = Ray::new(through - direction * 8.0, direction);
         let [body_caps, cutter_caps] = [body, cutter].map(|map| caps(&map, &ray));
-        let cylinder = |scene_from_own, tag| Solid::Placed {
+        let cylinder = |scene_from_local, tag| Solid::Placed {
             primitive: Primitive::Cylinder,
-            scene_from_own,
+            scene_from_local,
             tag: MaterialTag(tag),
         };
         let bored = Solid::Difference(vec![cylinder(body, 0), cylinder(cutter, 1)]);
@@ -94,10 +94,10 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
 }
 
 /// Where the ray passes the caps of a cylinder.
-fn caps(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
-    let own_from_scene = scene_from_own.inverse();
-    let o = own_from_scene.transform_point3(ray.origin);
-    let d = own_from_scene.transform_vector3(ray.direction);
+fn caps(scene_from_local: &DAffine3, ray: &Ray) -> [f64; 2] {
+    let local_from_scene = scene_from_local.inverse();
+    let o = local_from_scene.transform_point3(ray.origin);
+    let d = local_from_scene.transform_vector3(ray.direction);
     [(-1.0 - o.y) / d.y, (1.0 - o.y) / d.y]
 }
 
@@ -108,7 +108,7 @@ fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let turned = turn(rng);
         let placed = |primitive, size: DVec3, at: DVec3| Solid::Placed {
             primitive,
-            scene_from_own: DAffine3 { matrix3: turned * DMat3::from_diagonal(size), translation: turned * at },
+            scene_from_local: DAffine3 { matrix3: turned * DMat3::from_diagonal(size), translation: turned * at },
             tag: MaterialTag(0),
         };
         let half = thickness / 2.0;

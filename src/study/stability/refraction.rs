@@ -99,7 +99,7 @@ fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let direction = normal * cosine + aside(rng, normal) * sine;
         let glass = Solid::Placed {
             primitive: Primitive::HalfSpace { normal, offset: 0.0 },
-            scene_from_own: DAffine3::IDENTITY,
+            scene_from_local: DAffine3::IDENTITY,
             tag: MaterialTag(0),
         };
         let ways = ways(&scene_of(vec![glass], -normal, direction), 2);
@@ -134,7 +134,7 @@ fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let wide = 20.0 * slabs;
         let slab = |place: u32| Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3 {
+            scene_from_local: DAffine3 {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(wide, 0.25, wide)),
                 translation: turned * DVec3::Y * -f64::from(place),
             },
@@ -163,7 +163,7 @@ fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let normal = turned * DVec3::Y;
         let slab = |low: f64, high: f64, tag: u32| Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3 {
+            scene_from_local: DAffine3 {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(50.0, (high - low) / 2.0, 50.0)),
                 translation: normal * ((high + low) / 2.0),
             },

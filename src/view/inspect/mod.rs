@@ -17,7 +17,7 @@ use crate::language::word;
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
 use crate::scene::{Material, Scene};
-use crate::tracer::{Explained, RayCounts, RayNotes, Scratch, Tracer};
+use crate::tracer::{ExplainedRay, ExplainedSample, RayCounts, Scratch, Tracer};
 
 pub use rays::{RaySpot, RayTree};
 pub use spans::SpanPlot;
@@ -29,7 +29,7 @@ pub struct Inspected {
     /// Its column and its row, from 0 in the upper left corner.
     pub place: [u32; 2],
     /// Its samples; one at least.
-    pub samples: Arc<[Explained]>,
+    pub samples: Arc<[ExplainedSample]>,
     /// What it took.
     pub rays: RayCounts,
     /// The ray that is looked at.
@@ -59,7 +59,7 @@ impl Inspected {
             return None;
         }
         let mut scratch = Scratch::default();
-        let samples: Arc<[Explained]> = tracer.explain(y * size.width() + x, &mut scratch).into();
+        let samples: Arc<[ExplainedSample]> = tracer.explain(y * size.width() + x, &mut scratch).into();
         let materials = scene.names.iter().cloned().zip(scene.materials.iter().copied()).collect();
         let (rays, lights) = (scratch.rays, scene.lights.len());
         let chosen = ChosenRay { sample: samples.iter().position(|sample| sample.counts)?, ray: 0 };
@@ -70,22 +70,22 @@ impl Inspected {
     /// The same pixel, seen along another of its rays; nothing if it has no such ray.
     pub fn choose(&self, tracer: &Tracer, chosen: ChosenRay) -> Option<Self> {
         let ray = self.samples.get(chosen.sample)?.rays.get(chosen.ray)?;
-        let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
+        let figures = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
         Some(Self { chosen, figures, ..self.clone() })
     }
 
     /// Its colour in linear light.
     pub fn colour(&self) -> DVec3 {
-        Explained::mean(&self.samples)
+        ExplainedSample::mean(&self.samples)
     }
 
     /// The sample that is looked at.
-    pub fn sample(&self) -> &Explained {
+    pub fn sample(&self) -> &ExplainedSample {
         &self.samples[self.chosen.sample]
     }
 
     /// The ray that is looked at.
-    pub fn ray(&self) -> &RayNotes {
+    pub fn ray(&self) -> &ExplainedRay {
         &self.sample().rays[self.chosen.ray]
     }
 
@@ -99,13 +99,13 @@ impl Inspected {
     }
 
     /// What a ray met, in a word or two.
-    fn what(&self, ray: &RayNotes) -> &str {
+    fn what(&self, ray: &ExplainedRay) -> &str {
         let nameless = word!("a solid without a material", "um sólido sem material");
         ray.met.map_or(word!("nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
     }
 
     /// The colour of what a ray met, as it is shown.
-    fn colour_of(&self, ray: &RayNotes) -> Rgb {
+    fn colour_of(&self, ray: &ExplainedRay) -> Rgb {
         match ray.met {
             Some(met) => shown(self.material(met.tag).colour),
             None => shown(ray.ambient),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::format::{kind_word, number, passes_nothing, share_words};
 use super::{Inspected, shown};
 use crate::language::{decimal, say, word};
-use crate::tracer::{RayKind, RayNotes};
+use crate::tracer::{ExplainedRay, RayKind};
 use crate::view::text::format::{count, counted};
 
 impl Inspected {
@@ -50,7 +50,7 @@ impl Inspected {
                 )
             });
         }
-        let too_deep = |ray: &RayNotes| ray.too_deep;
+        let too_deep = |ray: &ExplainedRay| ray.too_deep;
         let deep: f64 = self
             .samples
             .iter()
@@ -99,7 +99,7 @@ impl Inspected {
         said
     }
 
-    fn light_words(&self, ray: &RayNotes, light: usize) -> String {
+    fn light_words(&self, ray: &ExplainedRay, light: usize) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!("{name} is behind the surface", "{name} está atrás da superfície"),
@@ -167,7 +167,7 @@ impl Inspected {
                 let [enter, leave] = stay.map(number);
                 say!("{enter} to {leave}", "{enter} a {leave}")
             };
-            let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
+            let stays: Vec<_> = row.figure.spans.iter().map(stay).collect();
             put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure), stays.join(", ")));
         }
         put_more(&mut text, rows.len());

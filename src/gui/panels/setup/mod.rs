@@ -210,7 +210,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look) {
     }
     line(ui, word!("Tree of rays", "Árvore de raios"), look, |ui| {
         let (suffix, name) = word!((" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
-        number(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, suffix, VALUE, name);
+        number(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE, name);
     });
     let part = |part: f64| {
         let most = decimal(100.0 * part, 2);
