@@ -37,7 +37,7 @@ fn the_sum_of_all_terms_is_the_colour_of_the_pixel() {
                 // To the last bit.
                 assert_eq!(ExplainedSample::mean(&samples).as_vec3().to_array(), colour, "{name}");
                 for sample in &samples {
-                    let (colour, brought) = (sample.colour(), sample.brings(0));
+                    let (colour, brought) = (sample.colour(), sample.contribution_of(0));
                     assert!(brought.abs_diff_eq(colour, 1e-12 * (1.0 + colour.length())), "{name}");
                 }
             });

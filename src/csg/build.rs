@@ -1,5 +1,5 @@
-//! Solids are compiled: what can never be seen is left out, and every composition is brought into the form in which a
-//! ray needs least work.
+//! Compilation of solids: drops what can never be seen, and brings every composition into the form in which a ray needs
+//! least work.
 
 use super::id::NodeIndex;
 use super::merge::Operation;
@@ -7,16 +7,16 @@ use super::tree::{Node, NodeKind, Tree};
 use super::{Leaf, LeafIndex, Pass, Passes, RootId, Solid};
 use crate::geometry::{Aabb, split};
 
-/// Of more operands a union is a tree.
+/// A union of more operands than this becomes a tree of unions.
 const MAX_FLAT_OPERANDS: usize = 4;
 
 impl Tree {
-    /// Nothing yet; solids will be compiled by these passes.
+    /// An empty tree, to which solids are added by these passes.
     pub fn new(passes: Passes) -> Self {
         Self { passes, ..Self::default() }
     }
 
-    /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
+    /// Compiles a solid. Returns its root and a box around it, or nothing if the solid is proved empty.
     pub fn add(&mut self, solid: &Solid) -> Option<(RootId, Aabb)> {
         self.add_node(solid).map(|(node, bounds)| (RootId(node.0), bounds))
     }
@@ -89,8 +89,8 @@ impl Tree {
         }
     }
 
-    /// The union of at least one node. That of many is a tree of unions of neighbours: a ray looks only at those near
-    /// it, and their spans are merged in pairs and not one by one into all that were found before.
+    /// Makes the union of at least one node. A union of many becomes a tree of unions of neighbours: a ray visits only
+    /// those near it, and their spans are merged in pairs instead of one by one into all that were found before.
     fn union_of(&mut self, parts: &[NodeIndex]) -> NodeIndex {
         let mut boxes: Vec<_> = parts.iter().map(|&part| (part, self.nodes[part.index()].bounds)).collect();
         self.union_tree(&mut boxes, 0)
@@ -110,7 +110,7 @@ impl Tree {
         self.push(NodeKind::Composition { operation: Operation::Union, children }, bounds)
     }
 
-    /// Makes the convex leaves with which the operands of an intersection begin one operand.
+    /// Joins the convex leaves at the beginning of an intersection's operands into one operand.
     fn join_convex(&mut self, children: &mut Vec<NodeIndex>) {
         let mut leaves = Vec::new();
         let mut bounds = Aabb::ALL;
@@ -131,7 +131,7 @@ impl Tree {
         }
     }
 
-    /// Gives up the boxes of all compositions, if they are not asked for.
+    /// Removes the bounds of all nodes unless [`Pass::CompositionBounds`] is on.
     pub fn finish(&mut self) {
         if !self.passes.has(Pass::CompositionBounds) {
             self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);

@@ -1,5 +1,5 @@
-//! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and the spans of
-//! a ray inside it. A hit carries the number of a surface; this module knows no material and no light.
+//! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and a ray's spans in it.
+//! A hit carries the tag of a surface; this module knows no materials and no lights.
 
 mod build;
 mod coincidence;

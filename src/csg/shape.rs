@@ -1,4 +1,5 @@
-//! Primitives with their transforms folded in: each is stored in the coordinates in which a ray meets it cheapest.
+//! Primitives with their transforms folded in: each is stored in the coordinates in which its intersection with a ray
+//! is cheapest.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -8,20 +9,20 @@ use super::torus;
 use super::{LeafIndex, MaterialTag, Primitive};
 use crate::geometry::{Aabb, Ray};
 
-/// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
+/// A face of a leaf of the compiled tree: what a ray hits, and where a secondary ray starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surface {
-    /// The leaf's number.
+    /// The leaf.
     pub leaf: LeafIndex,
-    /// The leaf's face: 0 is the curved one, where there is one; the others are flat.
+    /// The face of the leaf: 0 is the curved one, if there is one; the others are flat.
     pub face: u8,
 }
 
-/// A placed primitive.
+/// A primitive with its transform folded in.
 #[derive(Clone, Debug)]
 pub struct Leaf {
     shape: Shape,
-    /// The caller's number for its surface.
+    /// The caller's tag for its surface.
     pub tag: MaterialTag,
 }
 
@@ -35,15 +36,15 @@ enum Shape {
         normal: DVec3,
         offset: f64,
     },
-    /// A box along the scene's axes. Its faces are numbered −x, +x, −y, +y, −z, +z.
+    /// An axis-aligned box. Its faces are numbered −x, +x, −y, +y, −z, +z.
     Block(Aabb),
-    /// The sphere, cube, cylinder, cone and torus in their own coordinates: the ray is carried there, where distances
-    /// along it stay the same since its direction is carried with it and not made 1 again.
+    /// Sphere, cube, cylinder, cone and torus are stored in local coordinates. The ray is transformed there; its
+    /// direction is not normalised again, so that distances along it stay the same.
     Ellipsoid(LocalFrame),
     Cube(LocalFrame),
     Cylinder(LocalFrame),
-    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
-    /// are measured from there, since near a tip all is small that decides whether it is hit.
+    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, which may be the apex:
+    /// coordinates are taken relative to it, since near an apex all quantities that decide about a hit are small.
     Cone {
         frame: LocalFrame,
         base: f64,
@@ -54,7 +55,7 @@ enum Shape {
         frame: LocalFrame,
         tube: f64,
     },
-    /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
+    /// q · (square q) + 2 half_linear · q + constant ≤ 0, with q = p − centre.
     Quadric {
         centre: DVec3,
         square: DMat3,
@@ -66,13 +67,13 @@ enum Shape {
 #[derive(Clone, Debug)]
 struct LocalFrame {
     local_from_scene: DAffine3,
-    /// Outward normals of the faces at x = 1, y = 1, z = 1, in the scene and of length 1.
+    /// Outward unit normals of the faces at x = 1, y = 1, z = 1, in scene coordinates.
     axis_normals: [DVec3; 3],
 }
 
 impl Leaf {
-    /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it. With
-    /// `shapes`, balls and boxes along the axes are stored as such.
+    /// Folds the transform into the primitive. Also returns an axis-aligned box that contains it in spite of rounding.
+    /// With `shapes`, balls and axis-aligned boxes are stored as such.
     pub(super) fn new(
         primitive: &Primitive,
         scene_from_local: &DAffine3,
@@ -86,7 +87,7 @@ impl Leaf {
         let centre = scene_from_local.translation;
         let frame = || LocalFrame {
             local_from_scene,
-            // Normals go by the inverse transpose, whose columns are the rows of the inverse.
+            // Normals are transformed by the inverse transpose, whose columns are the rows of the inverse.
             axis_normals: [0, 1, 2].map(|axis| to_local.row(axis).normalize()),
         };
         let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
@@ -123,7 +124,7 @@ impl Leaf {
                 )
             }
             Primitive::Torus { tube } => {
-                // What a ball of the tube's radius covers whose centre goes round the circle.
+                // The volume swept by a ball of the tube's radius along the circle.
                 let [x, y, z] = columns;
                 let ball = (x * x + y * y + z * z).map(f64::sqrt) * tube;
                 (Shape::Torus { frame: frame(), tube }, about(round(x, z) + ball))
@@ -147,8 +148,8 @@ impl Leaf {
         (Self { shape, tag }, bounds.padded())
     }
 
-    /// The ray's stays inside, over the whole line. `start` is the face of this leaf that the ray starts on, if it
-    /// does: the root there is then 0 by definition, whatever rounding made of the origin.
+    /// Computes the spans of the whole line inside the leaf. `start` is the face of this leaf on which the ray starts,
+    /// if any: the root there is 0 by definition, whatever rounding did to the origin.
     #[inline(always)]
     pub(super) fn spans(&self, ray: &Ray, start: Option<u8>) -> Spans {
         match &self.shape {
@@ -158,8 +159,8 @@ impl Leaf {
                 let inside = if start.is_some() {
                     Intervals::from_surface(1.0, b)
                 } else {
-                    // The discriminant by the line's closest approach: exact for far and small balls
-                    // (Haines, Günther and Akenine-Möller, Ray Tracing Gems, ch. 7).
+                    // Discriminant from the line's closest approach to the centre: accurate for far and for small balls
+                    // (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7).
                     let closest = f - ray.direction * b;
                     let squared = radius * radius;
                     Intervals::with_discriminant(
@@ -246,7 +247,7 @@ impl Leaf {
         }
     }
 
-    /// What kind of primitive it has become.
+    /// The name of the shape that the primitive has become.
     pub fn kind(&self) -> &'static str {
         match &self.shape {
             Shape::Ball { .. } => "ball",
@@ -261,12 +262,12 @@ impl Leaf {
         }
     }
 
-    /// Whether a ray has one stay inside at most.
+    /// Whether every ray has at most one span inside.
     pub(super) fn is_convex(&self) -> bool {
         !matches!(self.shape, Shape::Quadric { .. } | Shape::Torus { .. })
     }
 
-    /// The normal of length 1 that points out of the leaf, at a point of one of its faces.
+    /// The outward unit normal at a point of one of the faces.
     pub fn normal(&self, face: u8, point: DVec3) -> DVec3 {
         match &self.shape {
             Shape::Ball { centre, radius } => (point - *centre) / *radius,
@@ -287,7 +288,7 @@ impl Leaf {
             }
             Shape::Torus { frame, .. } => {
                 let q = frame.point_to_local(point);
-                // From the nearest point of the circle.
+                // The direction from the nearest point of the circle.
                 let outward = 1.0 - 1.0 / q.x.hypot(q.z);
                 frame.normal_to_scene(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
@@ -307,15 +308,15 @@ impl LocalFrame {
         self.local_from_scene.transform_point3(point)
     }
 
-    /// A normal from own coordinates into the scene, by the inverse transpose of the way there.
+    /// Transforms a normal from local to scene coordinates, by the inverse transpose of the transform of points.
     fn normal_to_scene(&self, normal: DVec3) -> DVec3 {
-        // The zero vector is the apex of a cone, where no normal is right.
+        // The zero vector belongs to the apex of a cone, where no normal is defined.
         (self.local_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
     }
 }
 
-/// Solves from the line's closest approach to the origin of `o` instead of from `o`, which may be far: there the
-/// coefficients are small and their differences exact. `d` need not have length 1.
+/// Solves relative to the line's closest approach to the origin instead of relative to `o`, which may be far away:
+/// there the coefficients are small and their differences accurate. `d` need not have length 1.
 fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals) -> Intervals {
     let shift = -o.dot(d) / d.length_squared();
     match solve(o + d * shift) {
@@ -330,7 +331,7 @@ fn face_sign(face: u8) -> f64 {
     if face.is_multiple_of(2) { -1.0 } else { 1.0 }
 }
 
-/// The factor by which a map with these columns scales in every direction, if it is the same in all.
+/// The scale factor of a map with these columns, if it is the same in all directions.
 fn uniform_scale(columns: [DVec3; 3]) -> Option<f64> {
     const ROUNDING: f64 = 1e-14;
     let squared = columns[0].length_squared();
@@ -340,7 +341,7 @@ fn uniform_scale(columns: [DVec3; 3]) -> Option<f64> {
     (skew <= ROUNDING * squared && stretch <= ROUNDING * squared).then(|| squared.sqrt())
 }
 
-/// A half-space is bounded on one side if its normal lies along an axis.
+/// The bounds of a half-space: bounded on one side if its normal lies along an axis.
 fn half_space_bounds(normal: DVec3, offset: f64) -> Aabb {
     let mut bounds = Aabb::ALL;
     for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! A ray's stays in a solid and in all that it is made of (the article's Figure 2).
+//! A ray's spans in a solid and in all its operands (the article's Figure 2).
 
 use super::coincidence::{coincide, without_slivers};
 use super::id::NodeIndex;
@@ -6,25 +6,25 @@ use super::tree::NodeKind;
 use super::{Crossing, LeafIndex, MaterialTag, Operation, RayStart, RootId, Surface, Tree};
 use crate::geometry::Ray;
 
-/// A ray's stays in a solid as it was compiled, and in its operands.
+/// A ray's spans in a compiled solid, and in its operands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpanDiagram {
-    /// What the solid is.
+    /// The kind of solid.
     pub kind: SolidKind,
     /// Where the ray enters and leaves it, in order; distances along the ray, which may be infinite or negative.
     pub spans: Vec<[f64; 2]>,
-    /// What it is made of.
+    /// The operands; none for a primitive.
     pub operands: Vec<SpanDiagram>,
 }
 
-/// What a solid is.
+/// The kind of a solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolidKind {
     /// A primitive.
     Primitive {
-        /// Of its surface (which material it has).
+        /// The tag of its surface: in a scene, its material.
         tag: MaterialTag,
-        /// What kind it is.
+        /// The name of its shape.
         kind: &'static str,
     },
     /// A composition.
@@ -32,12 +32,12 @@ pub enum SolidKind {
 }
 
 impl Tree {
-    /// The stays of a whole line, of which `ray` is a part, in the solid `root` and in its operands. `start` is where the
-    /// ray starts, if it starts on a solid.
+    /// The spans of the whole line through `ray` in the solid `root` and in its operands. `start` is the surface on
+    /// which the ray starts, if it starts on one.
     pub fn span_diagram(&self, root: RootId, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
         let mut crossings = self.node_crossings(root.node(), ray, start);
-        // As a ray meets them.
+        // Slivers are dropped, as for a ray.
         let is_leaf = matches!(self.nodes[root.node().index()].kind, NodeKind::Leaf(_));
         if start.is_none() && !is_leaf {
             let is_sliver = |earlier, later| coincide(&self.leaves, earlier, later, ray);
@@ -53,7 +53,7 @@ impl Tree {
         crossings
     }
 
-    /// The figure of a node with these crossings.
+    /// The diagram of a node with these crossings.
     fn node_diagram(&self, node: NodeIndex, crossings: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
         let (kind, operands) = match &self.nodes[node.index()].kind {
             NodeKind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),

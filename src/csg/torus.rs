@@ -1,13 +1,15 @@
-//! Where a line is inside a torus.
+//! The spans of a line in a torus.
 //!
-//! The torus lies about the y axis; its ring has radius 1, its tube a radius below 1. A line's place q(τ) is inside where
+//! The torus lies about the y axis; its ring has radius 1, its tube a radius below 1. The point q(τ) of a line is
+//! inside where
 //!
 //! F = (|q|² + 1 − tube²)² − 4 (x² + z²) ≤ 0,
 //!
-//! a quartic in τ. Closed forms lose its roots from afar. Here the line is taken from where it comes closest to the centre,
-//! so that all coefficients are small; a root of the quartic lies between two values where its derivative vanishes, and
-//! those lie between the roots of the second derivative: in each piece there is one root or none, and Newton's method that
-//! never leaves the piece finds it (C. Yuksel, *High-Performance Polynomial Root Finding for Graphics*, 2022).
+//! a quartic in τ. Closed forms lose its roots when the origin is far away. Here τ is measured from the line's closest
+//! approach to the centre, so that all coefficients are small. A root of the quartic lies between two roots of its
+//! derivative, and those lie between the roots of the second derivative: each interval holds one root or none, and
+//! Newton's method, kept inside the interval, finds it (C. Yuksel, *High-Performance Polynomial Root Finding for
+//! Graphics*, 2022).
 
 use std::ops::Range;
 
@@ -15,28 +17,28 @@ use glam::DVec3;
 
 use super::span::{CURVED, Span, Spans};
 
-/// The stays of the line `o + d t` inside the torus. If it `starts` on the torus, one root is exactly 0, whatever rounding
-/// made of `o`.
+/// Computes the spans of the line `o + d t` in the torus. If it starts `on_surface`, one root is exactly 0, whatever
+/// rounding did to `o`.
 pub(super) fn spans(tube: f64, o: DVec3, d: DVec3, on_surface: bool) -> Spans {
     let length = d.length();
     let direction = d / length;
     if on_surface {
         return from_surface(tube, o, direction).spans(0.0, length);
     }
-    // In one rounding: afar, d · shift would lose what o + d · shift is left with.
+    // Fused, with one rounding: from afar, d · shift alone would lose the digits that o + d · shift is left with.
     let shift = -o.dot(direction);
     let [x, y, z] = [0, 1, 2].map(|axis| direction[axis].mul_add(shift, o[axis]));
     from_closest_approach(tube, DVec3::new(x, y, z), direction).spans(shift, length)
 }
 
-/// Where a place lies: below 0 inside the torus, above 0 outside. It has the sign of F, of which it is a factor, and is
-/// exact where F, for a thin tube, is a difference of nearly equal numbers.
+/// The implicit function of the torus: below 0 inside, above 0 outside. It is a factor of F with F's sign, and accurate
+/// where F, for a thin tube, is a difference of nearly equal numbers.
 pub(super) fn implicit(tube: f64, q: DVec3) -> f64 {
     let from_ring = q.x.hypot(q.z) - 1.0;
     from_ring * from_ring + q.y * q.y - tube * tube
 }
 
-/// The values where a line crosses the torus, in order, an even number.
+/// Roots along a line, in order. Those of the quartic are even in number.
 #[derive(Default)]
 struct Roots {
     values: [f64; 4],
@@ -51,22 +53,22 @@ impl Roots {
         }
     }
 
-    /// With distances for values: each is `shift` more, and `length` of them are one.
+    /// Turns roots into spans, with t = (τ + `shift`) / `length`.
     fn spans(&self, shift: f64, length: f64) -> Spans {
         let span = |first: usize| {
             let [from, to] = [first, first + 1].map(|index| (shift + self.values[index]) / length);
-            let is_one = first + 1 < self.count && from < to;
-            is_one.then_some(Span { from, from_face: CURVED, to, to_face: CURVED })
+            let is_span = first + 1 < self.count && from < to;
+            is_span.then_some(Span { from, from_face: CURVED, to, to_face: CURVED })
         };
         Spans { first: span(0), second: span(2) }
     }
 }
 
-/// Of the line `p + u τ`, `u` of length 1, whose closest approach to the centre is near τ = 0.
+/// The roots along the line `p + u τ`, `u` of length 1, whose closest approach to the centre is near τ = 0.
 fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
     let mut roots = Roots::default();
     let Some(range) = bounding_range(tube, p, u) else { return roots };
-    // F = τ⁴ + 4 along τ³ + square τ² + …; `along` is 0 but for rounding.
+    // F = τ⁴ + 4 along τ³ + square τ² + …; `along` is 0 up to rounding.
     let along = p.dot(u);
     let k = p.length_squared() + 1.0 - tube * tube;
     let square = 4.0 * along * along + 2.0 * k - 4.0 * (u.x * u.x + u.z * u.z);
@@ -83,10 +85,10 @@ fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
     roots
 }
 
-/// Of the line `o + u τ`, `u` of length 1, where `o` is on the torus: F / τ is a cubic, and 0 the other root.
+/// The roots along the line `o + u τ`, `u` of length 1, where `o` is on the torus: 0, and those of the cubic F / τ.
 fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Roots {
     let mut roots = Roots::default();
-    // Whatever the range, it holds the start.
+    // The range contains the start, whatever rounding says.
     let range = bounding_range(tube, o, u).map_or(0.0..0.0, |range| range.start.min(0.0)..range.end.max(0.0));
     let (along, ring) = (o.dot(u), o.x.hypot(o.z));
     // On the torus |o|² + 1 − tube² is twice the distance from the axis.
@@ -101,14 +103,14 @@ fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Roots {
     let count = others.count + 1;
     values[others.count] = 0.0;
     values[..count].sort_unstable_by(f64::total_cmp);
-    // The cubic changes its sign once or three times.
+    // An odd number with 0 is even: the cubic changes its sign once or three times.
     values[..count & !1].iter().for_each(|&place| roots.add(place));
     roots
 }
 
-/// The part of the line `p + u τ` outside of which there is no torus: it lies in a ball, and between two planes.
+/// A range of the line `p + u τ` that contains its part in the torus: the torus lies in a ball and between two planes.
 fn bounding_range(tube: f64, p: DVec3, u: DVec3) -> Option<Range<f64>> {
-    /// Rounding must not cut off anything.
+    /// Keeps rounding from cutting off a part of the torus.
     const MARGIN: f64 = 1.0 + 1e-9;
     let along = p.dot(u);
     let reach = (1.0 + tube) * MARGIN;
@@ -130,13 +132,13 @@ fn bounding_range(tube: f64, p: DVec3, u: DVec3) -> Option<Range<f64>> {
 struct Cubic([f64; 3]);
 
 impl Cubic {
-    /// The roots in `range`. If its ends are beyond all roots by definition, whatever rounding says of them, there is an odd
-    /// number.
+    /// The roots in `range`. With `beyond` the ends of the range count as beyond all roots, whatever rounding says of
+    /// them, so that the number of roots is odd.
     fn roots(&self, range: &Range<f64>, beyond: bool) -> Roots {
         let Self([b, c, e]) = *self;
         let value = |place: f64| (((place + b) * place + c) * place + e, (3.0 * place + 2.0 * b) * place + c);
         let ends = if beyond { [-1.0, 1.0] } else { [range.start, range.end].map(|end| value(end).0) };
-        // 3 τ² + 2 b τ + c, without the difference of nearly equal numbers.
+        // Solves 3 τ² + 2 b τ + c = 0 without subtracting nearly equal numbers.
         let discriminant = b * b - 3.0 * c;
         let mut roots = Roots::default();
         let mut add = |extrema: &[f64]| for_each_root(range, extrema, ends, value, |place| roots.add(place));
@@ -151,8 +153,8 @@ impl Cubic {
     }
 }
 
-/// Calls `each` with every place in `range`, in order, where a function changes its sign. It has one sign change at most
-/// between two of `extrema`; its signs at the `ends` are given. `value` is the function with its derivative.
+/// Visits the roots with a change of sign in `range`, in order. Between two neighbouring `extrema` there is at most
+/// one. `ends` gives the function's signs at the ends of the range; `value` returns the function and its derivative.
 fn for_each_root(
     range: &Range<f64>,
     extrema: &[f64],
@@ -165,7 +167,7 @@ fn for_each_root(
     for (to, given) in inside.map(|extremum| (extremum, None)).chain([(range.end, Some(ends[1]))]) {
         let height = given.unwrap_or_else(|| value(to).0);
         if height == 0.0 {
-            // Who only touches goes on on the side where it was.
+            // A function that only touches 0 keeps its sign.
             continue;
         }
         let is_below_at_end = height < 0.0;
@@ -176,9 +178,10 @@ fn for_each_root(
     }
 }
 
-/// The root between `from` and `to`, where the function changes its sign once; `rises` if it is below 0 at `from`.
+/// Finds the root between `from` and `to`, where the function changes its sign once; it `rises` if it is below 0 at
+/// `from`.
 fn root_between(mut from: f64, mut to: f64, rises: bool, value: &impl Fn(f64) -> (f64, f64)) -> f64 {
-    /// Newton's method needs a few steps, halving as many as there are bits.
+    /// Newton's method needs a few steps; bisection needs as many as there are bits.
     const MAX_STEPS: usize = 64;
     let mut place = from.midpoint(to);
     for _ in 0..MAX_STEPS {
@@ -218,7 +221,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(5000))]
 
         #[test]
-        fn a_line_is_inside_where_its_places_are(
+        fn spans_match_implicit_function(
             tube in 0.001..0.999f64, aim in vectors(-1.5..1.5), from in vectors(-1.0..1.0), away in 0.0..6.0f64,
             values in prop::collection::vec(-3.0..3.0f64, 20),
         ) {
@@ -246,9 +249,9 @@ mod tests {
             }
         }
 
-        /// A ray that goes on from where another has met the torus meets the rest of what that one has.
+        /// A secondary ray that starts where a ray has hit the torus crosses it at that ray's other roots.
         #[test]
-        fn whoever_starts_on_the_surface_meets_the_rest(
+        fn ray_from_surface_finds_other_roots(
             tube in 0.01..0.99f64, aim in vectors(-1.2..1.2), from in vectors(-1.0..1.0),
         ) {
             prop_assume!(from.length() > 0.1);
@@ -268,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_along_the_planes_and_axes_of_symmetry() {
+    fn lines_along_planes_and_axes_of_symmetry_have_exact_roots() {
         let close = |o: DVec3, d: DVec3, expected: &[f64]| {
             let ends = ends(spans(0.25, o, d, false));
             assert_eq!(ends.len(), expected.len(), "{ends:?}");
@@ -283,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_quartic_that_is_hard_for_closed_forms_has_two_roots() {
+    fn quartic_hard_for_closed_forms_has_two_roots() {
         // u⁴ − 240 u³ + 25449 u² − 1325880 u + 26471900.25, by Horner's rule.
         let value = |u: f64| {
             let height = (((u - 240.0) * u + 25_449.0) * u - 1_325_880.0) * u + 26_471_900.25;

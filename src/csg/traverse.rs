@@ -8,52 +8,52 @@ use super::tree::{Node, NodeKind};
 use super::{Crossing, LeafIndex, RootId, Surface, Tree};
 use crate::geometry::{Ray, fast_max, fast_min};
 
-/// Where a ray first crosses the boundary of a solid.
+/// A ray's crossing of the boundary of a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Distance along the ray, at least 0.
     pub t: f64,
-    /// The face that it crosses.
+    /// The face at the crossing.
     pub surface: Surface,
-    /// The solid (not the leaf) is entered; else left.
+    /// Whether the ray enters the solid (not the leaf) there; otherwise it leaves it.
     pub enters: bool,
 }
 
-/// Where a ray that does not come from the camera starts.
+/// The surface on which a reflected, refracted or shadow ray starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayStart {
-    /// The root that was hit.
+    /// The solid that the incoming ray hit.
     pub root: RootId,
-    /// Its face.
+    /// The face that it hit.
     pub surface: Surface,
-    /// Whether the solid is left there, as seen along the ray that came.
+    /// Whether the incoming ray leaves the solid there, in the order of [`tie_break`].
     pub exits: bool,
-    /// Whether this ray turns back to where that one came from.
+    /// Whether this ray stays on the incoming ray's side of the face, as reflected rays and shadow rays do.
     pub reversed: bool,
 }
 
-/// Where in the scene's own order a crossing stands among those at the same place.
+/// Tie-break for coincident boundaries: entries before exits, then scene order.
 ///
-/// Boundaries of solids that touch lie at one place, and rounding puts them in any order along a ray. If a ray took
-/// them as they came it would cross some twice and some never, so they have one order: what is entered comes before
-/// what is left, and then what stands first in the scene. A ray that turns back there passes them in reverse.
+/// The boundaries of solids that touch lie at one point, and rounding puts them in any order along a ray. A ray that
+/// took them in that order would cross some twice and some never. A ray that goes back (`reversed`) crosses them in the
+/// opposite order.
 pub fn tie_break(root: RootId, enters: bool, reversed: bool) -> (bool, RootId) {
     (enters == reversed, root)
 }
 
 impl RayStart {
-    /// Whether the ray has yet to cross the boundary of another solid at the same place.
+    /// Whether the ray has yet to cross the boundary of another solid at the point where it starts.
     fn is_before(&self, root: RootId, enters: bool) -> bool {
         let (here, other) = ((self.exits, self.root), tie_break(root, enters, self.reversed));
         if self.reversed { other < here } else { other > here }
     }
 }
 
-/// Scratch memory for the spans of one ray.
+/// Scratch memory for the crossings of one ray, two for each span.
 pub type Stack = Vec<Crossing>;
 
 impl Tree {
-    /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
+    /// Finds the first crossing of the boundary of the solid `root` before `t_max`.
     #[inline]
     pub fn nearest(
         &self,
@@ -71,8 +71,8 @@ impl Tree {
         found
     }
 
-    /// Hands over every crossing of the boundary of the solid `root` between the ray's start and `t_max`, in order,
-    /// until `visit` answers false.
+    /// Visits the crossings of the boundary of the solid `root` between the ray's start and `t_max`, in order, until
+    /// `visit` returns false.
     #[inline]
     pub fn crossings(
         &self,
@@ -84,8 +84,9 @@ impl Tree {
         mut visit: impl FnMut(Hit) -> bool,
     ) {
         let slack = ray.tolerance(0.0);
-        // A ray that starts on this solid does not report it there again. On any other solid it may: of what touches
-        // the solid that it starts on, it meets at 0 what it has not passed, on whichever side of 0 rounding puts it.
+        // A ray that starts on this solid does not cross it there again. On another solid it may: of the boundaries
+        // that coincide with its start it crosses at 0 those that come later in the tie-break, on whichever side of 0
+        // rounding puts them.
         let on_this = start.is_some_and(|start| start.root == root);
         let is_crossed_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.is_before(root, enters));
         let is_on_ray = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_crossed_at_0(enters)));
@@ -93,8 +94,8 @@ impl Tree {
         let mut report = |crossing: Crossing, enters: bool| {
             !is_on_ray(crossing.t, enters) || visit(Hit { t: crossing.t.max(0.0), surface: crossing.surface, enters })
         };
-        // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
-        // starts on this solid starts there exactly, and may be inside as briefly as it likes.
+        // At edges and coincident faces rounding alone may leave a sliver, inside or outside the solid; it is dropped.
+        // A ray that starts on this solid starts exactly on the face, and may be inside for any short distance.
         let is_sliver =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root.node().index()].kind {
@@ -121,7 +122,7 @@ impl Tree {
             NodeKind::Composition { operation, children } => {
                 stack.clear();
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
-                // Whoever asks has looked at the bounds.
+                // The caller has tested the bounds.
                 self.push_composition_crossings(*operation, children, ray, start, window, stack);
                 let mut enters = true;
                 for crossing in without_slivers(stack, is_sliver) {
@@ -134,7 +135,7 @@ impl Tree {
         }
     }
 
-    /// Pushes the crossings of a node. Spans that lie outside `window` may be left out.
+    /// Pushes the crossings of a node. May leave out spans outside `window`.
     #[inline(always)]
     pub(super) fn push_crossings(
         &self,
@@ -150,7 +151,7 @@ impl Tree {
         }
     }
 
-    /// As [`Tree::push_crossings`], for a ray that is known to report the node's bounds.
+    /// Does the same for a ray that is known to meet the node's bounds.
     #[inline(always)]
     fn push_crossings_within_bounds(
         &self,
@@ -208,7 +209,7 @@ impl Tree {
                 }
             }
             if operation != Operation::Union {
-                // Nothing outside the first operand's spans can matter any more.
+                // Outside the first operand's spans nothing can change the result any more.
                 let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
                 if enter.t.is_finite() {
                     window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
@@ -220,7 +221,7 @@ impl Tree {
         }
     }
 
-    /// The crossings of a leaf.
+    /// The crossings of a leaf over the whole line.
     pub(super) fn leaf_crossings(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
     }
@@ -231,8 +232,8 @@ impl Tree {
         [spans.first, spans.second].map(|span| span.map(|span| span_crossings(leaf, span)))
     }
 
-    /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
-    /// first leaf's is seen, and a stay shorter than the tolerance is none.
+    /// Finds the one span of a ray in the intersection of convex leaves. As in [`merge`], of coincident faces the first
+    /// leaf's is seen, and a span shorter than the tolerance is dropped.
     fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
         let mut stay: Option<[Crossing; 2]> = None;
         for &leaf in leaves {

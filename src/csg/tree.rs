@@ -1,4 +1,4 @@
-//! Solids compiled for tracing: what can never be seen is gone, and every node knows its bounds.
+//! The compiled tree: solids without what can never be seen, and bounds for every node.
 
 use serde::Serialize;
 
@@ -16,12 +16,12 @@ pub struct Tree {
     pub(super) dropped: DroppedCounts,
 }
 
-/// What was left out of solids, since nothing of it can be seen.
+/// The number of parts that were dropped because they cannot be seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct DroppedCounts {
     /// Compositions that were proved empty.
     pub empty: usize,
-    /// Operands of differences that take nothing away.
+    /// Operands of differences that subtract nothing.
     pub out_of_reach: usize,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Node {
 #[derive(Debug)]
 pub(super) enum NodeKind {
     Leaf(LeafIndex),
-    /// The intersection of convex leaves: one span at most, found without merging.
+    /// The intersection of convex leaves: at most one span, found without merging.
     Convex(Vec<LeafIndex>),
     Composition {
         operation: Operation,
@@ -43,13 +43,13 @@ pub(super) enum NodeKind {
 }
 
 impl Tree {
-    /// What was left out.
+    /// The number of parts that were dropped.
     pub fn dropped(&self) -> DroppedCounts {
         self.dropped
     }
 
-    /// How many boolean operations the solid `root` is made by: as few as it could be written with, since unions of unions
-    /// are one, and so is a difference with the union that it takes away.
+    /// Counts the boolean operations of the solid `root`, at the least number that can express it: nested unions count
+    /// as one, and a difference and the union that it subtracts count as one.
     pub fn operations_of(&self, root: RootId) -> usize {
         self.operations_in(root.node())
     }
@@ -74,12 +74,12 @@ impl Tree {
         }
     }
 
-    /// The leaf that a surface belongs to.
+    /// The leaf to which a surface belongs.
     pub fn leaf(&self, surface: Surface) -> &Leaf {
         &self.leaves[surface.leaf.index()]
     }
 
-    /// Every leaf of the solid `root`.
+    /// All leaves of the solid `root`.
     pub fn leaves_of(&self, root: RootId) -> Vec<&Leaf> {
         self.leaves_in(root.node())
     }
@@ -94,8 +94,8 @@ impl Tree {
         }
     }
 
-    /// The box of every leaf of the solid `root`, cut down to where the leaf can matter: the bounds of all
-    /// compositions around it. Leaves that matter nowhere have none.
+    /// The box of every leaf of the solid `root`, clipped to the bounds of all compositions around the leaf: elsewhere
+    /// the leaf cannot matter. Leaves whose clipped box is empty are left out.
     pub fn boxes_of(&self, root: RootId) -> Vec<Aabb> {
         self.boxes_in(root.node())
     }

@@ -1,9 +1,9 @@
-//! A hierarchy of bounding boxes over solids.
+//! A bounding volume hierarchy over solids.
 
 use crate::csg::RootId;
 use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
 
-/// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
+/// A binary tree of boxes. A node stores the boxes of both its children, so that one visit tests both.
 #[derive(Debug, Default)]
 pub(super) struct Bvh {
     top: Option<(Aabb, Child)>,
@@ -11,7 +11,7 @@ pub(super) struct Bvh {
     roots: Vec<RootId>,
 }
 
-/// Two boxes side by side: by axis, then by child.
+/// The boxes of two children, by axis and then by child.
 #[derive(Debug, Default)]
 struct Node {
     min: [[f64; 2]; 3],
@@ -21,14 +21,15 @@ struct Node {
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Child {
-    /// An inner node: its number. A leaf: its first root.
+    /// For an inner node its index, for a leaf the index of its first root.
     to: u32,
-    /// How many roots a leaf has; 0 for an inner node.
+    /// The number of roots in a leaf; 0 for an inner node.
     count: u32,
 }
 
-/// Boxes still to be visited, and where the ray enters them: one at most on each unbalanced level, and on the 32 that
-/// halve at most 2³² solids. Kept from ray to ray, since clearing it would cost more than a box.
+/// The boxes that a ray has yet to visit, and where it enters them: at most one for each level, of which
+/// [`MAX_SAH_DEPTH`] are split by area, and 32 halve at most 2³² solids. Kept from ray to ray, since clearing it would
+/// cost more than a box.
 #[derive(Debug)]
 pub(super) struct Pending([(f64, Child); MAX_SAH_DEPTH as usize + 32]);
 
@@ -47,7 +48,7 @@ impl Bvh {
         bvh
     }
 
-    /// No hierarchy: all solids in one box.
+    /// All solids in one box, without a hierarchy.
     pub fn flat(solids: Vec<(RootId, Aabb)>) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let roots: Vec<_> = solids.iter().map(|(root, _)| *root).collect();
@@ -59,8 +60,8 @@ impl Bvh {
         self.roots.iter().copied()
     }
 
-    /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` answers with a new
-    /// `t_max`; a negative one ends the search.
+    /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` returns the new `t_max`; a
+    /// negative one ends the search.
     #[inline(always)]
     pub fn visit(
         &self,
@@ -128,8 +129,8 @@ impl Bvh {
 }
 
 impl Node {
-    /// Where `ray` enters each child's box before `t_max`; infinite where it does not. As [`Aabb::entry`], but for
-    /// two boxes at once: written so that the compiler can use one instruction for both.
+    /// The distances at which `ray` enters the children's boxes before `t_max`; infinite for a box that it misses. The
+    /// same as [`Aabb::entry`], for two boxes at once, so that the compiler can use vector instructions.
     #[inline(always)]
     fn entries(&self, ray: &Ray, t_max: f64) -> [f64; 2] {
         let (mut near, mut far) = ([0.0; 2], [t_max; 2]);

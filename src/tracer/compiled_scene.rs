@@ -1,4 +1,4 @@
-//! A scene compiled to only what it needs.
+//! A scene compiled for tracing.
 
 use glam::DVec3;
 
@@ -11,22 +11,22 @@ use crate::scene::{Light, Material, Scene};
 #[derive(Debug)]
 pub(super) struct CompiledScene {
     pub tree: Tree,
-    /// The roots with bounds.
+    /// The roots with finite bounds.
     pub bounded: Bvh,
-    /// The roots without.
+    /// The roots without finite bounds.
     pub unbounded: Vec<RootId>,
     pub background: DVec3,
     pub lights: Vec<Light>,
-    /// The solids that transmit and that the eye is in.
+    /// The transmitting solids that contain the eye.
     pub eye_media: Vec<Medium>,
     pub shadings: Vec<Shading>,
-    /// What the scene's file has.
+    /// Counts of what the scene file states.
     pub source: SourceCounts,
-    /// Solids that were proved empty.
+    /// The number of solids that were proved empty.
     pub dropped: usize,
 }
 
-/// A material with its constants multiplied out.
+/// A material's coefficients for the equation, with the constants multiplied.
 #[derive(Debug)]
 pub(super) struct Shading {
     /// Ka Ia times the colour.
@@ -39,7 +39,7 @@ pub(super) struct Shading {
     pub ior: f64,
 }
 
-/// Phong's exponent: whole ones, the usual case, need no logarithm.
+/// Phong's exponent. Whole exponents, the usual case, need no logarithm.
 #[derive(Debug)]
 pub(super) enum Exponent {
     Whole(i32),
@@ -97,7 +97,7 @@ impl CompiledScene {
         }
     }
 
-    /// All roots: those without bounds, then the others.
+    /// All roots: the unbounded ones first, then those of the hierarchy.
     pub fn roots(&self) -> impl Iterator<Item = RootId> {
         self.unbounded.iter().copied().chain(self.bounded.roots())
     }
@@ -107,8 +107,8 @@ impl CompiledScene {
     }
 }
 
-/// Takes unions apart where nobody can tell: an opaque union seen from outside looks like its parts one by one, and
-/// each of them has closer bounds.
+/// Splits opaque unions that the eye is outside of: these look like their operands one by one, and each operand has
+/// closer bounds.
 fn split_unions<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
     match solid {
         Solid::Union(solids) if is_opaque(solid, scene) && !solid.contains(scene.camera.eye) => {

@@ -1,7 +1,8 @@
-//! What a ray meets among all solids.
+//! A ray's nearest hit among all solids, and the light that reaches a point.
 //!
-//! What traces is compiled twice, watched and not (see [`super::observer`]). Functions with one caller in the source then
-//! have two, and the compiler would no longer take them in by itself, which costs 3 to 4 %: so it is told to.
+//! The tracing code is compiled twice, with an observer and without (see [`super::observer`]). Functions with one
+//! caller in the source then have two, and the compiler stops inlining them, which costs 3 to 4 %; hence the
+//! `#[inline(always)]`.
 
 use super::bvh::Pending;
 use super::compiled_scene::CompiledScene;
@@ -9,7 +10,7 @@ use super::media::Medium;
 use crate::csg::{Hit, RayStart, RootId, Stack, tie_break};
 use crate::geometry::Ray;
 
-/// What finding a hit needs of scratch, kept from ray to ray.
+/// Scratch memory of a search for hits, kept from ray to ray.
 #[derive(Debug, Default)]
 pub(super) struct HitScratch {
     spans: Stack,
@@ -18,7 +19,7 @@ pub(super) struct HitScratch {
     media: Vec<RootId>,
 }
 
-/// A surface that lets light through, on the way of a shadow ray.
+/// A shadow ray's crossing of a transmitting surface.
 #[derive(Debug)]
 struct TransparentCrossing {
     t: f64,
@@ -27,13 +28,13 @@ struct TransparentCrossing {
     kt: f64,
 }
 
-/// Whether a ray is on its way back at the distance `t`: it reversed where it starts and is still there.
+/// Whether a ray at the distance `t` passes coincident boundaries in reverse: it is reversed, and still at its start.
 pub(super) fn is_reversed_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
     start.is_some_and(|start| start.reversed) && t <= ray.tolerance(0.0)
 }
 
 impl CompiledScene {
-    /// The nearest boundary on `ray`, and the root that it bounds.
+    /// Finds the nearest boundary on `ray`, and the root that it belongs to.
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, scratch: &mut HitScratch) -> Option<(RootId, Hit)> {
         let HitScratch { spans, boxes, .. } = scratch;
@@ -76,8 +77,8 @@ impl CompiledScene {
         self.bounded.visit(ray, t_max, pending, visit);
     }
 
-    /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
-    /// every surface between two media on the way, 0 behind anything that does not transmit.
+    /// The part of a light's intensity that arrives at a point in `media` over the distance `t_max`: the product of Kt
+    /// over all surfaces between two media on the way, and 0 behind any surface that does not transmit.
     #[inline(always)]
     pub fn light_transmittance(
         &self,
@@ -108,9 +109,9 @@ impl CompiledScene {
         transmittance(surfaces, inside, ray, start.reversed)
     }
 
-    /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
-    /// transmits nothing, else at `t_max`. Unlike [`CompiledScene::light_transmittance`] it goes on from the first that it finds to
-    /// the nearest.
+    /// The distance at which the light that comes against `ray` from `t_max` is blocked: that of the nearest surface
+    /// that does not transmit, or `t_max`. Unlike [`CompiledScene::light_transmittance`], which stops at any such
+    /// surface, it finds the nearest.
     pub fn shadow_ray_end(&self, ray: &Ray, start: RayStart, t_max: f64, scratch: &mut HitScratch) -> f64 {
         let HitScratch { spans, boxes, .. } = scratch;
         let mut end = t_max;
@@ -129,8 +130,8 @@ impl CompiledScene {
     }
 }
 
-/// What part of light passes these surfaces, of which those inside a medium that stands before theirs are not there.
-/// `inside` are the roots that the ray is in where it starts; it may have `reversed` there.
+/// The part of light that passes these surfaces. Surfaces inside a medium of higher priority do not exist. `inside` are
+/// the roots that contain the ray's start, where the ray may be `reversed`.
 fn transmittance(surfaces: &mut [TransparentCrossing], inside: &mut Vec<RootId>, ray: &Ray, reversed: bool) -> f64 {
     surfaces.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
     let touch = |a: &TransparentCrossing, b: &TransparentCrossing| b.t - a.t <= ray.tolerance(b.t);

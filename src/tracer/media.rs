@@ -1,26 +1,26 @@
-//! What a ray travels in, where solids that transmit overlap or touch.
+//! The media that a ray travels in, where transmitting solids overlap or touch.
 //!
-//! Where several are at one place, the one that stands first in the scene fills it, and the boundaries of the others are
-//! not there (C. M. Schmidt and B. Budge, *Simple Nested Dielectrics in Ray Traced Images*, 2002, whose priorities are the
-//! order of the scene here). So glass that overlaps the water in it leaves no gap of air between them.
+//! Where several solids overlap, the first in the scene fills the space, and the boundaries of the others do not exist
+//! there (C. M. Schmidt and B. Budge, *Simple Nested Dielectrics in Ray Traced Images*, 2002; priority is scene order
+//! here). So glass that overlaps the water in it leaves no gap of air between them.
 
 use crate::csg::RootId;
 
-/// A solid that transmits, by its root, and its index of refraction.
+/// A transmitting solid: its root and its index of refraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Medium {
     pub root: RootId,
     pub ior: f64,
 }
 
-/// All that a ray is in: one of the [`MediaSets`].
+/// The set of media that a ray is in, stored in [`MediaSets`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Media {
     start: usize,
     end: usize,
 }
 
-/// The sets of media that the rays of a sample are in.
+/// All sets of media of a sample's rays.
 #[derive(Debug, Default)]
 pub(super) struct MediaSets {
     all: Vec<Medium>,
@@ -28,7 +28,7 @@ pub(super) struct MediaSets {
 }
 
 impl MediaSets {
-    /// Begins with what the eye is in.
+    /// Removes all sets, and starts with the media that the eye is in.
     pub fn restart(&mut self, eye: &[Medium]) -> Media {
         self.all.clear();
         self.sets.clear();
@@ -36,17 +36,17 @@ impl MediaSets {
         self.intern(0)
     }
 
-    /// All that a ray is in.
+    /// The media of a set.
     pub fn get(&self, media: Media) -> &[Medium] {
         &self.all[media.start..media.end]
     }
 
-    /// What fills the place around the boundary of `root`: of all others that the ray is in, the first in the scene.
+    /// The medium on the outer side of the boundary of `root`: the first in the scene of all others that the ray is in.
     pub fn surrounding(&self, media: Media, root: RootId) -> Option<Medium> {
         self.get(media).iter().filter(|medium| medium.root != root).min_by_key(|medium| medium.root).copied()
     }
 
-    /// What a ray is in after it has entered or left `medium`.
+    /// The media that a ray is in after it has entered or left `medium`.
     pub fn after_crossing(&mut self, media: Media, medium: Medium, enters: bool) -> Media {
         let start = self.all.len();
         for index in media.start..media.end {
@@ -60,8 +60,8 @@ impl MediaSets {
         self.intern(start)
     }
 
-    /// The set that begins at `start` and is the last; an equal one, if one of the last has been the same. So rays that
-    /// go in and out of the same solids, however many, take no memory.
+    /// Makes the media from `start` on a set, or returns an equal one among the most recent sets. So a ray that enters
+    /// and leaves the same solids any number of times takes no memory.
     fn intern(&mut self, start: usize) -> Media {
         const RECENT_SETS: usize = 16;
         let new = Media { start, end: self.all.len() };
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_in_the_scene_fills_a_place() {
+    fn first_medium_in_scene_fills_overlap() {
         let mut sets = MediaSets::default();
         let start = sets.restart(&[medium(7)]);
         let around = |sets: &MediaSets, media, root| sets.surrounding(media, RootId(root));
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_that_goes_on_and_on_takes_no_memory() {
+    fn repeated_sets_take_no_memory() {
         let mut sets = MediaSets::default();
         let start = sets.restart(&[medium(0)]);
         let mut media = start;

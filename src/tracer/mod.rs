@@ -1,4 +1,4 @@
-//! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
+//! The tracer: a compiled scene, and the article's equation (§3).
 
 mod bvh;
 mod camera;
@@ -34,21 +34,21 @@ use compiled_scene::CompiledScene;
 use observer::{Note, Observer};
 use pattern::SamplePattern;
 
-/// How many rays of each kind were traced.
+/// The number of rays of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RayCounts {
     /// From the camera.
     pub primary: u64,
-    /// Towards lights.
+    /// Towards a light.
     pub shadow: u64,
-    /// Reflected.
+    /// From a reflecting surface.
     pub reflected: u64,
-    /// Refracted.
+    /// Through a transmitting surface.
     pub refracted: u64,
 }
 
 impl RayCounts {
-    /// Rays of all kinds.
+    /// The sum over all kinds.
     pub fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflected + self.refracted
     }
@@ -72,7 +72,7 @@ impl AddAssign for RayCounts {
     }
 }
 
-/// A compiled scene, seen by its camera at one size and quality; shared by all threads.
+/// A compiled scene with its camera, at one size and quality; shared by all threads.
 #[derive(Debug)]
 pub struct Tracer {
     scene: CompiledScene,
@@ -104,20 +104,20 @@ impl Tracer {
         self.size
     }
 
-    /// How good the picture is.
+    /// The quality of the picture.
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// The boxes of all primitives of solids with bounds, each no larger than its solid's. Outside of its box a
-    /// primitive cannot matter.
+    /// The boxes of all primitives of bounded solids, each clipped to its solid's bounds. Outside its box a primitive
+    /// cannot matter.
     pub fn boxes(&self) -> Vec<Aabb> {
         self.scene.bounded.roots().flat_map(|root| self.scene.tree.boxes_of(root)).collect()
     }
 
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.
     ///
-    /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
+    /// A pixel's colour depends only on the scene, the size, the quality and the pixel's position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
         out.extend(pixels.map(|pixel| self.previewed_or_traced(pixel, scratch)));
     }
@@ -141,13 +141,13 @@ impl Tracer {
     }
 }
 
-/// The mean of no more samples than are needed, at most `most` (at least 4).
+/// Takes samples until their mean is good enough, at most `max_samples` (at least 4). Returns the mean, and whether it
+/// includes the corners.
 ///
-/// At first those at the corners and four of the pattern: an edge that goes through the pixel parts the corners, however
-/// little it cuts off (Whitted 1980 looks at corners too), and what is small is likely met within. If they are the same
-/// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
-/// estimated as no more than that.
-/// Also returns whether the corners are among the samples whose mean it is.
+/// The first samples are the four corners and four of the pattern: an edge through the pixel separates the corners,
+/// however little it cuts off (Whitted 1980 compares corners too), and the other four probably hit small details. If
+/// all eight agree within `threshold`, they suffice. Otherwise the pattern goes on, with four times as many samples
+/// each time, until the estimated error of its mean is at most `threshold`.
 fn adaptive_mean(
     max_samples: u32,
     threshold: f64,
@@ -173,8 +173,8 @@ fn adaptive_mean(
         }
         count = max_samples.min(4 * count);
         let samples = f64::from(count);
-        // As if the samples were independent. They are spread better than that, so that this is too much rather than
-        // too little.
+        // The estimate assumes independent samples. These are spread more evenly, so it is too large rather than too
+        // small.
         let variance = (squares - sum * sum / samples).max_element() / (samples - 1.0);
         if variance <= threshold * threshold * samples {
             break;
@@ -183,9 +183,9 @@ fn adaptive_mean(
     (sum / f64::from(count), false)
 }
 
-/// A step in scan order at which about so many pixels of a picture are looked at.
+/// A step in scan order that takes about `looked_at` pixels of a picture.
 ///
-/// An odd one seldom divides a width, so that the pixels are in many columns.
+/// It is odd: an odd number seldom divides the width, so that the pixels lie in many columns.
 pub fn sampling_step(size: Size, looked_at: u32) -> u32 {
     (size.pixels() / looked_at) | 1
 }
