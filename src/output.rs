@@ -62,7 +62,8 @@ const MAX_NAME_BYTES: usize = 255;
 
 /// Checks that a file can be written to `path`, before its content is made.
 ///
-/// # Errors [`OutputError::Path`] if `path` is a directory or a device, its name is impossible, or its directory is
+/// # Errors
+/// [`OutputError::Path`] if `path` is a directory or a device, its name is impossible, or its directory is
 /// missing or read-only.
 pub fn check_writable(path: &Path) -> Result<(), OutputError> {
     begin(path).map(drop)
@@ -70,7 +71,8 @@ pub fn check_writable(path: &Path) -> Result<(), OutputError> {
 
 /// Writes the output of `fill` to `path`, atomically: the file appears complete, and until then an existing one stays.
 ///
-/// # Errors [`OutputError::Path`] as [`check_writable`]; [`OutputError::Write`] with the system's error.
+/// # Errors
+/// [`OutputError::Path`] as [`check_writable`]; [`OutputError::Write`] with the system's error.
 pub fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,

@@ -9,11 +9,11 @@
 pub type Rgb = [u8; 3];
 
 /// The number of distinct node colours.
-pub const DISTINCT: usize = 32;
+pub const DISTINCT_COLOURS: usize = 32;
 
-/// Nodes, in a ring of [`DISTINCT`], whose colours are distinct wherever they meet in a chart, on a light and on a dark
-/// background, for people with any common kind of colour blindness.
-pub const CHART: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
+/// Nodes, in a ring of [`DISTINCT_COLOURS`], whose colours are distinct wherever they meet in a chart, on a light and
+/// on a dark background, for people with any common kind of colour blindness.
+pub const CHART_NODES: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
 
 /// The neutral colours, and the accent, of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn chart_lines_are_distinct() {
-        let colours = CHART.map(|node| node_colour(usize::from(node), DISTINCT));
+        let colours = CHART_NODES.map(|node| node_colour(usize::from(node), DISTINCT_COLOURS));
         for (i, &one) in colours.iter().enumerate() {
             let seen = [contrast(one, PRINT.ground), contrast(one, [0x11, 0x14, 0x19])];
             assert!(seen.into_iter().all(|contrast| contrast >= 2.2), "{one:?} {seen:?}");
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn first_32_nodes_have_distinct_colours() {
-        for nodes in 1..=DISTINCT {
+        for nodes in 1..=DISTINCT_COLOURS {
             let mut colours = node_colours(nodes);
             colours.sort_unstable();
             colours.dedup();

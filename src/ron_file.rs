@@ -99,7 +99,8 @@ impl From<ReadError> for FileError {
 /// Reads the text of a file. `what` names the kind of file in errors, and `built_in` lists the built-in ones for the
 /// error that there is no such file.
 ///
-/// # Errors A [`ReadError`], without the file's path.
+/// # Errors
+/// A [`ReadError`], without the file's path.
 pub fn read<'a>(
     path: &Path,
     what: &'static str,
@@ -132,7 +133,8 @@ pub fn read<'a>(
 /// Parses the text of a file. `what` names the kind of file in errors, `least` the parts that it needs, and `deep` is
 /// the error if its nesting is too deep.
 ///
-/// # Errors The first mistake, with its line, column and field.
+/// # Errors
+/// The first mistake, with its line, column and field.
 pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &str) -> Result<T, FileError> {
     // Some editors put a byte order mark at the beginning of a file.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

@@ -1,5 +1,5 @@
-//! Compilation of solids: drops what can never be seen, and brings every composition into the form in which a ray needs
-//! least work.
+//! Compilation of solids: drops parts that can never be seen, and brings every composition into the form in which a
+//! ray needs least work.
 
 use super::id::NodeIndex;
 use super::merge::Operation;

@@ -26,7 +26,7 @@ pub struct RayStart {
     pub root: RootId,
     /// The face that it hit.
     pub surface: Surface,
-    /// Whether the incoming ray leaves the solid there, in the order of [`tie_break`].
+    /// The first part of the [`tie_break`]: whether the solid is left there, as seen along the incoming ray.
     pub exits: bool,
     /// Whether this ray stays on the incoming ray's side of the face, as reflected rays and shadow rays do.
     pub reversed: bool,
@@ -235,11 +235,11 @@ impl Tree {
     /// Finds the one span of a ray in the intersection of convex leaves. As in [`merge`], of coincident faces the first
     /// leaf's is seen, and a span shorter than the tolerance is dropped.
     fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
-        let mut stay: Option<[Crossing; 2]> = None;
+        let mut overlap: Option<[Crossing; 2]> = None;
         for &leaf in leaves {
             let span = self.leaves[leaf.index()].spans(ray, start_face(start, leaf)).first?;
             let [enter, leave] = span_crossings(leaf, span);
-            let [first, last] = stay.get_or_insert([enter, leave]);
+            let [first, last] = overlap.get_or_insert([enter, leave]);
             if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
                 *first = enter;
             }
@@ -250,7 +250,7 @@ impl Tree {
                 return None;
             }
         }
-        stay
+        overlap
     }
 }
 

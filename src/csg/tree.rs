@@ -1,4 +1,4 @@
-//! The compiled tree: solids without what can never be seen, and bounds for every node.
+//! The compiled tree: solids without their invisible parts, and bounds for every node.
 
 use serde::Serialize;
 

@@ -70,7 +70,8 @@ impl Division {
     /// Splits the colours of atoms that were traced together: for each range of `atoms`, in this order, its pixels
     /// (positions in scan order) and their colours.
     ///
-    /// # Panics If there are fewer `colours` than pixels in the atoms.
+    /// # Panics
+    /// If there are fewer `colours` than pixels in the atoms.
     pub fn placed<'a>(
         self,
         atoms: &'a [Range<Atom>],

@@ -22,7 +22,8 @@ impl Frame {
 
     /// A frame with all its pixels.
     ///
-    /// # Panics If the number of pixels is not that of the picture.
+    /// # Panics
+    /// If the number of pixels is not that of the picture.
     pub fn of(size: Size, pixels: &[Colour]) -> Self {
         let mut frame = Self::new(size);
         frame.place(0..size.pixels(), pixels);
@@ -41,7 +42,8 @@ impl Frame {
 
     /// Writes traced pixels to their positions in scan order.
     ///
-    /// # Panics If `range` is not inside the picture or not as long as `pixels`. The protocol sends no such range.
+    /// # Panics
+    /// If `range` is not inside the picture or not as long as `pixels`. The protocol sends no such range.
     pub fn place(&mut self, range: Range<u32>, pixels: &[Colour]) {
         self.pixels[range.start as usize..range.end as usize].copy_from_slice(pixels);
     }

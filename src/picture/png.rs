@@ -18,7 +18,8 @@ pub fn write_png(path: &Path, size: Size, rgb: &[u8]) -> Result<(), OutputError>
 
 /// Writes `rgb` (as [`write_png`]) as a PNG to a stream.
 ///
-/// # Errors The errors of `to`.
+/// # Errors
+/// The errors of `to`.
 pub fn encode_png(to: impl Write, size: Size, rgb: &[u8]) -> io::Result<()> {
     PngEncoder::new(to).write_image(rgb, size.width(), size.height(), ExtendedColorType::Rgb8).map_err(io::Error::other)
 }

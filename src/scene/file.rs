@@ -42,7 +42,8 @@ impl Opened {
 
     /// Parses a scene file's text, without a path.
     ///
-    /// # Errors The errors of [`Scene::parse`].
+    /// # Errors
+    /// The errors of [`Scene::parse`].
     pub fn from_text(name: &str, text: &str) -> Result<Self, FileError> {
         Ok(Self { name: name.into(), path: None, text: text.into(), scene: Scene::parse(text)? })
     }

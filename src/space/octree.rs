@@ -53,8 +53,8 @@ impl Octree {
     /// Visits the leaves that `ray` crosses up to the distance `to`, by number, each once and in order along the ray. A
     /// point between cells belongs to one of them.
     pub fn walk(&self, ray: &Ray, to: f64, mut visit: impl FnMut(u32)) {
-        if let Some(stay) = self.bounds.span(ray, 0.0, to) {
-            self.walk_cell(0, self.bounds, ray, stay, &mut visit);
+        if let Some(span) = self.bounds.span(ray, 0.0, to) {
+            self.walk_cell(0, self.bounds, ray, span, &mut visit);
         }
     }
 
