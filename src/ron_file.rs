@@ -82,7 +82,7 @@ pub enum ReadError {
     /// Reading failed.
     #[error("the file cannot be read: {0}")]
     Read(io::Error),
-    /// Larger than [`MAX_BYTES`].
+    /// Larger than 16 MiB.
     #[error("the file is larger than {max} MiB, which is too large for a {0}", max = MAX_BYTES >> 20)]
     TooLarge(&'static str),
     /// The line of this number, from 1, is not UTF-8.
