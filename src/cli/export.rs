@@ -61,7 +61,7 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     match (&args.pov, others.first()) {
         (Some(pov), _) if others.len() == 1 => {
             // Neither side is 0.
-            let usual = || Size::new(640, 480).map_err(Failure::Refused);
+            let usual = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
             let size = args.size.map_or_else(usual, Ok)?;
             let text = to_pov(&opened.scene, size, &Quality::default());
             write(pov, |file| file.write_all(text.as_bytes()))

@@ -52,10 +52,12 @@ pub(super) fn study(
         StudyKind::Paper => paper(&scenes[0], &mut told),
         StudyKind::Scale => scale(&scenes[0], &mut told),
         StudyKind::Rivals => rivals(&scenes, &mut told),
-        StudyKind::Peer => Size::new(320, 240).and_then(|size| peer(&scenes, size, &mut told)),
+        StudyKind::Peer => Size::new(320, 240).map_err(String::from).and_then(|size| peer(&scenes, size, &mut told)),
         StudyKind::Needs => needs(&scenes, &mut told),
         StudyKind::Stability => stability(&mut told),
-        StudyKind::Accuracy => Size::new(320, 240).and_then(|size| accuracy(&scenes, size, &mut told)),
+        StudyKind::Accuracy => {
+            Size::new(320, 240).map_err(String::from).and_then(|size| accuracy(&scenes, size, &mut told))
+        }
         StudyKind::Remedies => remedies(&scenes[0], &mut told),
         StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut told),
     };

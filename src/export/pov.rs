@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::{DAffine3, DVec3};
 
-use crate::csg::{Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Light, Material, Scene};
 
@@ -75,17 +75,17 @@ fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVe
 /// A body has one interior in POV-Ray, so the material is written at the outermost composition all of which has it.
 fn put_solid(text: &mut String, solid: &Solid) {
     put_parts(text, solid, common_tag(solid));
-    if let Some(tag) = common_tag(solid) {
+    if let Some(MaterialTag(tag)) = common_tag(solid) {
         put(text, format_args!("material {{ M{tag} }}\n"));
     }
     text.push_str("}\n");
 }
 
 /// The solid without its closing brace; `outer` is the material that what it stands in will have.
-fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
+fn put_parts(text: &mut String, solid: &Solid, outer: Option<MaterialTag>) {
     let (operation, solids) = match solid {
-        Solid::Placed { primitive, scene_from_own, .. } => {
-            return put(text, format_args!("{}\n", body(primitive, scene_from_own)));
+        Solid::Placed { primitive, scene_from_local, .. } => {
+            return put(text, format_args!("{}\n", body(primitive, scene_from_local)));
         }
         Solid::Union(solids) => ("union", solids),
         Solid::Intersection(solids) => ("intersection", solids),
@@ -107,7 +107,7 @@ fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
 }
 
 /// The tag of all primitives of a solid, if they have the same.
-fn common_tag(solid: &Solid) -> Option<u32> {
+fn common_tag(solid: &Solid) -> Option<MaterialTag> {
     match solid {
         Solid::Placed { tag, .. } => Some(*tag),
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
@@ -118,10 +118,10 @@ fn common_tag(solid: &Solid) -> Option<u32> {
 }
 
 /// The primitive at its place, without the closing brace.
-fn body(primitive: &Primitive, scene_from_own: &DAffine3) -> String {
+fn body(primitive: &Primitive, scene_from_local: &DAffine3) -> String {
     let own = match primitive {
         Primitive::Sphere => "sphere { 0, 1".into(),
-        Primitive::HalfSpace { normal, offset } => return plane(*normal, *offset, scene_from_own),
+        Primitive::HalfSpace { normal, offset } => return plane(*normal, *offset, scene_from_local),
         Primitive::Cube => "box { -1, 1".into(),
         Primitive::Cylinder => "cylinder { -y, y, 1".into(),
         Primitive::Cone { bottom, top } => format!("cone {{ -y, {bottom}, y, {top}"),
@@ -136,14 +136,14 @@ fn body(primitive: &Primitive, scene_from_own: &DAffine3) -> String {
             q.constant
         ),
     };
-    format!("{own} {}", matrix(scene_from_own))
+    format!("{own} {}", matrix(scene_from_local))
 }
 
 /// A half-space in the scene's coordinates: where a matrix scales a plane, POV-Ray takes the bounds of a composition from
 /// it wrongly, and the composition is not seen.
-fn plane(normal: DVec3, offset: f64, scene_from_own: &DAffine3) -> String {
-    let outward = (scene_from_own.matrix3.inverse().transpose() * normal).normalize();
-    let point = scene_from_own.transform_point3(normal * offset);
+fn plane(normal: DVec3, offset: f64, scene_from_local: &DAffine3) -> String {
+    let outward = (scene_from_local.matrix3.inverse().transpose() * normal).normalize();
+    let point = scene_from_local.transform_point3(normal * offset);
     format!("plane {{ {}, {}", vector(outward), outward.dot(point))
 }
 

@@ -9,7 +9,7 @@ use crate::palette::{PRINT, Rgb, node_colour, readable, text_on};
 use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
 
 /// The text of an SVG file of a display list that was made for `size`, with the colours of a ring of `nodes`; a chart's
-/// are those of [`crate::palette::DISTINCT`].
+/// are those of [`crate::palette::DISTINCT_COLOURS`].
 pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
     written(marks, size, nodes, false)
 }

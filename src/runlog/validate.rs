@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::Header;
 use crate::balance::{Message, NodeId, Party, Strategy, estimate};
-use crate::picture::{Atom, Division, Size};
+use crate::picture::{Atom, Division, QualityError, Size, SizeError};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
@@ -22,14 +22,14 @@ const MAX_MESSAGE_BYTES: u64 = 1 << 32;
 const MAX_PIXELS_SENT: u64 = u32::MAX as u64;
 
 /// Why a header is invalid.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum InvalidHeader {
-    /// The size of the picture is impossible, for this reason.
-    #[error("{0}")]
-    Size(String),
-    /// The quality is impossible, for this reason.
-    #[error("{0}")]
-    Quality(String),
+    /// The size of the picture is impossible.
+    #[error(transparent)]
+    Size(SizeError),
+    /// The quality is impossible.
+    #[error(transparent)]
+    Quality(QualityError),
     /// The division does not fit the size of the picture.
     #[error("the number of atoms does not fit the size of the picture")]
     WrongDivision,

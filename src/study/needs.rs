@@ -39,7 +39,7 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String>
     for scene in scenes {
         progress.next(&format!("{}, a first look", scene.name));
         looks.push(first_look(scene)?);
-        let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
+        let tracer = |reductions| Tracer::with_passes(&scene.scene, size, Quality::default(), reductions);
         let all = tracer(Passes::default());
         let without = Pass::ALL.map(|reduction| tracer(Passes::default().without(reduction)));
         let mut ratios = Pass::ALL.map(|_| Vec::new());
@@ -113,7 +113,7 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
     text.push_str("|---|---|---:|---:|---:|---:|---:|---|---|---|\n");
     for scene in scenes {
         let tracer = Tracer::new(&scene.scene, size, Quality::default());
-        let kept = tracer.compiled();
+        let kept = tracer.scene_stats();
         let primitives: Vec<_> = kept.primitives.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         let levels: Vec<_> = tracer.levels().iter().map(u64::to_string).collect();
         let yes = |is: bool| if is { "yes" } else { "no" };
@@ -122,10 +122,10 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
             "| {} | {} of {}: {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
             scene.name,
             kept.primitives.values().sum::<usize>(),
-            kept.given.primitives,
+            kept.source.primitives,
             primitives.join(", "),
             kept.operations,
-            kept.given.operations,
+            kept.source.operations,
             kept.solids,
             kept.unbounded,
             kept.dropped + kept.parts_dropped.empty,
@@ -150,7 +150,7 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
                 differing => format!("{:.3} ({differing})", saving.ratio),
             })
             .collect();
-        say!(text, "| {} | {} |", reduction.says(), cells.join(" | "));
+        say!(text, "| {} | {} |", reduction.description(), cells.join(" | "));
     }
     text
 }

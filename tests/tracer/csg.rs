@@ -1,13 +1,13 @@
 //! Boolean operations along rays: pictures as text, coincident faces, and many operands.
 
-use anel::csg::{Primitive, Solid, Stack, Tree};
+use anel::csg::{MaterialTag, Primitive, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use glam::{DAffine3, DMat3, DVec3};
 use proptest::prelude::*;
 
 fn placed(primitive: Primitive, scale: DVec3, degrees: DVec3, at: DVec3, tag: u32) -> Solid {
     let matrix3 = rotation(degrees) * DMat3::from_diagonal(scale);
-    Solid::Placed { primitive, scene_from_own: DAffine3 { matrix3, translation: at }, tag }
+    Solid::Placed { primitive, scene_from_local: DAffine3 { matrix3, translation: at }, tag: MaterialTag(tag) }
 }
 
 fn ball(at: DVec3, tag: u32) -> Solid {
@@ -28,7 +28,7 @@ fn picture(solid: &Solid) -> String {
             let (x, y) = ((f64::from(x) - 15.5) / 8.0, (7.5 - f64::from(y)) / 4.0);
             let ray = Ray::new(DVec3::new(x, y, 10.0), DVec3::NEG_Z);
             let hit = root.and_then(|root| tree.nearest(root, &ray, None, f64::INFINITY, &mut Stack::new()));
-            rows.push(hit.map_or('.', |hit| char::from(b'a' + tree.leaf(hit.surface).tag as u8)));
+            rows.push(hit.map_or('.', |hit| char::from(b'a' + tree.leaf(hit.surface).tag.0 as u8)));
         }
         rows.push('\n');
     }
@@ -81,7 +81,11 @@ fn rays_pass_a_bore_with_coincident_caps() {
         let back = DAffine3::from_translation(DVec3::Y * -1.5);
         let lengthen = DAffine3::from_scale(DVec3::new(1.0, 2.0, 1.0));
         let place = DAffine3 { matrix3: turn, translation: at };
-        Solid::Placed { primitive: Primitive::Cylinder, scene_from_own: place * back * lengthen * up * scale, tag: 1 }
+        Solid::Placed {
+            primitive: Primitive::Cylinder,
+            scene_from_local: place * back * lengthen * up * scale,
+            tag: MaterialTag(1),
+        }
     };
     let mut tree = Tree::default();
     let (root, _) = tree.add(&Solid::Difference(vec![body, bore])).expect("a bored cylinder");
@@ -115,7 +119,7 @@ fn crossings(solid: &Solid, ray: &Ray) -> Vec<(f64, u32)> {
     let Some((root, _)) = tree.add(solid) else { return Vec::new() };
     let mut found = Vec::new();
     tree.crossings(root, ray, None, f64::INFINITY, &mut Stack::new(), |hit| {
-        found.push((hit.t, tree.leaf(hit.surface).tag));
+        found.push((hit.t, tree.leaf(hit.surface).tag.0));
         true
     });
     found

@@ -1,6 +1,6 @@
 //! Rays that start on a face, and coincident faces of different solids.
 
-use anel::csg::{Primitive, QuadricCoefficients, RayStart, Solid, Stack, Tree};
+use anel::csg::{MaterialTag, Primitive, QuadricCoefficients, RayStart, Solid, Stack, Tree};
 use anel::geometry::{Ray, rotation};
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::Scene;
@@ -44,7 +44,7 @@ proptest! {
         prop_assume!(from.length() > 0.1 && aside.length() > 0.1);
         let map = DAffine3 { matrix3: rotation(degrees) * DMat3::from_diagonal(scale), translation: at };
         let mut tree = Tree::default();
-        let placed = Solid::Placed { primitive, scene_from_own: map, tag: 0 };
+        let placed = Solid::Placed { primitive, scene_from_local: map, tag: MaterialTag(0) };
         let (root, _) = tree.add(&placed).expect("a primitive is not empty");
         let target = map.transform_point3(aim);
         let ray = Ray::new(target - from.normalize() * 5.0, from.normalize());
@@ -55,7 +55,7 @@ proptest! {
         let along = normal.cross(aside.normalize());
         prop_assume!(along.length() > 0.1);
         let (sine, cosine) = 10f64.powf(-power).sin_cos();
-        let start = RayStart { root, surface: hit.surface, leaves: false, turned: false };
+        let start = RayStart { root, surface: hit.surface, exits: false, reversed: false };
         let mut next = |side: f64| {
             let direction = along.normalize() * cosine + normal * (side * sine);
             tree.nearest(root, &ray.onward(hit.t, direction.normalize()), Some(start), f64::INFINITY, stack)

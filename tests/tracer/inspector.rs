@@ -4,7 +4,7 @@ use anel::csg::{Operation, SolidKind, SpanDiagram};
 use anel::language::Language;
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
-use anel::tracer::{Explained, RayCounts, RayKind, Scratch, Tracer};
+use anel::tracer::{ExplainedSample, RayCounts, RayKind, Scratch, Tracer};
 use anel::view::Inspected;
 
 fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
@@ -12,7 +12,11 @@ fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
 }
 
 /// Calls `each` with the explanation, the colour and the numbers of rays of every pixel.
-fn each_pixel(scene: &Scene, quality: Quality, mut each: impl FnMut(&Tracer, Vec<Explained>, [f32; 3], RayCounts)) {
+fn each_pixel(
+    scene: &Scene,
+    quality: Quality,
+    mut each: impl FnMut(&Tracer, Vec<ExplainedSample>, [f32; 3], RayCounts),
+) {
     let size = Size::new(40, 30).expect("a small picture");
     let tracer = Tracer::new(scene, size, quality);
     for pixel in 0..size.pixels() {
@@ -32,9 +36,9 @@ fn sum_of_all_terms_is_the_colour_of_the_pixel() {
         for (name, scene) in built_in() {
             each_pixel(&scene, quality, |_, samples, colour, _| {
                 // Equal to the last bit.
-                assert_eq!(Explained::mean(&samples).as_vec3().to_array(), colour, "{name}");
+                assert_eq!(ExplainedSample::mean(&samples).as_vec3().to_array(), colour, "{name}");
                 for sample in &samples {
-                    let (colour, brought) = (sample.colour(), sample.brings(0));
+                    let (colour, brought) = (sample.colour(), sample.contribution_of(0));
                     assert!(brought.abs_diff_eq(colour, 1e-12 * (1.0 + colour.length())), "{name}");
                 }
             });
@@ -58,7 +62,7 @@ fn tree_has_all_rays_with_the_weights_of_the_equation() {
             assert_eq!(sample.rays_left_out > 0, sample.left_out > 1e-12, "{name}: {}", sample.left_out);
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
-                let material = &scene.materials[from.met.expect("it starts on a surface").tag as usize];
+                let material = &scene.materials[from.met.expect("it starts on a surface").tag.index()];
                 let part = ray.path.weight / from.path.weight;
                 let possible = match ray.path.kind {
                     RayKind::Refracted => vec![material.kt],
@@ -74,7 +78,7 @@ fn tree_has_all_rays_with_the_weights_of_the_equation() {
 /// Whether a distance is inside a composition, by the spans of its operands.
 fn is_inside_by_operands(operation: Operation, operands: &[SpanDiagram]) -> impl Fn(f64) -> bool {
     move |t| {
-        let mut holds = operands.iter().map(|operand| operand.stays.iter().any(|[from, to]| *from <= t && t <= *to));
+        let mut holds = operands.iter().map(|operand| operand.spans.iter().any(|[from, to]| *from <= t && t <= *to));
         match operation {
             Operation::Union => holds.any(|holds| holds),
             Operation::Intersection => holds.all(|holds| holds),
@@ -84,14 +88,14 @@ fn is_inside_by_operands(operation: Operation, operands: &[SpanDiagram]) -> impl
 }
 
 fn assert_consistent_with_operands(figure: &SpanDiagram, name: &str) {
-    if let SolidKind::Composition(operation) = figure.what {
+    if let SolidKind::Composition(operation) = figure.kind {
         let mut places: Vec<f64> =
-            figure.operands.iter().flat_map(|operand| operand.stays.concat()).filter(|t| t.is_finite()).collect();
+            figure.operands.iter().flat_map(|operand| operand.spans.concat()).filter(|t| t.is_finite()).collect();
         places.sort_by(f64::total_cmp);
         let holds = is_inside_by_operands(operation, &figure.operands);
         for pair in places.windows(2).filter(|pair| pair[1] - pair[0] > 1e-6) {
             let middle = (pair[0] + pair[1]) / 2.0;
-            let is_inside = figure.stays.iter().any(|[from, to]| *from < middle && middle < *to);
+            let is_inside = figure.spans.iter().any(|[from, to]| *from < middle && middle < *to);
             assert_eq!(is_inside, holds(middle), "{name}: {operation:?} at {middle}: {figure:#?}");
         }
     }
@@ -130,13 +134,13 @@ fn span_diagrams_show_the_solids_along_a_ray() {
     for (name, scene) in built_in() {
         each_pixel(&scene, Quality::default(), |tracer, samples, _, _| {
             for ray in samples[0].rays.iter().take(4) {
-                let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
+                let figures = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
                 figures.iter().for_each(|(_, figure)| assert_consistent_with_operands(figure, name));
                 let Some(met) = ray.met else { continue };
                 // The ray ends at the start or the end of a span of the solid that it hit.
                 let (_, figure) =
                     figures.iter().find(|(root, _)| *root == met.start.root).expect("the solid that the ray hit");
-                let near = figure.stays.concat().iter().any(|t| (t - ray.path.to).abs() < 1e-9 * (1.0 + t.abs()));
+                let near = figure.spans.concat().iter().any(|t| (t - ray.path.to).abs() < 1e-9 * (1.0 + t.abs()));
                 assert!(near, "{name}: {} is not in {figure:#?}", ray.path.to);
             }
         });

@@ -117,7 +117,7 @@ fn preview_does_not_change_the_picture_or_its_rays() {
             assert_eq!(preview.step(), step);
             for (x, y) in [(0, 0), (16, 32), (64, 16)] {
                 assert_eq!(
-                    preview.guess(x, y),
+                    preview.interpolate(x, y),
                     plain.0[(y * 75 + x) as usize],
                     "{name}: a pixel known from the preview"
                 );
@@ -125,7 +125,7 @@ fn preview_does_not_change_the_picture_or_its_rays() {
             assert!(traced(&tracer) == plain, "{name}: with every {step}th pixel known from the preview");
         }
         let preview = tracer.preview().expect("the whole picture");
-        let whole: Vec<_> = (0..size.pixels()).map(|pixel| preview.guess(pixel % 75, pixel / 75)).collect();
+        let whole: Vec<_> = (0..size.pixels()).map(|pixel| preview.interpolate(pixel % 75, pixel / 75)).collect();
         assert!(whole == plain.0, "{name}");
     }
 }

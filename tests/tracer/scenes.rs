@@ -1,6 +1,6 @@
 //! The built-in scenes, and the effect of compiling on them.
 
-use anel::csg::{Primitive, Solid};
+use anel::csg::{MaterialTag, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
@@ -23,11 +23,11 @@ fn leaves(solid: &Solid, visit: &mut impl FnMut(&Primitive)) {
     placed(solid, &mut |primitive, _| visit(primitive));
 }
 
-fn tags(solid: &Solid, visit: &mut impl FnMut(u32)) {
+fn tags(solid: &Solid, visit: &mut impl FnMut(MaterialTag)) {
     placed(solid, &mut |_, tag| visit(tag));
 }
 
-fn placed(solid: &Solid, visit: &mut impl FnMut(&Primitive, u32)) {
+fn placed(solid: &Solid, visit: &mut impl FnMut(&Primitive, MaterialTag)) {
     match solid {
         Solid::Placed { primitive, tag, .. } => visit(primitive, *tag),
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
@@ -86,7 +86,7 @@ fn transmitting_solids_do_not_overlap() {
         let scene = parse(name, text);
         let transmits = |solid: &&Solid| {
             let mut found = false;
-            tags(solid, &mut |tag| found |= scene.materials[tag as usize].kt > 0.0);
+            tags(solid, &mut |tag| found |= scene.materials[tag.index()].kt > 0.0);
             found
         };
         let glasses: Vec<&Solid> = scene.solids.iter().filter(transmits).collect();
@@ -111,8 +111,8 @@ fn split_union_looks_the_same() {
         let mut kept_whole = scene.clone();
         let around = Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3::from_scale(DVec3::splat(1e5)),
-            tag: 0,
+            scene_from_local: DAffine3::from_scale(DVec3::splat(1e5)),
+            tag: MaterialTag(0),
         };
         for solid in &mut kept_whole.solids {
             if matches!(solid, Solid::Union(_)) {

@@ -2,7 +2,7 @@
 
 use anel::picture::{Quality, Size};
 use anel::scene::{BUILT_IN, Scene};
-use anel::space::{Deal, traffic};
+use anel::space::{Partition, traffic};
 use anel::tracer::{Path, RayCounts, RayKind, Scratch, Tracer};
 
 fn tracer(text: &str, width: u32, height: u32) -> Tracer {
@@ -125,12 +125,12 @@ fn messages_of_a_ray_and_its_reflection_are_counted() {
         balls.concat()
     );
     let tracer = tracer(&text, 1, 1);
-    let one = traffic(&tracer, 2, Deal::Runs, 1);
+    let one = traffic(&tracer, 2, Partition::Runs, 1);
     assert_eq!((one.leaves, one.rays, one.staying), (6, 2, 0));
     assert_eq!((one.messages, one.answers, one.most), (2, 1, 1));
     assert_eq!((one.shares.as_slice(), one.imbalance()), ([0.5, 0.5].as_slice(), 1.0));
     // Two of four owners have no work.
-    assert!((traffic(&tracer, 4, Deal::Runs, 1).imbalance() - 2.0).abs() < 1e-12);
+    assert!((traffic(&tracer, 4, Partition::Runs, 1).imbalance() - 2.0).abs() < 1e-12);
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn single_owner_needs_no_messages() {
     for (name, tracer) in built_in() {
         let mut scratch = Scratch::default();
         let rays = paths(&tracer, &mut scratch).len() as u64;
-        for how in [Deal::Runs, Deal::RoundRobin] {
+        for how in [Partition::Runs, Partition::RoundRobin] {
             let alone = traffic(&tracer, 1, how, 1);
             assert_eq!((alone.messages, alone.answers, alone.most), (0, 0, 0), "{name}");
             assert_eq!((alone.rays, alone.staying, alone.shares.as_slice()), (rays, rays, [1.0].as_slice()), "{name}");
@@ -150,7 +150,8 @@ fn single_owner_needs_no_messages() {
 fn runs_of_neighbours_need_fewer_messages_than_round_robin() {
     for (name, tracer) in built_in() {
         for owners in [2, 8] {
-            let [runs, round_robin] = [Deal::Runs, Deal::RoundRobin].map(|how| traffic(&tracer, owners, how, 1));
+            let [runs, round_robin] =
+                [Partition::Runs, Partition::RoundRobin].map(|how| traffic(&tracer, owners, how, 1));
             assert!(runs.messages < round_robin.messages, "{name}: {runs:?} {round_robin:?}");
             for traffic in [&runs, &round_robin] {
                 assert!(traffic.messages >= traffic.rays - traffic.staying, "{name}: {traffic:?}");
@@ -164,7 +165,7 @@ fn runs_of_neighbours_need_fewer_messages_than_round_robin() {
 #[test]
 fn part_of_the_pixels_represents_all() {
     for (name, tracer) in built_in() {
-        let [all, part] = [1, 7].map(|every| traffic(&tracer, 4, Deal::Runs, every));
+        let [all, part] = [1, 7].map(|every| traffic(&tracer, 4, Partition::Runs, every));
         let near = |a: u64, b: u64| (a as f64 / b as f64 - 1.0).abs() < 0.15;
         assert!(near(part.rays, all.rays) && near(part.messages, all.messages), "{name}: {all:?} {part:?}");
     }

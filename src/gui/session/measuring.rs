@@ -37,7 +37,7 @@ impl Jobs {
         let failed = move |why| JobResult::Found(number, Finding::Over(Err(why)));
         self.start_many(language, "measure", failed, move |tell| {
             let tell = |finding| tell(JobResult::Found(number, finding));
-            tell(Finding::Needs(tracer.compiled(), tracer.levels()));
+            tell(Finding::Needs(tracer.scene_stats(), tracer.levels()));
             tell(Finding::Over(found(&opened.scene, whole, &qualities, &cancel, &tell)));
         });
         number
@@ -80,7 +80,7 @@ fn small(whole: Size) -> Result<Size, String> {
     const PIXELS: f64 = 160.0 * 120.0;
     let part = (PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
     let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
-    Size::new(side(whole.width()), side(whole.height()))
+    Ok(Size::new(side(whole.width()), side(whole.height()))?)
 }
 
 #[cfg(test)]

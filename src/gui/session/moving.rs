@@ -93,7 +93,7 @@ impl Session {
         }
         moving.is_settled = true;
         let camera = moving.camera;
-        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.seen_by(camera));
+        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.with_camera(camera));
         match opened {
             Some(opened) => {
                 self.show(Opening::Scene(Arc::new(opened)));

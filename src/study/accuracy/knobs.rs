@@ -91,7 +91,7 @@ pub fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
     }
     // Whole blocks of those whose similarity is compared.
     let side = |most: u32| ((f64::from(most) * part / 8.0).round() as u32 * 8).clamp(1, most);
-    Size::new(side(most.width()), side(most.height()))
+    Ok(Size::new(side(most.width()), side(most.height()))?)
 }
 
 #[cfg(test)]

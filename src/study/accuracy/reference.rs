@@ -49,7 +49,7 @@ impl Reference {
         cancel: &CancelToken,
     ) -> Result<Option<Self>, String> {
         let usual = Quality::default();
-        let many = (3 * samples).min(Quality::MOST_SAMPLES);
+        let many = (3 * samples).min(Quality::MAX_SAMPLES);
         // A single sample would lie in the middle of its pixel, whatever the pattern.
         let few = (samples / 2).max(2);
         let (mut sampled, mut pictures) = (Vec::new(), Vec::new());

@@ -37,7 +37,7 @@ fn head(text: &mut String, found: &[Found]) {
          turns where they are few. The *error* is the root of the mean squared error in linear light (RMSE). A pixel is *wrong* if a \
          channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 pixels; SPEC CPU asks for more than \
          {SIMILAR} of each block of POV-Ray's pictures. A mean hides speckle, these two do not.\n",
-        Difference::SAME
+        Difference::TOLERANCE
     );
     say!(
         text,

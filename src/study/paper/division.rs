@@ -1,7 +1,7 @@
 //! The third way (§5): dividing the scene's space, counted on one render.
 
 use super::article::NETWORK;
-use crate::space::{Deal, Traffic, traffic};
+use crate::space::{Partition, Traffic, traffic};
 use crate::tracer::Tracer;
 
 /// Among how many machines the space is divided.
@@ -19,8 +19,8 @@ pub(super) struct SpaceDivision {
 
 /// The counts, by how many owners there are and how the cells are dealt.
 pub(super) fn count(tracer: &Tracer) -> Vec<SpaceDivision> {
-    let of = |owners, how| SpaceDivision { traffic: traffic(tracer, owners, how, EVERY), runs: how == Deal::Runs };
-    OWNERS.into_iter().flat_map(|owners| [of(owners, Deal::Runs), of(owners, Deal::RoundRobin)]).collect()
+    let of = |owners, how| SpaceDivision { traffic: traffic(tracer, owners, how, EVERY), runs: how == Partition::Runs };
+    OWNERS.into_iter().flat_map(|owners| [of(owners, Partition::Runs), of(owners, Partition::RoundRobin)]).collect()
 }
 
 impl SpaceDivision {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::rotation;
-use crate::picture::{Difference, Quality, Size, apart, srgb8};
+use crate::picture::{Difference, Quality, Size, max_channel_difference, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{RayKind, Scratch, Tracer};
 
@@ -42,11 +42,11 @@ impl Bore {
     /// Of the scene that [`scene`] gives. A ray goes through if it crosses the planes of both ends within the bore.
     pub fn of(scene: &Scene, size: Size) -> Self {
         let tracer = Tracer::new(scene, size, Quality::default());
-        let own_from_scene = rotation(DEGREES).transpose();
+        let local_from_scene = rotation(DEGREES).transpose();
         let mut through = Vec::new();
         tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
             if path.kind == RayKind::Primary {
-                let (origin, direction) = (own_from_scene * path.ray.origin, own_from_scene * path.ray.direction);
+                let (origin, direction) = (local_from_scene * path.ray.origin, local_from_scene * path.ray.direction);
                 through.push([-1.0, 1.0].into_iter().all(|end| {
                     let crossing = origin + direction * ((end - origin.z) / direction.z);
                     crossing.truncate().length() < RADIUS
@@ -64,6 +64,7 @@ impl Bore {
     /// How many of them do not show the background in `picture`.
     pub fn wrong(&self, picture: &[[u8; 3]]) -> u32 {
         let through = self.through.iter().zip(picture).filter(|&(&through, _)| through);
-        through.filter(|(_, pixel)| apart(**pixel, self.background) > Difference::SAME).count() as u32
+        through.filter(|(_, pixel)| max_channel_difference(**pixel, self.background) > Difference::TOLERANCE).count()
+            as u32
     }
 }

@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::progress::Progress;
 use super::{ProgressSink, Study};
 use crate::output::as_file_name;
-use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
+use crate::picture::{Difference, Quality, Size, encode_png, max_channel_difference, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
 use bored_cylinder::Bore;
@@ -28,7 +28,7 @@ struct PeerRow {
     /// The last step that was taken.
     step: &'static str,
     pixels: u32,
-    /// Pixels with a channel that is more than [`Difference::SAME`] apart.
+    /// Pixels with a channel that is more than [`Difference::TOLERANCE`] apart.
     differing: u32,
     /// Of all pixels.
     share: f64,
@@ -96,11 +96,11 @@ struct Pictures {
 impl Pictures {
     /// By pixel, the greatest difference of a channel.
     fn differences(&self) -> impl Iterator<Item = u8> {
-        self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| apart(*ours, *theirs))
+        self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| max_channel_difference(*ours, *theirs))
     }
 
     fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> PeerRow {
-        let differing = self.differences().filter(|&difference| difference > Difference::SAME).count() as u32;
+        let differing = self.differences().filter(|&difference| difference > Difference::TOLERANCE).count() as u32;
         PeerRow {
             scene: scene.to_owned(),
             step: step.name(),
@@ -117,7 +117,7 @@ impl Pictures {
     /// Adds both pictures to the study's files, and one that shows where they differ.
     fn keep(&self, study: &mut Study, scene: &str) -> Result<(), String> {
         let where_they_differ = self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
-            if difference > Difference::SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
+            if difference > Difference::TOLERANCE { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
         });
         let pictures =
             [(OURS, self.ours.clone()), (THEIRS, self.theirs.clone()), (DIFFERENCE, where_they_differ.collect())];

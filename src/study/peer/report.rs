@@ -32,7 +32,7 @@ fn head(text: &mut String, povray: &PovRay, size: Size) {
          same limit of the tree of rays, pictures in 8-bit sRGB. A pixel *differs* if a channel is more than {}/255 apart. No \
          pixel is left out, not even where edges cross it, since both send their rays through the same points.\n",
         povray.version,
-        Difference::SAME
+        Difference::TOLERANCE
     );
     say!(
         text,

@@ -112,7 +112,7 @@ fn enlarge(scene: &mut Scene, factor: f64) {
 fn move_primitives(solids: &mut [Solid], change: &mut impl FnMut(&mut DAffine3)) {
     for solid in solids {
         match solid {
-            Solid::Placed { scene_from_own, .. } => change(scene_from_own),
+            Solid::Placed { scene_from_local, .. } => change(scene_from_local),
             Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
                 move_primitives(solids, change);
             }

@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::super::random::{aside, between, turn, unit};
 use super::{Count, StabilityCase, Verdicts, tens};
-use crate::csg::{Primitive, Solid, Stack, Tree};
+use crate::csg::{MaterialTag, Primitive, Solid, Stack, Tree};
 use crate::geometry::{Ray, rotation};
 use crate::view::Scale;
 
@@ -76,7 +76,11 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let through = place.translation + aside(rng, axis) * between(rng, 0.0, 0.3);
         let ray = Ray::new(through - direction * 8.0, direction);
         let [body_caps, cutter_caps] = [body, cutter].map(|map| caps(&map, &ray));
-        let cylinder = |scene_from_own, tag| Solid::Placed { primitive: Primitive::Cylinder, scene_from_own, tag };
+        let cylinder = |scene_from_local, tag| Solid::Placed {
+            primitive: Primitive::Cylinder,
+            scene_from_local,
+            tag: MaterialTag(tag),
+        };
         let bored = Solid::Difference(vec![cylinder(body, 0), cylinder(cutter, 1)]);
         // What is left of the body before and after the cutter.
         let skins = [cutter_caps[0] - body_caps[0], body_caps[1] - cutter_caps[1]];
@@ -90,10 +94,10 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
 }
 
 /// Where the ray passes the caps of a cylinder.
-fn caps(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
-    let own_from_scene = scene_from_own.inverse();
-    let o = own_from_scene.transform_point3(ray.origin);
-    let d = own_from_scene.transform_vector3(ray.direction);
+fn caps(scene_from_local: &DAffine3, ray: &Ray) -> [f64; 2] {
+    let local_from_scene = scene_from_local.inverse();
+    let o = local_from_scene.transform_point3(ray.origin);
+    let d = local_from_scene.transform_vector3(ray.direction);
     [(-1.0 - o.y) / d.y, (1.0 - o.y) / d.y]
 }
 
@@ -104,8 +108,8 @@ fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let turned = turn(rng);
         let placed = |primitive, size: DVec3, at: DVec3| Solid::Placed {
             primitive,
-            scene_from_own: DAffine3 { matrix3: turned * DMat3::from_diagonal(size), translation: turned * at },
-            tag: 0,
+            scene_from_local: DAffine3 { matrix3: turned * DMat3::from_diagonal(size), translation: turned * at },
+            tag: MaterialTag(0),
         };
         let half = thickness / 2.0;
         let solid = if index % 2 == 0 {

@@ -119,8 +119,8 @@ fn tangent(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
             Primitive::Cylinder => (side + DVec3::Y * height, side),
             _ => (side, side),
         };
-        let normal = (solid.own_from_scene.matrix3.transpose() * normal).normalize();
-        let point = solid.scene_from_own.transform_point3(own) + normal * (distance * sign(rng));
+        let normal = (solid.local_from_scene.matrix3.transpose() * normal).normalize();
+        let point = solid.scene_from_local.transform_point3(own) + normal * (distance * sign(rng));
         let direction = aside(rng, normal);
         (solid, point - direction * FROM, direction)
     })
@@ -136,7 +136,7 @@ fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         }
         let cylinder = Subject::new(Primitive::Cylinder, placing(rng, SIZE));
         let side = aside(rng, DVec3::Y);
-        let edge = cylinder.scene_from_own.transform_vector3(DVec3::Y.cross(side)).normalize();
+        let edge = cylinder.scene_from_local.transform_vector3(DVec3::Y.cross(side)).normalize();
         let (direction, away) = loop {
             let direction = unit(rng);
             let away = edge.cross(direction);
@@ -145,7 +145,7 @@ fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
                 break (direction, away.normalize());
             }
         };
-        let point = cylinder.scene_from_own.transform_point3(side + DVec3::Y) + away * off;
+        let point = cylinder.scene_from_local.transform_point3(side + DVec3::Y) + away * off;
         (cylinder, point - direction * FROM, direction)
     })
 }
@@ -153,7 +153,7 @@ fn rim(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
 fn apex(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     graze(tries, rng, |_, rng| {
         let cone = Subject::new(CONE, placing(rng, SIZE));
-        let point = cone.scene_from_own.transform_point3(DVec3::Y) + unit(rng) * distance;
+        let point = cone.scene_from_local.transform_point3(DVec3::Y) + unit(rng) * distance;
         let direction = unit(rng);
         (cone, point - direction * FROM, direction)
     })

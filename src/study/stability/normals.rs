@@ -7,7 +7,7 @@ use super::super::random::{turn, unit};
 use super::exact::{cross, dot, vector};
 use super::subject::Subject;
 use super::{Count, StabilityCase, Verdicts, tens};
-use crate::csg::{Primitive, Surface};
+use crate::csg::{LeafIndex, Primitive, Surface};
 use crate::view::Scale;
 
 pub(super) fn cases() -> [StabilityCase; 2] {
@@ -61,7 +61,7 @@ fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3)
             let across = cross(&normal, &truth);
             (dot(&across, &across).rounded() / (dot(&normal, &normal) * dot(&truth, &truth)).rounded()).sqrt()
         };
-        let ours = ellipsoid.normal(Surface { leaf: 0, face: 0 }, point);
+        let ours = ellipsoid.normal(Surface { leaf: LeafIndex::default(), face: 0 }, point);
         count.add_errors([map.transform_vector3(own).normalize(), ours].map(sine), MOST);
     }
     count.outcomes()

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::super::random::{aside, between, sign, turn, unit};
 use super::exact::{Exact, dot, vector};
 use super::{Count, StabilityCase, Verdicts, tens, twos};
-use crate::csg::{Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Material, Scene};
 use crate::tracer::{Path, RayKind, Scratch, Tracer};
@@ -99,8 +99,8 @@ fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let direction = normal * cosine + aside(rng, normal) * sine;
         let glass = Solid::Placed {
             primitive: Primitive::HalfSpace { normal, offset: 0.0 },
-            scene_from_own: DAffine3::IDENTITY,
-            tag: 0,
+            scene_from_local: DAffine3::IDENTITY,
+            tag: MaterialTag(0),
         };
         let ways = ways(&scene_of(vec![glass], -normal, direction), 2);
         let [first, next] = ways[..] else { continue };
@@ -134,11 +134,11 @@ fn slabs(slabs: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let wide = 20.0 * slabs;
         let slab = |place: u32| Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3 {
+            scene_from_local: DAffine3 {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(wide, 0.25, wide)),
                 translation: turned * DVec3::Y * -f64::from(place),
             },
-            tag: 0,
+            tag: MaterialTag(0),
         };
         let solids: Vec<Solid> = (1..=slabs as u32).map(slab).collect();
         let normal = turned * DVec3::Y;
@@ -163,11 +163,11 @@ fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let normal = turned * DVec3::Y;
         let slab = |low: f64, high: f64, tag: u32| Solid::Placed {
             primitive: Primitive::Cube,
-            scene_from_own: DAffine3 {
+            scene_from_local: DAffine3 {
                 matrix3: turned * DMat3::from_diagonal(DVec3::new(50.0, (high - low) / 2.0, 50.0)),
                 translation: normal * ((high + low) / 2.0),
             },
-            tag,
+            tag: MaterialTag(tag),
         };
         let off = between(rng, 0.0, 80f64.to_radians());
         let direction = aside(rng, normal) * off.sin() - normal * off.cos();

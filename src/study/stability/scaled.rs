@@ -72,7 +72,7 @@ fn scaled(scene: &Scene, factor: f64) -> Scene {
 
 fn scale_solid(solid: &mut Solid, map: &DAffine3) {
     match solid {
-        Solid::Placed { scene_from_own, .. } => *scene_from_own = *map * *scene_from_own,
+        Solid::Placed { scene_from_local, .. } => *scene_from_local = *map * *scene_from_local,
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
             solids.iter_mut().for_each(|solid| scale_solid(solid, map));
         }

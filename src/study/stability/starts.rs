@@ -47,7 +47,7 @@ fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let (primitive, size) = solids[index as usize % solids.len()];
         let solid = Subject::new(primitive, placing(rng, size));
         let towards = unit(rng);
-        let target = solid.scene_from_own.translation + unit(rng) * between(rng, 0.0, 0.5);
+        let target = solid.scene_from_local.translation + unit(rng) * between(rng, 0.0, 0.5);
         let first = Ray::new(target - towards * 5.0, towards);
         let Some(hit) = solid.crossings(&first, None).into_iter().next() else { continue };
         let normal = solid.normal(hit.surface, first.at(hit.t));

@@ -3,16 +3,16 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::exact::{Exact, Vector, cross, dot, vector};
-use crate::csg::{Hit, Primitive, RayStart, Solid, Stack, Surface, Tree};
+use crate::csg::{Hit, MaterialTag, Primitive, RayStart, RootId, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 
 /// A sphere, cylinder or cone at its place.
 pub(super) struct Subject {
     pub primitive: Primitive,
-    pub scene_from_own: DAffine3,
-    pub own_from_scene: DAffine3,
+    pub scene_from_local: DAffine3,
+    pub local_from_scene: DAffine3,
     tree: Tree,
-    root: u32,
+    root: RootId,
     /// The inverse of the map times its determinant, row by row, and that determinant, which is positive.
     rows: [Vector; 3],
     determinant: Exact,
@@ -36,14 +36,23 @@ struct Caps {
 
 impl Subject {
     /// The map must not mirror.
-    pub fn new(primitive: Primitive, scene_from_own: DAffine3) -> Self {
+    pub fn new(primitive: Primitive, scene_from_local: DAffine3) -> Self {
         let mut tree = Tree::default();
-        let root = tree.add(&Solid::Placed { primitive, scene_from_own, tag: 0 }).map_or(0, |(root, _)| root);
-        let DMat3 { x_axis, y_axis, z_axis } = scene_from_own.matrix3;
+        let solid = Solid::Placed { primitive, scene_from_local, tag: MaterialTag(0) };
+        let root = tree.add(&solid).map(|(root, _)| root).unwrap_or_default();
+        let DMat3 { x_axis, y_axis, z_axis } = scene_from_local.matrix3;
         let [x, y, z] = [x_axis, y_axis, z_axis].map(vector);
         let rows = [cross(&y, &z), cross(&z, &x), cross(&x, &y)];
         let determinant = dot(&x, &rows[0]);
-        Self { primitive, scene_from_own, own_from_scene: scene_from_own.inverse(), tree, root, rows, determinant }
+        Self {
+            primitive,
+            scene_from_local,
+            local_from_scene: scene_from_local.inverse(),
+            tree,
+            root,
+            rows,
+            determinant,
+        }
     }
 
     /// Where our tree says that the ray crosses the boundary.
@@ -63,7 +72,7 @@ impl Subject {
 
     /// Where a ray starts that goes on from a hit of this solid.
     pub fn start(&self, hit: &Hit) -> RayStart {
-        RayStart { root: self.root, surface: hit.surface, leaves: !hit.enters, turned: false }
+        RayStart { root: self.root, surface: hit.surface, exits: !hit.enters, reversed: false }
     }
 
     /// Our normal at a point of a face.
@@ -74,8 +83,8 @@ impl Subject {
     /// Where a textbook says that the line crosses the boundary, in order: roots by −b ± √(b² − ac), of which those count
     /// that lie between the caps, and places on the caps that lie within their circles.
     pub fn textbook(&self, ray: &Ray) -> Vec<f64> {
-        let o = self.own_from_scene.transform_point3(ray.origin);
-        let d = self.own_from_scene.transform_vector3(ray.direction);
+        let o = self.local_from_scene.transform_point3(ray.origin);
+        let d = self.local_from_scene.transform_vector3(ray.direction);
         let (middle, slope) = radius(self.primitive);
         let round = |p: DVec3, q: DVec3| p.x * q.x + p.z * q.z;
         let (a, b, c) = match self.primitive {
@@ -101,7 +110,7 @@ impl Subject {
 
     /// A point's own coordinates times [`Subject::determinant`].
     fn own(&self, point: DVec3) -> Vector {
-        let (p, at) = (vector(point), vector(self.scene_from_own.translation));
+        let (p, at) = (vector(point), vector(self.scene_from_local.translation));
         let from_centre: Vector = [0, 1, 2].map(|axis| &p[axis] - &at[axis]);
         self.own_vector(&from_centre)
     }
@@ -215,7 +224,7 @@ mod tests {
         for primitive in [Primitive::Sphere, Primitive::Cylinder, Primitive::Cone { bottom: 1.0, top: 0.25 }] {
             for _ in 0..2000 {
                 let subject = Subject::new(primitive, placing(rng, DVec3::new(1.0, 0.7, 0.5)));
-                let target = subject.scene_from_own.translation + unit(rng) * between(rng, 0.0, 1.5);
+                let target = subject.scene_from_local.translation + unit(rng) * between(rng, 0.0, 1.5);
                 let direction = unit(rng);
                 let ray = Ray::new(target - direction * 5.0, direction);
                 let truth = subject.truth(&ray);

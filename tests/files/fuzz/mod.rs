@@ -57,7 +57,7 @@ fn trace(file: &Path) -> bool {
     let is_light = |channel: &f32| channel.is_finite() && *channel >= 0.0;
     assert!(pixels.iter().flatten().all(is_light), "{pixels:?}");
     assert!(tracer.boxes().iter().all(|bounds| bounds.is_finite()));
-    assert!(tracer.compiled().lights == scene.lights.len());
+    assert!(tracer.scene_stats().lights == scene.lights.len());
     let pov = to_pov(&scene, size, &Quality::default());
     assert!(!pov.contains("NaN") && !pov.contains("inf"), "{pov}");
     true

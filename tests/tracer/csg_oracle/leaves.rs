@@ -1,6 +1,6 @@
 //! Leaves with integer coordinates, and the same leaves as solids of a scene, rounded in one of several ways.
 
-use anel::csg::{Primitive, QuadricCoefficients, Solid};
+use anel::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use anel::geometry::{rotation, turn_y_to};
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
@@ -216,12 +216,12 @@ impl Leaf {
             3 => there * DAffine3::from_rotation_y(angle) * DAffine3::from_rotation_y(-angle) * scale,
             _ => there * self.symmetry(rng, angle) * scale,
         };
-        let scene_from_own = if rng.bool() {
+        let scene_from_local = if rng.bool() {
             *motion * own
         } else {
             DAffine3 { matrix3: motion.matrix3 * own.matrix3, translation: motion.transform_point3(own.translation) }
         };
-        Solid::Placed { primitive: self.primitive, scene_from_own, tag }
+        Solid::Placed { primitive: self.primitive, scene_from_local, tag: MaterialTag(tag) }
     }
 
     /// A rotation that maps the leaf to itself.

@@ -130,7 +130,7 @@ fn agrees(passage: &Passage, inside: u128, seen: &Seen, tree: &Tree, hits: &[Hit
             continue;
         }
         let is_right = hits.next().is_some_and(|hit| {
-            let [before, beyond] = is_inside(passage.inside[tree.leaf(hit.surface).tag as usize]);
+            let [before, beyond] = is_inside(passage.inside[tree.leaf(hit.surface).tag.index()]);
             hit.enters == after && (hit.t - t).abs() < slack && before != beyond
         });
         if !is_right {

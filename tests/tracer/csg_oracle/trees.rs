@@ -73,7 +73,7 @@ impl Passage {
     /// The intervals inside the solid.
     pub fn of(&self, solid: &Solid) -> u128 {
         match solid {
-            Solid::Placed { tag, .. } => self.inside[*tag as usize],
+            Solid::Placed { tag, .. } => self.inside[tag.index()],
             Solid::Union(solids) => solids.iter().fold(0, |sum, solid| sum | self.of(solid)),
             Solid::Intersection(solids) if solids.is_empty() => 0,
             Solid::Intersection(solids) => solids.iter().fold(u128::MAX, |common, solid| common & self.of(solid)),

@@ -4,7 +4,7 @@
 mod laws;
 mod solids;
 
-use anel::csg::Solid;
+use anel::csg::{MaterialTag, Solid};
 use anel::geometry::rotation;
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, Camera, Light, Scene};
@@ -55,12 +55,12 @@ fn moved(scene: &Scene, turn: DMat3, factor: f64, shift: DVec3) -> Scene {
 }
 
 /// The solid with changed maps and tags of its primitives.
-fn changed(solid: &Solid, change: &impl Fn(DAffine3, u32) -> (DAffine3, u32)) -> Solid {
+fn changed(solid: &Solid, change: &impl Fn(DAffine3, MaterialTag) -> (DAffine3, MaterialTag)) -> Solid {
     let all = |solids: &[Solid]| solids.iter().map(|solid| changed(solid, change)).collect();
     match solid {
-        Solid::Placed { primitive, scene_from_own, tag } => {
-            let (scene_from_own, tag) = change(*scene_from_own, *tag);
-            Solid::Placed { primitive: *primitive, scene_from_own, tag }
+        Solid::Placed { primitive, scene_from_local, tag } => {
+            let (scene_from_local, tag) = change(*scene_from_local, *tag);
+            Solid::Placed { primitive: *primitive, scene_from_local, tag }
         }
         Solid::Union(solids) => Solid::Union(all(solids)),
         Solid::Intersection(solids) => Solid::Intersection(all(solids)),
@@ -177,7 +177,7 @@ fn order_of_operands_does_not_matter() {
     for (name, mut scene, _) in built_in() {
         let materials = scene.materials.len() as u32;
         for (number, solid) in (0..).zip(&mut scene.solids) {
-            *solid = changed(solid, &|map, _| (map, number % materials));
+            *solid = changed(solid, &|map, _| (map, MaterialTag(number % materials)));
         }
         let mut reordered = scene.clone();
         reordered.solids.iter_mut().for_each(|solid| *solid = reversed(solid));

@@ -1,6 +1,6 @@
 //! Random solids and rays.
 
-use anel::csg::{Primitive, QuadricCoefficients, Solid};
+use anel::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use anel::geometry::{Ray, rotation};
 use glam::{DAffine3, DMat3, DVec3};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 /// The primitive scaled, then rotated, then moved.
 pub fn placed(primitive: Primitive, scale: DVec3, degrees: DVec3, at: DVec3) -> Solid {
     let matrix3 = rotation(degrees) * DMat3::from_diagonal(scale);
-    Solid::Placed { primitive, scene_from_own: DAffine3 { matrix3, translation: at }, tag: 0 }
+    Solid::Placed { primitive, scene_from_local: DAffine3 { matrix3, translation: at }, tag: MaterialTag(0) }
 }
 
 pub fn vectors(range: std::ops::Range<f64>) -> impl Strategy<Value = DVec3> {
