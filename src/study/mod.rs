@@ -3,6 +3,7 @@
 pub mod accuracy;
 mod chaos;
 mod fixture;
+mod markdown;
 mod needs;
 mod paper;
 mod peer;
@@ -31,6 +32,7 @@ use serde_json::{Map, Value};
 
 use crate::export::to_svg;
 use crate::view::{CHART_SIZE, Mark};
+use markdown::Report;
 
 /// What a study has found.
 #[derive(Clone, Debug)]
@@ -75,16 +77,10 @@ impl Study {
         self.files.push((format!("{}-{name}.svg", self.name), svg.into_bytes()));
     }
 
-    fn add_report(&mut self, text: String) {
-        self.files.push((format!("{}.md", self.name), text.into_bytes()));
+    fn add_report(&mut self, report: Report) {
+        self.files.push((format!("{}.md", self.name), report.into_text().into_bytes()));
     }
 }
-
-/// Writes a line of a report: writing to a string cannot fail.
-macro_rules! say {
-    ($text:expr, $($words:tt)*) => { _ = writeln!($text, $($words)*) };
-}
-use say;
 
 /// The middle one of some values, the greater of two; 0 of none.
 fn median(values: &mut [f64]) -> f64 {

@@ -1,12 +1,11 @@
 //! What each reduction of compiling saves: a scene's picture with all of them, and without one after the other.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
+use super::markdown::Report;
 use super::preview_time::{PreviewTimes, picture};
 use super::progress::Progress;
-use super::{ProgressSink, Study, median, say};
+use super::{ProgressSink, Study, median};
 use crate::csg::{Pass, Passes};
 use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
@@ -69,7 +68,9 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String>
     }
     let mut study = Study::new("needs");
     study.add_rows(&rows)?;
-    study.add_report(report(scenes, &rows, size) + &looks_report(scenes, &looks));
+    let mut report = report(scenes, &rows, size);
+    looks_report(&mut report, scenes, &looks);
+    study.add_report(report);
     Ok(study)
 }
 
@@ -82,43 +83,42 @@ fn first_look(scene: &Opened) -> Result<PreviewTimes, String> {
     Ok(looks[TURNS / 2])
 }
 
-fn looks_report(scenes: &[Opened], looks: &[PreviewTimes]) -> String {
-    let mut text = String::from(
-        "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the scene that is read to \
-         it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as above:\n\n\
-         | scene | compiled | first look | exact picture | without a preview | with / without | the same |\n\
-         |---|---:|---:|---:|---:|---:|---|\n",
+fn looks_report(report: &mut Report, scenes: &[Opened], looks: &[PreviewTimes]) {
+    report.line(
+        "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the \
+         scene that is read to it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as \
+         above:\n\n| scene | compiled | first look | exact picture | without a preview | with / without | the same \
+         |\n|---|---:|---:|---:|---:|---:|---|",
     );
     for (scene, PreviewTimes { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
         let same = if *same { "yes" } else { "no" };
         let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
-        say!(
-            text,
+        report.line(format!(
             "| {} | {compiled:.2} | {first:.1} | {whole:.0} | {alone:.0} | {:.3} | {same} |",
             scene.name,
             exact / plain
-        );
+        ));
     }
-    text
 }
 
-fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
-    let mut text = String::from("# What scenes need\n\n");
-    say!(
-        text,
-        "A scene is compiled to what it needs. What was kept of each, of what its file has, and how many rays of a sample \
-         of the pixels end on each level of the tree of rays, beginning with the primary ones:\n"
+fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> Report {
+    let mut report = Report::titled("What scenes need");
+    report.line(
+        "A scene is compiled to what it needs. What was kept of each, of what its file has, and how many rays of a \
+         sample of the pixels end on each level of the tree of rays, beginning with the primary ones:\n",
     );
-    text.push_str("| scene | primitives | operations | solids | no bounds | empty | out of reach | reflects | transmits | rays by level |\n");
-    text.push_str("|---|---|---:|---:|---:|---:|---:|---|---|---|\n");
+    report.line(
+        "| scene | primitives | operations | solids | no bounds | empty | out of reach | reflects | transmits | rays \
+         by level |",
+    );
+    report.line("|---|---|---:|---:|---:|---:|---:|---|---|---|");
     for scene in scenes {
         let tracer = Tracer::new(&scene.scene, size, Quality::default());
         let kept = tracer.compiled();
         let primitives: Vec<_> = kept.primitives.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         let levels: Vec<_> = tracer.levels().iter().map(u64::to_string).collect();
         let yes = |is: bool| if is { "yes" } else { "no" };
-        say!(
-            text,
+        report.line(format!(
             "| {} | {} of {}: {} | {} of {} | {} | {} | {} | {} | {} | {} | {} |",
             scene.name,
             kept.primitives.values().sum::<usize>(),
@@ -133,15 +133,17 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
             yes(kept.reflects),
             yes(kept.transmits),
             levels.join(" ")
-        );
+        ));
     }
-    say!(
-        text,
-        "\nWhat each reduction saves: the CPU time of the picture of {size} pixels without it over that with it, medians of {TURNS} \
-         turns side by side. In brackets how many pixels differ, by rounding.\n"
-    );
-    say!(text, "| reduction | {} |", scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | "));
-    say!(text, "|---|{}", "---:|".repeat(scenes.len()));
+    report.line(format!(
+        "\nWhat each reduction saves: the CPU time of the picture of {size} pixels without it over that with it, \
+         medians of {TURNS} turns side by side. In brackets how many pixels differ, by rounding.\n"
+    ));
+    report.line(format!(
+        "| reduction | {} |",
+        scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | ")
+    ));
+    report.line(format!("|---|{}", "---:|".repeat(scenes.len())));
     for (index, reduction) in Pass::ALL.into_iter().enumerate() {
         let of_each = rows.iter().skip(index).step_by(Pass::ALL.len());
         let cells: Vec<_> = of_each
@@ -150,7 +152,7 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> String {
                 differing => format!("{:.3} ({differing})", saving.ratio),
             })
             .collect();
-        say!(text, "| {} | {} |", reduction.says(), cells.join(" | "));
+        report.line(format!("| {} | {} |", reduction.says(), cells.join(" | ")));
     }
-    text
+    report
 }

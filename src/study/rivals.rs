@@ -1,12 +1,12 @@
 //! What sharing costs at full speed, a node a core: the ring, the ring with two threads a node (§10), and rayon's work
 //! stealing.
 
-use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
 use super::fixture::{Fixture, cost_of};
+use super::markdown::Report;
 use super::progress::Progress;
 use super::{ProgressSink, Study, median};
 use crate::balance::Strategy;
@@ -142,23 +142,25 @@ impl Needs {
     }
 }
 
-fn report(rows: &[Needs]) -> String {
-    let mut text = String::from("# What sharing costs at full speed\n\n");
-    _ = writeln!(
-        text,
-        "Each scene's picture of 640 × 480 in atoms of 50 pixels, on {} nodes at full speed, a node a core, without a network: the ring, \
-         the ring with two threads a node (one answers, one traces, as the article has it), and rayon's work stealing. Medians of {TURNS} \
-         turns, in one program that is warm; ratios are those within a turn. A makespan is from the first band to the last pixel, wall \
-         time from the start of the threads to their end.\n",
+fn report(rows: &[Needs]) -> Report {
+    let mut report = Report::titled("What sharing costs at full speed");
+    report.line(format!(
+        "Each scene's picture of 640 × 480 in atoms of 50 pixels, on {} nodes at full speed, a node a core, without a \
+         network: the ring, the ring with two threads a node (one answers, one traces, as the article has it), and \
+         rayon's work stealing. Medians of {TURNS} turns, in one program that is warm; ratios are those within a \
+         turn. A makespan is from the first band to the last pixel, wall time from the start of the threads to their \
+         end.\n",
         cores()
+    ));
+    report.line(
+        "| scene | ring, s | ring / rayon | their makespans | two threads / one | context switches: ring | two \
+         threads | rayon |",
     );
-    text.push_str("| scene | ring, s | ring / rayon | their makespans | two threads / one | context switches: ring | two threads | rayon |\n");
-    text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|\n");
+    report.line("|---|---:|---:|---:|---:|---:|---:|---:|");
     for scene in rows.chunks_exact(RIVALS.len()) {
         let [ring, pairs, rayon] = scene else { continue };
         let switches = |needs: &Needs| needs.context_switches.map_or("–".into(), |count| count.to_string());
-        _ = writeln!(
-            text,
+        report.line(format!(
             "| {} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {} | {} |",
             ring.scene,
             ring.wall_s,
@@ -168,7 +170,7 @@ fn report(rows: &[Needs]) -> String {
             switches(ring),
             switches(pairs),
             switches(rayon)
-        );
+        ));
     }
-    text
+    report
 }

@@ -1,8 +1,7 @@
 //! What the study of scaling says.
 
-use std::fmt::Write;
-
 use super::fixture::STRATEGIES;
+use super::markdown::Report;
 use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
 use super::{ProgressSink, Study};
 use crate::balance::Strategy;
@@ -127,17 +126,14 @@ fn decay(rows: &[ScaleRow]) -> LineChart {
     }
 }
 
-fn report(rows: &[ScaleRow], scene: &str) -> String {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let mut say = |line: std::fmt::Arguments<'_>| _ = writeln!(text, "{line}");
-    say(format_args!("# From one machine to a thousand\n"));
-    say(format_args!(
-        "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, as dear or as cheap \
-         as its rays make it. *The same picture* has {} × {} pixels; *the grown one* has {ATOMS_A_NODE} atoms a machine. \
-         Results leave a machine when its atoms have run out. Efficiency is the ideal time over the real one. The bound is \
-         W/m + 3.65 log₂W atoms' time, of work stealing on m machines whose messages take no time (M. Tchiboukdjian, N. Gast, \
-         D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
+fn report(rows: &[ScaleRow], scene: &str) -> Report {
+    let mut report = Report::titled("From one machine to a thousand");
+    report.line(format!(
+        "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, as dear or \
+         as cheap as its rays make it. *The same picture* has {} × {} pixels; *the grown one* has {ATOMS_A_NODE} \
+         atoms a machine. Results leave a machine when its atoms have run out. Efficiency is the ideal time over the \
+         real one. The bound is W/m + 3.65 log₂W atoms' time, of work stealing on m machines whose messages take no \
+         time (M. Tchiboukdjian, N. Gast, D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
         ATOM_COST.as_millis(),
         SIZE.0,
         SIZE.1
@@ -145,16 +141,16 @@ fn report(rows: &[ScaleRow], scene: &str) -> String {
     for weak in [false, true] {
         for network in NETWORKS {
             let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
-            say(format_args!("## {kind}, {}\n", words(network)));
+            report.line(format!("## {kind}, {}\n", words(network)));
             let names = STRATEGIES.map(Strategy::name).join(" | ");
-            say(format_args!("| machines | {names} | bound | ring: messages a machine | idle at the end |"));
-            say(format_args!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
+            report.line(format!("| machines | {names} | bound | ring: messages a machine | idle at the end |"));
+            report.line(format!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {
                 let at = |strategy| of(rows, weak, network, strategy).find(|row| row.nodes == nodes);
                 let cells = STRATEGIES
                     .map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
                 let Some(ring) = at(Strategy::Ring) else { continue };
-                say(format_args!(
+                report.line(format!(
                     "| {nodes} | {} | {:.3} | {:.1} | {:.3} |",
                     cells.join(" | "),
                     ring.bound_efficiency,
@@ -163,15 +159,15 @@ fn report(rows: &[ScaleRow], scene: &str) -> String {
                 ));
             }
             let chart = file_name(network);
-            say(format_args!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
+            report.line(format!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
         }
     }
-    say(format_args!("## Messages\n"));
-    say(format_args!("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n"));
-    say(format_args!("## Why the ring decays\n"));
-    say(format_args!("![](scale-ring.svg)\n"));
-    say(format_args!("{}", why(rows)));
-    text
+    report.line("## Messages\n");
+    report.line("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n");
+    report.line("## Why the ring decays\n");
+    report.line("![](scale-ring.svg)\n");
+    report.line(why(rows));
+    report
 }
 
 /// The paragraph on the ring's decay, with the figures that bear it out.
@@ -185,15 +181,16 @@ fn why(rows: &[ScaleRow]) -> String {
     };
     let parcel = |row: &ScaleRow| row.atoms_moved as f64 / row.transfers.max(1) as f64;
     format!(
-        "An offer goes to the left neighbour first and ends at the first node that still has one atom to give. Neighbours have \
-         neighbouring bands, which cost about the same, so the first that could take it is usually nearly done itself: it gives \
-         a crumb, the offerer traces it and offers again. At 16 machines a transfer moves {:.1} atoms, at {most} only {:.1} \
-         ({:.0} transfers a machine), while the atoms that should move lie hundreds of hops away; work spreads round the ring \
-         as heat does, from neighbour to neighbour, and a node whose offer has gone round once retires for good. Every hop \
-         takes a message's time: at {most} machines one lap is {:.2} s at {} ms and {:.1} s at {} ms, against an ideal time of \
-         {:.1} s. With the same picture the bands shrink as well: an offer's lap grows with N while the work of a node falls \
-         with 1/N. Efficiency at {most} machines, with the picture grown: {:.2} at {} ms, {:.2} at {} ms; the machines stand \
-         idle at the end for {:.0} and {:.0} % of all time.",
+        "An offer goes to the left neighbour first and ends at the first node that still has one atom to give. \
+         Neighbours have neighbouring bands, which cost about the same, so the first that could take it is usually \
+         nearly done itself: it gives a crumb, the offerer traces it and offers again. At 16 machines a transfer \
+         moves {:.1} atoms, at {most} only {:.1} ({:.0} transfers a machine), while the atoms that should move lie \
+         hundreds of hops away; work spreads round the ring as heat does, from neighbour to neighbour, and a node \
+         whose offer has gone round once retires for good. Every hop takes a message's time: at {most} machines one \
+         lap is {:.2} s at {} ms and {:.1} s at {} ms, against an ideal time of {:.1} s. With the same picture the \
+         bands shrink as well: an offer's lap grows with N while the work of a node falls with 1/N. Efficiency at \
+         {most} machines, with the picture grown: {:.2} at {} ms, {:.2} at {} ms; the machines stand idle at the end \
+         for {:.0} and {:.0} % of all time.",
         parcel(few),
         parcel(many),
         many.transfers as f64 / many.nodes as f64,

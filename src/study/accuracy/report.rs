@@ -1,7 +1,5 @@
 //! What the study of accuracy says.
 
-use std::fmt::Write;
-
 use super::check::Landing;
 use super::choice::front;
 use super::fit::{log_crossing, log_slope};
@@ -12,65 +10,60 @@ use super::scene::{Found, MeasuredPoint};
 use super::{Point, Reference};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality};
-use crate::study::{median, optional, say};
+use crate::study::markdown::Report;
+use crate::study::{median, optional};
 
 /// The report, in Markdown.
-pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> String {
-    let mut text = String::from("# Speed against accuracy\n\n");
-    head(&mut text, found);
-    slopes(&mut text, found);
-    which_pays(&mut text, found);
-    choice(&mut text, found);
+pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> Report {
+    let mut report = Report::titled("Speed against accuracy");
+    head(&mut report, found);
+    slopes(&mut report, found);
+    which_pays(&mut report, found);
+    choice(&mut report, found);
     for found in found {
-        scene(&mut text, found);
+        scene(&mut report, found);
     }
-    ring_report::ring(&mut text, ring);
-    say!(text, "\nAll that was measured is in `accuracy.csv`, all runs of rings in `accuracy-ring.csv`.");
-    text
+    ring_report::ring(&mut report, ring);
+    report.line("\nAll that was measured is in `accuracy.csv`, all runs of rings in `accuracy-ring.csv`.");
+    report
 }
 
-fn head(text: &mut String, found: &[Found]) {
+fn head(report: &mut Report, found: &[Found]) {
     let usual = Quality::default();
-    say!(
-        text,
-        "Each knob of quality is turned alone, and all are turned together. *Seconds* are CPU time on one core, the median of three \
-         turns where they are few. The *error* is the root of the mean squared error in linear light (RMSE). A pixel is *wrong* if a \
-         channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 pixels; SPEC CPU asks for more than \
-         {SIMILAR} of each block of POV-Ray's pictures. A mean hides speckle, these two do not.\n",
+    report.line(format!(
+        "Each knob of quality is turned alone, and all are turned together. *Seconds* are CPU time on one core, the \
+         median of three turns where they are few. The *error* is the root of the mean squared error in linear light \
+         (RMSE). A pixel is *wrong* if a channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all \
+         blocks of 8 × 8 pixels; SPEC CPU asks for more than {SIMILAR} of each block of POV-Ray's pictures. A mean \
+         hides speckle, these two do not.\n",
         Difference::SAME
-    );
-    say!(
-        text,
-        "While depth or cutoff is turned, there are 4 × 4 samples a pixel, and the other is at its default ({} levels, {:.4}); so are both \
-         while samples or threshold are. At the reference's values they would hide in their cost what the knob that is turned saves. A \
-         threshold is tried with {MOST} × {MOST} samples at most.\n",
-        usual.max_depth,
-        usual.cutoff
-    );
-    say!(
-        text,
-        "The *reference* has two patterns of samples, each with {} × {} samples a pixel at the default depth and cutoff, and with what is \
-         beyond these limits, from {few} × {few} samples, down to {} levels and a cutoff of {:e}. A cutoff bounds what all rays that \
-         are left out count together, so that this leaves out less than is seen here; without one, a tree of 50 levels may have 2⁵⁰ rays. \
-         The reference's own error is half of what its two patterns are apart. Scenes with large trees of rays have smaller pictures.\n",
+    ));
+    report.line(format!(
+        "While depth or cutoff is turned, there are 4 × 4 samples a pixel, and the other is at its default ({} \
+         levels, {:.4}); so are both while samples or threshold are. At the reference's values they would hide in \
+         their cost what the knob that is turned saves. A threshold is tried with {MOST} × {MOST} samples at most.\n",
+        usual.max_depth, usual.cutoff
+    ));
+    report.line(format!(
+        "The *reference* has two patterns of samples, each with {} × {} samples a pixel at the default depth and \
+         cutoff, and with what is beyond these limits, from {few} × {few} samples, down to {} levels and a cutoff of \
+         {:e}. A cutoff bounds what all rays that are left out count together, so that this leaves out less than is \
+         seen here; without one, a tree of 50 levels may have 2⁵⁰ rays. The reference's own error is half of what its \
+         two patterns are apart. Scenes with large trees of rays have smaller pictures.\n",
         3 * MOST,
         3 * MOST,
         Reference::DEPTH,
         Reference::CUTOFF,
         few = MOST / 2
-    );
-    say!(text, "| scene | picture | the reference's error | beyond the default limits | least error measured |");
-    say!(text, "|---|---:|---:|---:|---:|");
+    ));
+    report.line("| scene | picture | the reference's error | beyond the default limits | least error measured |");
+    report.line("|---|---:|---:|---:|---:|");
     for found in found {
         let least = found.points().iter().map(Point::rmse).fold(f64::INFINITY, f64::min);
-        say!(
-            text,
+        report.line(format!(
             "| {} | {} | {:.5} | {:.5} | {least:.5} |",
-            found.scene,
-            found.size,
-            found.floor,
-            found.beyond_limits
-        );
+            found.scene, found.size, found.floor, found.beyond_limits
+        ));
     }
 }
 
@@ -85,17 +78,16 @@ fn slope(found: &Found) -> Option<f64> {
     log_slope(&points.filter_map(point).collect::<Vec<_>>())
 }
 
-fn slopes(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 × 2 to {MOST} × {MOST} \
-         samples a pixel, against a picture of very many samples at the same depth and cutoff. Theory for samples one in each cell of \
-         a pixel: −0.5 where there is no structure, −0.75 where edges cross pixels, −1 where all is smooth (D. P. Mitchell, \
-         *Consequences of stratified sampling in graphics*, 1996).\n",
-    );
-    say!(text, "| scene | slope |\n|---|---:|");
+fn slopes(report: &mut Report, found: &[Found]) {
+    report.line(format!(
+        "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 \
+         × 2 to {MOST} × {MOST} samples a pixel, against a picture of very many samples at the same depth and cutoff. \
+         Theory for samples one in each cell of a pixel: −0.5 where there is no structure, −0.75 where edges cross \
+         pixels, −1 where all is smooth (D. P. Mitchell, *Consequences of stratified sampling in graphics*, 1996).\n"
+    ));
+    report.line("| scene | slope |\n|---|---:|");
     for found in found {
-        say!(text, "| {} | {} |", found.scene, optional(slope(found), 2));
+        report.line(format!("| {} | {} |", found.scene, optional(slope(found), 2)));
     }
 }
 
@@ -118,16 +110,14 @@ fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
     savings.min_by(|(_, this), (_, other)| this.total_cmp(other))
 }
 
-fn which_pays(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the time which samples alone \
-         need for the same error. Of depth and cutoff, the coarsest value with at most a tenth more error than without a limit, and the \
-         part that it takes of the time without one.\n"
+fn which_pays(report: &mut Report, found: &[Found]) {
+    report.line(
+        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the \
+         time which samples alone need for the same error. Of depth and cutoff, the coarsest value with at most a \
+         tenth more error than without a limit, and the part that it takes of the time without one.\n",
     );
-    say!(
-        text,
-        "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|"
+    report.line(
+        "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|",
     );
     for found in found {
         let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
@@ -137,56 +127,54 @@ fn which_pays(text: &mut String, found: &[Found]) {
             };
             found.map_or("– | –".into(), value)
         });
-        say!(text, "| {} | {} |", found.scene, cells.join(" | "));
+        report.line(format!("| {} | {} |", found.scene, cells.join(" | ")));
     }
 }
 
-fn choice(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## Whether the automatic choice keeps its word\n\nOf all points the fastest within some error is chosen, for limits from the fastest \
-         point's error to the best one's, and measured anew with other samples. And the choice is made from every other point, to be \
-         compared with that from all.\n"
+fn choice(report: &mut Report, found: &[Found]) {
+    report.line(
+        "\n## Whether the automatic choice keeps its word\n\nOf all points the fastest within some error is chosen, \
+         for limits from the fastest point's error to the best one's, and measured anew with other samples. And the \
+         choice is made from every other point, to be compared with that from all.\n",
     );
-    say!(
-        text,
-        "| scene | limits | error over the limit, the worst | kept within 10 % | time anew / time | from half: time / time from all, median | the worst |"
+    report.line(
+        "| scene | limits | error over the limit, the worst | kept within 10 % | time anew / time | from half: time / \
+         time from all, median | the worst |",
     );
-    say!(text, "|---|---:|---:|---:|---:|---:|---:|");
+    report.line("|---|---:|---:|---:|---:|---:|---:|");
     for found in found {
         let landings = &found.landings;
         let worst = landings.iter().map(Landing::overshoot).fold(0.0, f64::max);
         let kept = landings.iter().filter(|landing| landing.overshoot() <= NEARLY).count();
         let mut times: Vec<f64> = landings.iter().map(|landing| landing.anew.cpu_s / landing.chosen.cpu_s).collect();
         let mut halves: Vec<f64> = landings.iter().filter_map(|landing| landing.half_over_all).collect();
-        say!(
-            text,
+        report.line(format!(
             "| {} | {} | {worst:.3} | {kept} | {:.3} | {:.3} | {:.3} |",
             found.scene,
             landings.len(),
             median(&mut times),
             median(&mut halves),
             halves.last().copied().unwrap_or_default()
-        );
+        ));
     }
 }
 
-fn scene(text: &mut String, found: &Found) {
+fn scene(report: &mut Report, found: &Found) {
     let name = as_file_name(&found.scene);
-    say!(text, "\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene);
+    report.line(format!("\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene));
     let points = found.points();
     let similar = points.iter().filter(|point| point.difference.worst_ssim > SIMILAR);
     match similar.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s)) {
         Some(Point { quality, cpu_s, .. }) => {
-            say!(text, "Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality));
+            report.line(format!("Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality)));
         }
-        None => say!(text, "At no quality tried are all blocks similar enough.\n"),
+        None => report.line("At no quality tried are all blocks similar enough.\n"),
     }
-    say!(
-        text,
-        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |"
+    report.line(
+        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst \
+         SSIM | samples | threshold | depth | cutoff |",
     );
-    say!(text, "|---:|---:|---:|---:|---:|---:|---:|---:|");
+    report.line("|---:|---:|---:|---:|---:|---:|---:|---:|");
     let mut last = f64::INFINITY;
     for Point { quality, cpu_s, difference, .. } in front(&points) {
         let Difference { rmse, wrong_pixels, worst_ssim } = *difference;
@@ -194,14 +182,13 @@ fn scene(text: &mut String, found: &Found) {
             continue;
         }
         last = rmse;
-        say!(
-            text,
+        report.line(format!(
             "| {cpu_s:.4} | {rmse:.5} | {wrong_pixels} | {worst_ssim:.4} | {samples} × {samples} | {} | {} | {} |",
             short(quality.threshold),
             quality.max_depth,
             short(quality.cutoff),
             samples = quality.samples
-        );
+        ));
     }
 }
 

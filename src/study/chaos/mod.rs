@@ -5,13 +5,13 @@ mod bugs;
 mod check;
 mod plan;
 
-use std::fmt::Write;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use serde_json::json;
 
-use super::{ProgressSink, Study, say};
+use super::markdown::Report;
+use super::{ProgressSink, Study};
 use crate::balance::Condition;
 use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
@@ -135,41 +135,43 @@ fn report(
     seen: &Seen,
     failures: &[(u64, String)],
     bugs: &[(Bug, Option<(u64, String)>)],
-) -> String {
-    let mut text = String::from("# Whatever befalls the ring that adapts\n\n");
-    say!(
-        text,
-        "Seeds {} to {}: random runs in virtual time, of 1 to 24 machines (some of them spares that join later), 1 to 400 atoms whose cost \
-         varies a hundredfold, speeds of 0.001 to 1, latencies of 0 to 200 ms, in some a slow shared wire and a slow parent. In seven of \
-         eight runs machines change their speed, stand still, hang, are cut off, are switched off and begin anew, join, or are lost for \
-         good, links are cut and mended, and what is on a way is held up for up to 10 s; at last one machine is well. Each run has to end; the picture has to be whole, each atom of it \
-         traced by who sent it; no node may begin an atom after its shutdown; no offer may be in two places; nothing may be given out again \
-         where nothing was lost; and there may be no more messages than the ring's README says.\n",
+) -> Report {
+    let mut report = Report::titled("Whatever befalls the ring that adapts");
+    report.line(format!(
+        "Seeds {} to {}: random runs in virtual time, of 1 to 24 machines (some of them spares that join later), 1 to \
+         400 atoms whose cost varies a hundredfold, speeds of 0.001 to 1, latencies of 0 to 200 ms, in some a slow \
+         shared wire and a slow parent. In seven of eight runs machines change their speed, stand still, hang, are \
+         cut off, are switched off and begin anew, join, or are lost for good, links are cut and mended, and what is \
+         on a way is held up for up to 10 s; at last one machine is well. Each run has to end; the picture has to be \
+         whole, each atom of it traced by who sent it; no node may begin an atom after its shutdown; no offer may be \
+         in two places; nothing may be given out again where nothing was lost; and there may be no more messages than \
+         the ring's README says.\n",
         seeds.start,
         seeds.end.saturating_sub(1)
-    );
+    ));
     let [off, hung, cut_off, links, delays, speeds, latencies] = seen.befell;
-    say!(text, "- runs that held: {}, of which nothing befell {}", seen.runs, seen.calm);
-    say!(text, "- runs that failed: {}", failures.len());
-    say!(
-        text,
-        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} ways held up, {speeds} changed speeds, {latencies} changed latencies"
-    );
-    say!(text, "- records: {}; atoms given out again by the parent: {}", seen.records, seen.again);
-    say!(text, "- most messages, over the bound: {:.2}\n", seen.of_bound);
+    report.line(format!("- runs that held: {}, of which nothing befell {}", seen.runs, seen.calm));
+    report.line(format!("- runs that failed: {}", failures.len()));
+    report.line(format!(
+        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} \
+         ways held up, {speeds} changed speeds, {latencies} changed latencies"
+    ));
+    report.line(format!("- records: {}; atoms given out again by the parent: {}", seen.records, seen.again));
+    report.line(format!("- most messages, over the bound: {:.2}\n", seen.of_bound));
     for (seed, why) in failures {
-        say!(text, "- seed {seed}: {why} (`anel study chaos --seed {seed}` tries it again and keeps its run)");
+        report
+            .line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` tries it again and keeps its run)"));
     }
     if !bugs.is_empty() {
-        say!(text, "\n## Bugs that were put in on purpose\n");
+        report.line("\n## Bugs that were put in on purpose\n");
         for (bug, found) in bugs {
             match found {
-                Some((seed, why)) => say!(text, "- {}: found with seed {seed}: {why}", bug.name()),
-                None => say!(text, "- {}: NOT FOUND in {TRIED} seeds", bug.name()),
+                Some((seed, why)) => report.line(format!("- {}: found with seed {seed}: {why}", bug.name())),
+                None => report.line(format!("- {}: NOT FOUND in {TRIED} seeds", bug.name())),
             }
         }
     }
-    text
+    report
 }
 
 #[cfg(test)]

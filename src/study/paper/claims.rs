@@ -63,8 +63,8 @@ fn near_ideal(rows: &Rows<'_>) -> ClaimVerdict {
         says: "The ring comes close to the ideal.",
         verdict: if all.iter().flatten().all(|&over| over < 1.1) { YES } else { DEPENDS },
         why: format!(
-            "Time over ideal at 2, 3, 4 machines and at 4 with the slow one: threads {}; virtual time {}; on the modelled \
-             network {}. The article's own: 1.034, 1.138, 1.131, 1.109.",
+            "Time over ideal at 2, 3, 4 machines and at 4 with the slow one: threads {}; virtual time {}; on the \
+             modelled network {}. The article's own: 1.034, 1.138, 1.131, 1.109.",
             words(all[0]),
             words(all[1]),
             words(all[2])
@@ -85,9 +85,9 @@ fn network_use(rows: &Rows<'_>) -> ClaimVerdict {
         says: "The ring uses the network more than static bands, and less than the farm.",
         verdict: if holds && usual > messages[1] { YES } else { DEPENDS },
         why: format!(
-            "Messages of static bands, ring and farm at four machines: {:.0}, {:.0}, {:.0}; kilobytes: {:.0}, {:.0}, {:.0}, of \
-             which nearly all are pixels. The farm's number depends on its parts: that was with parts of one atom; with 16 \
-             parts a machine it says {usual:.0}.",
+            "Messages of static bands, ring and farm at four machines: {:.0}, {:.0}, {:.0}; kilobytes: {:.0}, {:.0}, \
+             {:.0}, of which nearly all are pixels. The farm's number depends on its parts: that was with parts of \
+             one atom; with 16 parts a machine it says {usual:.0}.",
             messages[0],
             messages[1],
             messages[2],
@@ -110,8 +110,8 @@ fn finish_together(rows: &Rows<'_>) -> ClaimVerdict {
         says: "All computers finish practically together.",
         verdict: if ring.iter().all(|&spread| spread < 5.0) { YES } else { DEPENDS },
         why: format!(
-            "From the first machine's last atom to the last one's: {:.2} % of the time on threads and {:.2} % in virtual time at \
-             four machines, {:.2} % with the slow one; static bands {:.0} %, farm {:.1} %.",
+            "From the first machine's last atom to the last one's: {:.2} % of the time on threads and {:.2} % in \
+             virtual time at four machines, {:.2} % with the slow one; static bands {:.0} %, farm {:.1} %.",
             ring[0], ring[1], ring[2], others[0], others[1]
         ),
     }
@@ -144,8 +144,8 @@ fn easier_to_size(rows: &Rows<'_>) -> ClaimVerdict {
             _ => DEPENDS,
         },
         why: format!(
-            "Sizes in pixels whose time is within {:.0} % of the best (of those tried), at four machines, at four with the slow \
-             one, and both on the modelled network: the ring's atoms {}; the farm's parts {}.",
+            "Sizes in pixels whose time is within {:.0} % of the best (of those tried), at four machines, at four \
+             with the slow one, and both on the modelled network: the ring's atoms {}; the farm's parts {}.",
             100.0 * (GOOD - 1.0),
             words(atoms),
             words(parts)
@@ -170,9 +170,9 @@ fn slow_machine_helps(rows: &Rows<'_>) -> ClaimVerdict {
         says: "Even the slowest machine still helps.",
         verdict: if ring.iter().all(|&gain| gain > 0.0) { YES } else { DEPENDS },
         why: format!(
-            "A fifth machine of {:.1} % makes the ring {:.2} % faster on threads, {:.2} % in virtual time, {:.2} % on the modelled \
-             network; {best:.2} % is possible. A farm of 16 parts a machine becomes {} (the slow machine may hold the last part), \
-             static bands {}. The article: 4.3 % for the ring.",
+            "A fifth machine of {:.1} % makes the ring {:.2} % faster on threads, {:.2} % in virtual time, {:.2} % on \
+             the modelled network; {best:.2} % is possible. A farm of 16 parts a machine becomes {} (the slow machine \
+             may hold the last part), static bands {}. The article: 4.3 % for the ring.",
             100.0 * slow_speed(),
             ring[0],
             ring[1],
@@ -212,11 +212,12 @@ fn small_packets(rows: &Rows<'_>) -> ClaimVerdict {
             _ => DEPENDS,
         },
         why: format!(
-            "On the modelled network, packets of {small:.1} atoms on average take {time_small:.3} times the ideal, packets of \
-             {large:.1} atoms {time_large:.3}; without a network {free_small:.3} and {free_large:.3}. Small last packets are what lets \
-             all end together; a lap of the ring costs far less than the atoms it moves. The article's five runs moved {moved} atoms: \
-             the fifth, on which its curve hangs, moved a third of the others' and so had little to share, or shared it badly; four \
-             points between 160 and 168 s show no trend."
+            "On the modelled network, packets of {small:.1} atoms on average take {time_small:.3} times the ideal, \
+             packets of {large:.1} atoms {time_large:.3}; without a network {free_small:.3} and {free_large:.3}. \
+             Small last packets are what lets all end together; a lap of the ring costs far less than the atoms it \
+             moves. The article's five runs moved {moved} atoms: the fifth, on which its curve hangs, moved a third \
+             of the others' and so had little to share, or shared it badly; four points between 160 and 168 s show no \
+             trend."
         ),
     }
 }
@@ -228,9 +229,9 @@ fn compete([one, two, _]: &[Needs; 3]) -> ClaimVerdict {
         says: "Child and grandchild compete for the processor.",
         verdict: if two.wall_over_ring > 1.02 { YES } else { NO },
         why: format!(
-            "At full speed, a machine a core: {:.0} ms with one thread a node, {:.0} ms with two, which is {:.2} times as long; {} \
-             context switches become {}. One thread that is both, and looks for messages between two pieces of an atom, has none of \
-             this.",
+            "At full speed, a machine a core: {:.0} ms with one thread a node, {:.0} ms with two, which is {:.2} \
+             times as long; {} context switches become {}. One thread that is both, and looks for messages between \
+             two pieces of an atom, has none of this.",
             1e3 * one.wall_s,
             1e3 * two.wall_s,
             two.wall_over_ring,

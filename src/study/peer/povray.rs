@@ -83,8 +83,8 @@ impl Rendering {
 fn not_started(error: std::io::Error) -> String {
     match error.kind() {
         ErrorKind::NotFound => {
-            "POV-Ray is not installed: there is no program `povray`; Debian and Ubuntu have it in the \
-                                package of that name (apt install povray)"
+            "POV-Ray is not installed: there is no program `povray`; Debian and Ubuntu have it in the package of that \
+             name (apt install povray)"
                 .into()
         }
         _ => format!("povray cannot be started: {error}"),

@@ -47,30 +47,31 @@ impl Step {
             Self::AsItIs => return None,
             Self::Apart => [
                 "faces that coincide",
-                "POV-Ray asks of each crossing whether it lies inside the other solids, and on a face that they share rounding \
-                 answers. So of two colours on one face it shows now this, now that, as specks, and cutters that end together \
-                 leave skins behind. anel takes crossings within 10⁻¹² of each other for one, and shows the face that stands \
-                 first in the scene. *anel is right*: a thing that ends where its cutter ends is cut, and a face has one colour.",
+                "POV-Ray asks of each crossing whether it lies inside the other solids, and on a face that they share \
+                 rounding answers. So of two colours on one face it shows now this, now that, as specks, and cutters \
+                 that end together leave skins behind. anel takes crossings within 10⁻¹² of each other for one, and \
+                 shows the face that stands first in the scene. *anel is right*: a thing that ends where its cutter \
+                 ends is cut, and a face has one colour.",
             ],
             Self::Large => [
                 "absolute tolerances",
-                "POV-Ray overlooks what is nearer than 10⁻⁴ to where a ray starts, and 10⁻³ for a ray to a light, whatever the \
-                 scene's unit. anel knows on which face a ray starts and overlooks nothing; its picture of a scene that is 2ⁿ \
-                 times as large is the same to the bit. *anel is right*: the larger the scene, the more POV-Ray agrees with the \
-                 picture that anel had before.",
+                "POV-Ray overlooks what is nearer than 10⁻⁴ to where a ray starts, and 10⁻³ for a ray to a light, \
+                 whatever the scene's unit. anel knows on which face a ray starts and overlooks nothing; its picture \
+                 of a scene that is 2ⁿ times as large is the same to the bit. *anel is right*: the larger the scene, \
+                 the more POV-Ray agrees with the picture that anel had before.",
             ],
             Self::Lossless => [
                 "total internal reflection",
-                "Where nothing is let through, POV-Ray's surface reflects everything, even if Ks + Kt is less than 1; anel's \
-                 reflects Ks + Kt. The article does not say. *anel is consistent*: what a surface keeps of light it keeps at \
-                 every angle.",
+                "Where nothing is let through, POV-Ray's surface reflects everything, even if Ks + Kt is less than 1; \
+                 anel's reflects Ks + Kt. The article does not say. *anel is consistent*: what a surface keeps of \
+                 light it keeps at every angle.",
             ],
             Self::NoCutoff => [
                 "the cutoff",
-                "POV-Ray drops each ray that counts less than 1/255, however many there are; anel drops the weakest rays of a \
-                 sample, as many as count no more than 1/255 together. And under total internal reflection POV-Ray counts \
-                 a ray as Kt of the one before it, though it adds all that it brings, and drops it too soon. *anel is \
-                 nearer*: it counts a ray as what it is multiplied by.",
+                "POV-Ray drops each ray that counts less than 1/255, however many there are; anel drops the weakest \
+                 rays of a sample, as many as count no more than 1/255 together. And under total internal reflection \
+                 POV-Ray counts a ray as Kt of the one before it, though it adds all that it brings, and drops it too \
+                 soon. *anel is nearer*: it counts a ray as what it is multiplied by.",
             ],
         })
     }

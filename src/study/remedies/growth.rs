@@ -1,13 +1,12 @@
 //! From four machines to a thousand: efficiency, and how messages grow.
 
-use std::fmt::Write;
 use std::time::Duration;
 
 use fastrand::Rng;
 use serde::Serialize;
 
+use super::super::markdown::Report;
 use super::super::progress::Progress;
-use super::super::say;
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, LinkSettings};
@@ -138,25 +137,32 @@ fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: imp
 }
 
 /// Both as a table.
-pub(super) fn report(text: &mut String, rows: &[GrowthRow]) {
-    say!(text, "\n## From four machines to a thousand\n");
-    say!(
-        text,
-        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, hops, notes and wakes a machine.\n",
+pub(super) fn report(report: &mut Report, rows: &[GrowthRow]) {
+    report.line("\n## From four machines to a thousand\n");
+    report.line(format!(
+        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, \
+         hops, notes and wakes a machine.\n",
         LATENCY.as_millis(),
         COST.as_millis()
-    );
+    ));
     for uneven in [false, true] {
         let kind = if uneven { "Nine tenths of the work in a sixteenth of the picture" } else { "Work spread evenly" };
-        say!(text, "### {kind}\n");
-        say!(text, "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|", RIVALS.map(|(name, ..)| name).join(" | "));
+        report.line(format!("### {kind}\n"));
+        report.line(format!(
+            "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|",
+            RIVALS.map(|(name, ..)| name).join(" | ")
+        ));
         for nodes in NODES {
             let cell = |name| {
                 let row = rows.iter().find(|row| row.uneven == uneven && row.nodes == nodes && row.rival == name);
                 row.map_or(String::new(), |row| format!("{:.3} ({:.0})", row.efficiency, row.asking_per_node))
             };
-            say!(text, "| {nodes} | {} | {} |", nodes.ilog2(), RIVALS.map(|(name, ..)| cell(name)).join(" | "));
+            report.line(format!(
+                "| {nodes} | {} | {} |",
+                nodes.ilog2(),
+                RIVALS.map(|(name, ..)| cell(name)).join(" | ")
+            ));
         }
-        say!(text, "");
+        report.line("");
     }
 }

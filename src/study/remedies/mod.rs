@@ -23,8 +23,8 @@ pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String>
     for (name, chart) in report::charts(&rows).into_iter().chain(growth::charts(&growth)) {
         study.add_chart(&name, &chart.marks(crate::view::CHART_SIZE));
     }
-    let mut text = report::report(&rows);
-    growth::report(&mut text, &growth);
-    study.add_report(text);
+    let mut report = report::report(&rows);
+    growth::report(&mut report, &growth);
+    study.add_report(report);
     Ok(study)
 }

@@ -1,8 +1,6 @@
 //! What the measurements say: a table of the cases, a chart for each remedy, and how much it gains.
 
-use std::fmt::Write;
-
-use super::super::say;
+use super::super::markdown::Report;
 use super::cases::cases;
 use super::measure::{LATENCIES, RemedyRow};
 use crate::balance::Remedy;
@@ -56,19 +54,18 @@ fn find<'a>(rows: &'a [RemedyRow], case: &str, driver: &str, latency: f64, rival
     rows.iter().find(|row| row.case == case && row.driver == driver && row.latency_ms == latency && row.rival == rival)
 }
 
-pub(super) fn report(rows: &[RemedyRow]) -> String {
-    let mut text = String::from("# The ring that adapts\n\n");
-    say!(
-        text,
-        "Time over the bound, the least T with ∫ Σ speed dt ≥ work, where a machine that is off, hangs or is cut off counts for nothing. \
-         In virtual time the middle of five runs with atoms of 40 to 60 pixels, on threads of three runs in turn; ∞ is a run that never \
-         ends. In brackets the worst of the runs.\n"
+pub(super) fn report(rows: &[RemedyRow]) -> Report {
+    let mut report = Report::titled("The ring that adapts");
+    report.line(
+        "Time over the bound, the least T with ∫ Σ speed dt ≥ work, where a machine that is off, hangs or is cut off \
+         counts for nothing. In virtual time the middle of five runs with atoms of 40 to 60 pixels, on threads of \
+         three runs in turn; ∞ is a run that never ends. In brackets the worst of the runs.\n",
     );
-    say!(
-        text,
-        "| | case | aim | ring, 0 ms | adaptive, 0 ms | ring, 1 ms | adaptive, 1 ms | ring, 10 ms | adaptive, 10 ms | ring, threads | adaptive, threads |"
+    report.line(
+        "| | case | aim | ring, 0 ms | adaptive, 0 ms | ring, 1 ms | adaptive, 1 ms | ring, 10 ms | adaptive, 10 ms | \
+         ring, threads | adaptive, threads |",
     );
-    say!(text, "|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    report.line("|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for (number, case) in cases().iter().enumerate() {
         let cell = |driver, latency, rival| {
             find(rows, &case.name, driver, latency, rival).map_or("–".into(), |row| {
@@ -81,33 +78,39 @@ pub(super) fn report(rows: &[RemedyRow]) -> String {
         let simulated =
             LATENCIES.map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
         let threads = [cell("threads", 0.0, "ring"), cell("threads", 0.0, "adaptive")].join(" | ");
-        say!(text, "| {} | {} | {:.2} | {} | {threads} |", number + 1, case.name, case.aim, simulated.join(" | "));
+        report.line(format!(
+            "| {} | {} | {:.2} | {} | {threads} |",
+            number + 1,
+            case.name,
+            case.aim,
+            simulated.join(" | ")
+        ));
     }
-    say!(text, "\n## The cases\n");
+    report.line("\n## The cases\n");
     for (number, case) in cases().iter().enumerate() {
-        say!(text, "{}. *{}*: {}", number + 1, case.name, case.about);
+        report.line(format!("{}. *{}*: {}", number + 1, case.name, case.about));
     }
-    say!(text, "\n## What each remedy gains\n");
-    say!(
-        text,
-        "Where a run takes longest without a remedy, over the time with all of them, and the geometric mean of all cases that end.\n"
+    report.line("\n## What each remedy gains\n");
+    report.line(
+        "Where a run takes longest without a remedy, over the time with all of them, and the geometric mean of all \
+         cases that end.\n",
     );
-    say!(text, "| remedy | most, 0 ms | mean | most, 1 ms | mean | most, 10 ms | mean |");
-    say!(text, "|---|--:|--:|--:|--:|--:|--:|");
+    report.line("| remedy | most, 0 ms | mean | most, 1 ms | mean | most, 10 ms | mean |");
+    report.line("|---|--:|--:|--:|--:|--:|--:|");
     for remedy in Remedy::ALL {
         let cells = LATENCIES.map(|latency| gain(rows, remedy, latency));
-        say!(text, "| {remedy} | {} |", cells.join(" | "));
+        report.line(format!("| {remedy} | {} |", cells.join(" | ")));
     }
     let throttled = |rival| find(rows, "unequal, throttled", "threads", 0.0, rival).and_then(|row| row.over_bound);
     if let (Some(adaptive), Some(rayon)) = (throttled("adaptive"), throttled("rayon")) {
-        say!(
-            text,
-            "\n## Beside rayon\n\nPaced machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % of the run, on threads: the \
-             ring that adapts takes {adaptive:.3} × the bound, rayon's work stealing {rayon:.3}: {:.3} × its time.",
+        report.line(format!(
+            "\n## Beside rayon\n\nPaced machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % \
+             of the run, on threads: the ring that adapts takes {adaptive:.3} × the bound, rayon's work stealing \
+             {rayon:.3}: {:.3} × its time.",
             adaptive / rayon
-        );
+        ));
     }
-    text
+    report
 }
 
 /// What a remedy gains at most, and where; and on the average.

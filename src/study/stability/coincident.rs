@@ -14,11 +14,11 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         StabilityCase {
             name: "bore",
             title: "Coincident faces",
-            about: "A cylinder bored by one that ends exactly where it ends, which its map says in another order of moves and \
-                    scales, so that the two caps round differently; turned by (3°, 11°, 5°), or somehow. Rays through the bore \
-                    have to meet nothing. A plain merge of intervals sees a skin over the bore, grouping only equal distances \
-                    does where rounding made them unequal; ours groups what differs by less than 10⁻¹² of what it was computed \
-                    from. Truth: by construction.",
+            about: "A cylinder bored by one that ends exactly where it ends, which its map says in another order of \
+                    moves and scales, so that the two caps round differently; turned by (3°, 11°, 5°), or somehow. \
+                    Rays through the bore have to meet nothing. A plain merge of intervals sees a skin over the bore, \
+                    grouping only equal distances does where rounding made them unequal; ours groups what differs by \
+                    less than 10⁻¹² of what it was computed from. Truth: by construction.",
             parameter: "distance from the origin",
             values: tens(0, 9),
             required: 1e3,
@@ -31,10 +31,10 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         StabilityCase {
             name: "plate",
             title: "A thin plate",
-            about: "What is grouped may not be lost: a plate seen from a distance of 10, turned somehow, in a union with a ball \
-                    behind it or as the intersection of two half-spaces, is entered and left. Fusing what is nearer than an \
-                    absolute 0.0005 loses it. Wrong: its entry and its exit are not as far apart as the ray's way \
-                    through it is long, within a thousandth, or are not there. Truth: by construction.",
+            about: "What is grouped may not be lost: a plate seen from a distance of 10, turned somehow, in a union \
+                    with a ball behind it or as the intersection of two half-spaces, is entered and left. Fusing what \
+                    is nearer than an absolute 0.0005 loses it. Wrong: its entry and its exit are not as far apart as \
+                    the ray's way through it is long, within a thousandth, or are not there. Truth: by construction.",
             parameter: "thickness",
             values: tens(0, -13),
             required: 1e-7,

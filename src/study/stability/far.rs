@@ -15,10 +15,10 @@ pub(super) fn sphere() -> StabilityCase {
     StabilityCase {
         name: "far-sphere",
         title: "A far sphere",
-        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is it hit? The textbook's discriminant b² − ac \
-                subtracts squares of the distance; ours is that of the line's closest approach (Haines, Günther and \
-                Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the sign of the discriminant, without rounding. In f32 the \
-                ray is rounded first, and the truth is that of the rounded ray.",
+        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is it hit? The textbook's \
+                discriminant b² − ac subtracts squares of the distance; ours is that of the line's closest approach \
+                (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the sign of the discriminant, \
+                without rounding. In f32 the ray is rounded first, and the truth is that of the rounded ray.",
         parameter: "distance, radii",
         values: tens(1, 13),
         required: 1e8,

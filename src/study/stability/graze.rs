@@ -40,10 +40,11 @@ pub(super) fn cases() -> [StabilityCase; 4] {
             ..grazing(
                 "cone-generator",
                 "Rays along a cone's generator",
-                "Rays that go to a point inside a cone of 45°, parallel to one of its generators up to an angle. The square term \
-                 vanishes, and the textbook's −b ± √(b² − ac) over a loses its figures; ours takes the root that nothing is lost \
-                 of, and gets the other from the constant (Kahan). Wrong: not one entry and one exit, or one that is further than \
-                 10⁻⁹ from where the exact solid changes from outside to inside.",
+                "Rays that go to a point inside a cone of 45°, parallel to one of its generators up to an angle. The \
+                 square term vanishes, and the textbook's −b ± √(b² − ac) over a loses its figures; ours takes the \
+                 root that nothing is lost of, and gets the other from the constant (Kahan). Wrong: not one entry and \
+                 one exit, or one that is further than 10⁻⁹ from where the exact solid changes from outside to \
+                 inside.",
                 0.0,
                 generator,
             )
@@ -51,26 +52,27 @@ pub(super) fn cases() -> [StabilityCase; 4] {
         grazing(
             "tangent",
             "Tangents",
-            "Spheres, ellipsoids, cylinders and cones, turned somehow, and rays from a distance of 100 that pass a tangent's \
-             point inside or outside by a small distance: hit or not? Wrong is also an odd number of events, and one that is \
-             no number. Truth: signs of the exact quadratic at the caps, and of its discriminant.",
+            "Spheres, ellipsoids, cylinders and cones, turned somehow, and rays from a distance of 100 that pass a \
+             tangent's point inside or outside by a small distance: hit or not? Wrong is also an odd number of \
+             events, and one that is no number. Truth: signs of the exact quadratic at the caps, and of its \
+             discriminant.",
             1e-12,
             tangent,
         ),
         grazing(
             "rim",
             "The rim of a cylinder",
-            "Rays that pass the edge between the side and a cap at a small distance, one way or another; a quarter of them along \
-             the side or the cap of a cylinder that is not turned. Otherwise as tangents. A textbook that tests the side and \
-             the caps one by one finds one of the two events and not the other.",
+            "Rays that pass the edge between the side and a cap at a small distance, one way or another; a quarter of \
+             them along the side or the cap of a cylinder that is not turned. Otherwise as tangents. A textbook that \
+             tests the side and the caps one by one finds one of the two events and not the other.",
             1e-12,
             rim,
         ),
         grazing(
             "apex",
             "The apex of a cone",
-            "Rays that pass the apex at a small distance; otherwise as tangents. What such a ray is inside for is as small as the \
-             distance, and the discriminant is its square.",
+            "Rays that pass the apex at a small distance; otherwise as tangents. What such a ray is inside for is as \
+             small as the distance, and the discriminant is its square.",
             1e-9,
             apex,
         ),

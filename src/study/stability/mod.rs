@@ -211,7 +211,7 @@ mod tests {
         let rows: Vec<Vec<StabilityRow>> = cases.iter().map(|case| case.rows(4)).collect();
         let found: Vec<(&StabilityCase, &[StabilityRow])> =
             cases.iter().zip(&rows).map(|(case, rows)| (case, &rows[..])).collect();
-        let report = report::report(&found);
+        let report = report::report(&found).into_text();
         for (case, rows) in found {
             assert!(report.contains(&format!("](stability-{}.svg)", case.name)) && report.contains(case.about));
             let lines: Vec<usize> = report::chart(case, rows).series.iter().map(|series| series.points.len()).collect();

@@ -46,8 +46,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "swing",
             "Machines whose speed swings",
-            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about the one given; \
-             every other one begins slow. The ideal time knows of every swing.",
+            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about \
+             the one given; every other one begins slow. The ideal time knows of every swing.",
             "period over the time at full speed",
             twos(-6, 4),
             Scale::Log2,
@@ -56,9 +56,10 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "stop",
             "A machine that stops",
-            "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from somewhere in the \
-             first half of the run. The two atoms in its pipe cannot be taken back, so that every strategy waits for it to go on, \
-             and would for ever if it never did; in a ring all its other atoms leave it when others offer help.",
+            "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from \
+             somewhere in the first half of the run. The two atoms in its pipe cannot be taken back, so that every \
+             strategy waits for it to go on, and would for ever if it never did; in a ring all its other atoms leave \
+             it when others offer help.",
             "time that it stands over the time of all at full speed",
             twos(-6, 3),
             Scale::Log2,
@@ -67,8 +68,9 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "crowd",
             "More machines than atoms",
-            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom: where that is longer, it is \
-             the ideal time, here and below. Where a machine has two atoms, both are in its pipe, and a ring has nothing to give.",
+            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom: where \
+             that is longer, it is the ideal time, here and below. Where a machine has two atoms, both are in its \
+             pipe, and a ring has nothing to give.",
             "machines an atom",
             twos(-3, 4),
             Scale::Log2,
@@ -77,8 +79,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "corner",
             "All the work in one corner",
-            "Of 1,024 atoms, some that stand together somewhere in the picture cost 999 parts in 1,000 of all the work; at last it is \
-             one atom. Of two dear atoms in one pipe the second has to wait for the first.",
+            "Of 1,024 atoms, some that stand together somewhere in the picture cost 999 parts in 1,000 of all the \
+             work; at last it is one atom. Of two dear atoms in one pipe the second has to wait for the first.",
             "share of the atoms that hold the work",
             twos(0, -10),
             Scale::Log2,
@@ -87,8 +89,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "latency",
             "Wild latencies",
-            "The latency of all messages changes fifty times in the time of the run, to anything between a thousandth of the one given \
-             and that.",
+            "The latency of all messages changes fifty times in the time of the run, to anything between a thousandth \
+             of the one given and that.",
             "greatest latency over an atom's time",
             twos(-6, 7),
             Scale::Log2,

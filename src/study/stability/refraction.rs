@@ -21,10 +21,11 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "critical",
             title: "The critical angle",
-            about: "Rays inside glass (n = 1.5) that meet its face at a small angle more or less than the critical one (41.81°: \
-                    from 41.80° it refracts, from 41.82° it reflects), the face turned somehow: do they get out? What takes the \
-                    root of 1 − n² sin² without a look at its sign has no number where light is reflected. Truth: the sign of \
-                    the radicand, without rounding, for the ray and the normal as they are.",
+            about: "Rays inside glass (n = 1.5) that meet its face at a small angle more or less than the critical \
+                    one (41.81°: from 41.80° it refracts, from 41.82° it reflects), the face turned somehow: do they \
+                    get out? What takes the root of 1 − n² sin² without a look at its sign has no number where light \
+                    is reflected. Truth: the sign of the radicand, without rounding, for the ray and the normal as \
+                    they are.",
             parameter: "angle off the critical one, radians",
             values: tens(-1, -16),
             required: 1e-12,
@@ -37,9 +38,10 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "slabs",
             title: "A stack of slabs",
-            about: "Rays through k parallel slabs of glass, turned somehow, at angles from 10⁻⁶ to 80° off their normal: they must \
-                    leave as they came. Going by angles (arc cosine, arc sine and sine) loses figures near the normal. Wrong: a \
-                    direction that differs by more than 10⁻¹², or a ray that does not get through.",
+            about: "Rays through k parallel slabs of glass, turned somehow, at angles from 10⁻⁶ to 80° off their \
+                    normal: they must leave as they came. Going by angles (arc cosine, arc sine and sine) loses \
+                    figures near the normal. Wrong: a direction that differs by more than 10⁻¹², or a ray that does \
+                    not get through.",
             parameter: "slabs",
             values: twos(0, 8),
             required: 256.0,
@@ -52,7 +54,10 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "media",
             title: "Glass that overlaps water",
-            about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only touches it: in the glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air has to leave a gap, and in it light goes as in air. Wrong: a direction behind the water that differs by more than 10⁻¹², or a ray that does not get through.",
+            about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only \
+                    touches it: in the glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air \
+                    has to leave a gap, and in it light goes as in air. Wrong: a direction behind the water that \
+                    differs by more than 10⁻¹², or a ray that does not get through.",
             parameter: "overlap, or width of the gap",
             values: tens(-1, -14).into_iter().chain([0.0]).collect(),
             required: 0.0,

@@ -1,44 +1,40 @@
 //! What the study of stability says.
 
-use std::fmt::Write;
-
 use super::{StabilityCase, StabilityRow, protocol};
-use crate::study::say;
+use crate::study::markdown::Report;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// The report, in Markdown.
-pub(super) fn report(found: &[Found<'_>]) -> String {
-    let mut text = String::from("# Where methods fail\n\n");
-    say!(
-        text,
-        "Cases that grow harder step by step, and what a naive method and ours make of them. In geometry, what is true is worked out \
-         without rounding from the very numbers that the methods were given. All is in f64 unless it says otherwise, and random with \
-         fixed seeds: who runs it again gets the same.\n"
+pub(super) fn report(found: &[Found<'_>]) -> Report {
+    let mut report = Report::titled("Where methods fail");
+    report.line(
+        "Cases that grow harder step by step, and what a naive method and ours make of them. In geometry, what is \
+         true is worked out without rounding from the very numbers that the methods were given. All is in f64 unless \
+         it says otherwise, and random with fixed seeds: who runs it again gets the same.\n",
     );
     let of_protocol = |(case, _): &&(&StabilityCase, &[StabilityRow])| case.methods == protocol::METHODS;
-    methods(&mut text, found.iter().filter(|found| !of_protocol(found)));
-    strategies(&mut text, found.iter().filter(of_protocol));
+    methods(&mut report, found.iter().filter(|found| !of_protocol(found)));
+    strategies(&mut report, found.iter().filter(of_protocol));
     for &(case, rows) in found {
-        say!(text, "\n<a id=\"{}\"></a>\n\n## {}\n\n{}\n", case.name, case.title, case.about);
-        table(&mut text, case, rows);
-        say!(text, "\n![](stability-{}.svg)", case.name);
+        report.line(format!("\n<a id=\"{}\"></a>\n\n## {}\n\n{}\n", case.name, case.title, case.about));
+        table(&mut report, case, rows);
+        report.line(format!("\n![](stability-{}.svg)", case.name));
     }
-    say!(text, "\nAll numbers are in `stability.csv`.");
-    text
+    report.line("\nAll numbers are in `stability.csv`.");
+    report
 }
 
 type Found<'a> = (&'a StabilityCase, &'a [StabilityRow]);
 
 /// Where geometric methods hold, and where they first fail.
-fn methods<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>) {
-    say!(text, "| case | what grows harder | required up to | ours holds | ours first fails | others first fail |");
-    say!(text, "|---|---|---:|---:|---:|---|");
+fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
+    report.line("| case | what grows harder | required up to | ours holds | ours first fails | others first fail |");
+    report.line("|---|---|---:|---:|---:|---|");
     for (case, rows) in found {
         let (ours, others) = (case.ours(), &case.methods[..case.methods.len() - 1]);
         let first: Vec<String> =
             others.iter().map(|method| format!("{method}: {}", first_wrong(rows, method))).collect();
-        say!(
-            text,
+        report.line(format!(
             "| [{}](#{}) | {} | {} | {} | {} | {} |",
             case.title,
             case.name,
@@ -47,35 +43,33 @@ fn methods<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>) {
             held(rows, ours),
             first_wrong(rows, ours),
             first.join("; ")
-        );
+        ));
     }
 }
 
 /// What strategies lose, and where a ring does not trace every atom once.
-fn strategies<'a>(text: &mut String, found: impl Iterator<Item = &'a Found<'a>>) {
+fn strategies<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
     let names = protocol::METHODS.join(" | ");
-    say!(
-        text,
-        "\nThe protocol in virtual time, where machines, costs or the network are wild: each strategy's worst time over the ideal \
-         one, and where it had that.\n"
+    report.line(
+        "\nThe protocol in virtual time, where machines, costs or the network are wild: each strategy's worst time \
+         over the ideal one, and where it had that.\n",
     );
-    say!(text, "| case | what is varied | the ring traces every atom once | {names} |");
-    say!(text, "|---|---|---:|{}", "---:|".repeat(protocol::METHODS.len()));
+    report.line(format!("| case | what is varied | the ring traces every atom once | {names} |"));
+    report.line(format!("|---|---|---:|{}", "---:|".repeat(protocol::METHODS.len())));
     for (case, rows) in found {
         let worst = protocol::METHODS.iter().map(|method| {
             let measured = of(rows, method).map(|row| (row.measured.unwrap_or(f64::INFINITY), row.value));
             let worst = measured.max_by(|(this, _), (other, _)| this.total_cmp(other));
             worst.map_or("–".into(), |(measured, value)| format!("{} at {}", number(measured), number(value)))
         });
-        say!(
-            text,
+        report.line(format!(
             "| [{}](#{}) | {} | {} | {} |",
             case.title,
             case.name,
             case.parameter,
             held(rows, case.ours()),
             worst.collect::<Vec<_>>().join(" | ")
-        );
+        ));
     }
 }
 
@@ -97,14 +91,14 @@ fn first_wrong(rows: &[StabilityRow], method: &str) -> String {
     of(rows, method).find(|row| row.wrong > 0).map_or("nowhere".into(), |row| number(row.value))
 }
 
-fn table(text: &mut String, case: &StabilityCase, rows: &[StabilityRow]) {
-    say!(text, "| {} | tried | {} |", case.parameter, case.methods.join(" | "));
-    say!(text, "|---:|---:|{}", "---:|".repeat(case.methods.len()));
+fn table(report: &mut Report, case: &StabilityCase, rows: &[StabilityRow]) {
+    report.line(format!("| {} | tried | {} |", case.parameter, case.methods.join(" | ")));
+    report.line(format!("|---:|---:|{}", "---:|".repeat(case.methods.len())));
     for rows in rows.chunks(case.methods.len()) {
         let Some(first) = rows.first() else { continue };
         let cells: Vec<String> = rows.iter().map(|row| cell(case, row)).collect();
         let bold = if first.value == case.required { "**" } else { "" };
-        say!(text, "| {bold}{}{bold} | {} | {} |", number(first.value), first.tried, cells.join(" | "));
+        report.line(format!("| {bold}{}{bold} | {} | {} |", number(first.value), first.tried, cells.join(" | ")));
     }
 }
 

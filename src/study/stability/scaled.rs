@@ -16,9 +16,10 @@ pub(super) fn scenes() -> StabilityCase {
     StabilityCase {
         name: "scaled",
         title: "A scene and its copies at other scales",
-        about: "Each built-in scene, scaled by 2ᵏ and by 2⁻ᵏ: its picture must be the same, bit by bit, since powers of two round \
-                nothing. The naive picture is of a ball on a floor under a lamp, by rays that forget what is nearer than 10⁻⁴, \
-                which does not shrink with the scene; counted once for each scene. Truth: the picture at k = 0. Counted are pixels.",
+        about: "Each built-in scene, scaled by 2ᵏ and by 2⁻ᵏ: its picture must be the same, bit by bit, since powers \
+                of two round nothing. The naive picture is of a ball on a floor under a lamp, by rays that forget \
+                what is nearer than 10⁻⁴, which does not shrink with the scene; counted once for each scene. Truth: \
+                the picture at k = 0. Counted are pixels.",
         parameter: "scale 2ᵏ, and its inverse",
         values: twos(0, 20),
         required: f64::from(1 << 20),

@@ -18,11 +18,11 @@ pub(super) fn on_faces() -> StabilityCase {
     StabilityCase {
         name: "start",
         title: "Rays that start on a face",
-        about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, where another ray has hit it: outwards they \
-                must meet nothing, inwards they must leave the solid once. A naive method forgets hits nearer than an offset: a \
-                large one forgets the way out of a flat stay, a small one meets the face itself again (acne). Ours knows which \
-                root of which primitive is 0. Truth: the sign of the exact quadratic's slope at the start, which stands for \
-                its point on the surface.",
+        about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, where another ray has \
+                hit it: outwards they must meet nothing, inwards they must leave the solid once. A naive method \
+                forgets hits nearer than an offset: a large one forgets the way out of a flat stay, a small one meets \
+                the face itself again (acne). Ours knows which root of which primitive is 0. Truth: the sign of the \
+                exact quadratic's slope at the start, which stands for its point on the surface.",
         parameter: "angle, radians",
         values: tens(0, -16),
         required: 1e-8,

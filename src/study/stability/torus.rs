@@ -31,10 +31,10 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         torus(
             "far-torus",
             "A far torus",
-            "Rays towards a torus (radius 1, tube 0.25): how often do they cross it? The closed form of the quartic (Ferrari, \
-             Cardano) takes the coefficients as they are, and those grow with the fourth power of the distance. Ours starts \
-             from where the line is closest, and finds the roots between those of the derivatives (Yuksel 2022). Truth: the \
-             changes of sign in Sturm's chain, without rounding.",
+            "Rays towards a torus (radius 1, tube 0.25): how often do they cross it? The closed form of the quartic \
+             (Ferrari, Cardano) takes the coefficients as they are, and those grow with the fourth power of the \
+             distance. Ours starts from where the line is closest, and finds the roots between those of the \
+             derivatives (Yuksel 2022). Truth: the changes of sign in Sturm's chain, without rounding.",
             "distance, radii",
             tens(0, 10),
             1e8,
@@ -43,9 +43,9 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         torus(
             "thin-torus",
             "A thin torus",
-            "Rays from a distance of 10 towards a torus of radius 1 whose tube is thin, which pass the middle of the tube \
-             within two of its radii; otherwise as the far torus. The quartic is there a difference of nearly equal numbers; \
-             ours takes its sign from the factor that changes sign.",
+            "Rays from a distance of 10 towards a torus of radius 1 whose tube is thin, which pass the middle of the \
+             tube within two of its radii; otherwise as the far torus. The quartic is there a difference of nearly \
+             equal numbers; ours takes its sign from the factor that changes sign.",
             "radius of the tube",
             tens(-1, -9),
             1e-6,
