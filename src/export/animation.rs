@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use image::RgbImage;
 
+use super::ExportError;
 use super::colours::Colours;
 use crate::palette::Rgb;
 
@@ -70,7 +71,7 @@ impl<W: Write> Animation<W> {
 }
 
 fn side(pixels: u32) -> io::Result<u16> {
-    u16::try_from(pixels).map_err(|_| io::Error::other("a GIF is at most 65,535 pixels broad and high"))
+    u16::try_from(pixels).map_err(|_| io::Error::other(ExportError::GifSide(pixels)))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use image::RgbImage;
 use image::imageops::{FilterType, overlay, resize};
 
 use super::animation::Animation;
-use super::{Raster, to_svg};
+use super::{ExportError, Raster, to_svg};
 use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
@@ -143,7 +143,7 @@ impl<'a> FilmFrames<'a> {
     }
 
     /// The frame of a time, which is not before that of the last one; everything has come to rest at the end.
-    fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, String> {
+    fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         let records = if is_last { self.log.records().len() } else { self.log.until(at) };
         for record in &self.log.records()[self.moment.records().min(records)..records] {
             self.moment.apply(record);
@@ -174,7 +174,7 @@ impl<'a> FilmFrames<'a> {
         if (across, down) == (width, height) { whole } else { resize(&whole, across, down, FilterType::CatmullRom) }
     }
 
-    fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, String> {
+    fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         /// Longer than the last message is drawn.
         const LINGER: Duration = Duration::from_secs(5);
         let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
@@ -184,7 +184,7 @@ impl<'a> FilmFrames<'a> {
     }
 
     /// Time and sentence; drawn only where they are others than before.
-    fn say(&mut self, at: Time, is_last: bool) -> Result<(), String> {
+    fn say(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
         let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0));
         let sentence = match self.outcome.filter(|_| is_last) {
             Some(_) => format!("Complete after {time}"),
@@ -215,10 +215,10 @@ impl<'a> FilmFrames<'a> {
         Ok(())
     }
 
-    fn drawn(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, String> {
+    fn drawn(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, ExportError> {
         let svg = to_svg(marks, [width as f32, height as f32], self.log.header.speeds.len());
         let (size, rgb) = self.raster.draw(&svg, 1.0)?;
-        RgbImage::from_raw(size.width(), size.height(), rgb).ok_or_else(|| "a drawing has too few pixels".into())
+        RgbImage::from_raw(size.width(), size.height(), rgb).ok_or(ExportError::TooFewPixels(size))
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
+use super::ExportError;
 use crate::font::{PLEX, PLEX_NAME};
 use crate::picture::Size;
 
@@ -27,12 +28,12 @@ impl Raster {
     ///
     /// # Errors
     /// A sentence, if it is not SVG or too large to be drawn.
-    pub fn draw(&self, svg: &str, scale: f32) -> Result<(Size, Vec<u8>), String> {
-        let tree = Tree::from_str(svg, &self.options).map_err(|error| format!("the drawing is not SVG: {error}"))?;
+    pub fn draw(&self, svg: &str, scale: f32) -> Result<(Size, Vec<u8>), ExportError> {
+        let tree = Tree::from_str(svg, &self.options)?;
         let side = |length: f32| (length * scale).round() as u32;
-        let size = Size::new(side(tree.size().width()), side(tree.size().height()))?;
-        let mut pixels = Pixmap::new(size.width(), size.height())
-            .ok_or_else(|| format!("a drawing of {size} pixels is too large"))?;
+        let size = Size::new(side(tree.size().width()), side(tree.size().height()));
+        let size = size.map_err(|error| ExportError::Size(error.into()))?;
+        let mut pixels = Pixmap::new(size.width(), size.height()).ok_or(ExportError::TooLarge(size))?;
         // Whatever the SVG leaves open is paper.
         pixels.fill(resvg::tiny_skia::Color::WHITE);
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
@@ -87,6 +88,6 @@ mod tests {
 
     #[test]
     fn what_is_no_svg_is_refused_in_a_sentence() {
-        assert!(Raster::new().draw("no svg", 1.0).is_err_and(|why| why.contains("not SVG")));
+        assert!(Raster::new().draw("no svg", 1.0).is_err_and(|error| error.to_string().contains("not SVG")));
     }
 }

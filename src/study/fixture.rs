@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::StudyError;
 use crate::balance::{Rules, Strategy};
 use crate::driver::{TracedPicture, probe};
 use crate::picture::{Division, Quality, Size};
@@ -44,9 +45,10 @@ impl Fixture {
     ///
     /// # Errors
     /// A sentence, if it could not be traced.
-    pub fn new(scene: &Opened, size: Size, samples: u32) -> Result<Self, String> {
+    pub fn new(scene: &Opened, size: Size, samples: u32) -> Result<Self, StudyError> {
         let tracer = Arc::new(Tracer::new(&scene.scene, size, Quality { samples, ..Quality::default() }));
-        let whole = TracedPicture::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {})?;
+        let whole =
+            TracedPicture::of(&tracer, Division::new(size.pixels(), GRAIN), &|_| {}).map_err(StudyError::run)?;
         Ok(Self { scene: scene.clone(), size, samples, tracer, rays: whole.rays })
     }
 
@@ -107,7 +109,7 @@ fn tally(header: &Header, mut sim: Sim) -> Metrics {
 ///
 /// # Errors
 /// A sentence, if not all atoms were traced.
-pub(super) fn twin(log: &RunLog) -> Result<Metrics, String> {
+pub(super) fn twin(log: &RunLog) -> Result<Metrics, StudyError> {
     let header = virtually(&log.header);
-    Ok(tally(&header, Sim::measured(&header, log)?))
+    Ok(tally(&header, Sim::measured(&header, log).map_err(StudyError::run)?))
 }

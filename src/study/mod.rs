@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod chaos;
+mod error;
 mod fixture;
 mod markdown;
 mod needs;
@@ -18,14 +19,17 @@ mod stability;
 
 pub use accuracy::accuracy;
 pub use chaos::chaos;
+pub use error::StudyError;
 pub use needs::needs;
 pub use paper::{article_over_ideal, paper};
-pub use peer::peer;
+pub use peer::{PovRayError, peer};
 pub use progress::ProgressSink;
 pub use remedies::remedies;
 pub use rivals::rivals;
 pub use scale_report::scale;
 pub use stability::stability;
+
+use std::io;
 
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -53,22 +57,23 @@ impl Study {
     }
 
     /// Adds rows, as JSON and as a CSV file of the study's name.
-    fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), String> {
+    fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), StudyError> {
         for row in rows {
-            self.rows.push(serde_json::to_value(row).map_err(|error| error.to_string())?);
+            self.rows.push(serde_json::to_value(row)?);
         }
         self.add_csv(format!("{}.csv", self.name), rows)
     }
 
     /// Adds a table of something else, as a CSV file.
-    fn add_table(&mut self, name: &str, rows: &[impl Serialize]) -> Result<(), String> {
+    fn add_table(&mut self, name: &str, rows: &[impl Serialize]) -> Result<(), StudyError> {
         self.add_csv(format!("{}-{name}.csv", self.name), rows)
     }
 
-    fn add_csv(&mut self, file: String, rows: &[impl Serialize]) -> Result<(), String> {
+    fn add_csv(&mut self, file: String, rows: &[impl Serialize]) -> Result<(), StudyError> {
         let mut csv = csv::Writer::from_writer(Vec::new());
-        rows.iter().try_for_each(|row| csv.serialize(row)).map_err(|error| error.to_string())?;
-        self.files.push((file, csv.into_inner().map_err(|error| error.to_string())?));
+        let written = rows.iter().try_for_each(|row| csv.serialize(row)).map_err(io::Error::from);
+        let bytes = written.and_then(|()| csv.into_inner().map_err(|error| error.into_error()));
+        self.files.push((file.clone(), bytes.map_err(|error| StudyError::file(file, error))?));
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::markdown::Report;
 use super::preview_time::{PreviewTimes, picture};
 use super::progress::Progress;
-use super::{ProgressSink, Study, median};
+use super::{ProgressSink, Study, StudyError, median};
 use crate::csg::{Pass, Passes};
 use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
@@ -31,8 +31,8 @@ struct Saving {
 ///
 /// # Errors
 /// A sentence, if the rows cannot be written.
-pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String> {
-    let size = Size::new(240, 180)?;
+pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
+    let size = Size::new(240, 180).map_err(StudyError::size)?;
     let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
     let (mut rows, mut looks) = (Vec::new(), Vec::new());
     for scene in scenes {
@@ -75,8 +75,8 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String>
 }
 
 /// The turn in the middle.
-fn first_look(scene: &Opened) -> Result<PreviewTimes, String> {
-    let size = Size::new(640, 480)?;
+fn first_look(scene: &Opened) -> Result<PreviewTimes, StudyError> {
+    let size = Size::new(640, 480).map_err(StudyError::size)?;
     let look = |_| PreviewTimes::new(|| Tracer::new(&scene.scene, size, Quality::default()));
     let mut looks: Vec<PreviewTimes> = (0..TURNS).map(look).collect();
     looks.sort_by(|a, b| a.exact.total_cmp(&b.exact));

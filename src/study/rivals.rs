@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::fixture::{Fixture, cost_of};
 use super::markdown::Report;
 use super::progress::Progress;
-use super::{ProgressSink, Study, median};
+use super::{ProgressSink, Study, StudyError, median};
 use crate::balance::Strategy;
 use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
@@ -41,9 +41,9 @@ pub(super) struct Needs {
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * STEPS, tell);
-    let size = Size::new(640, 480)?;
+    let size = Size::new(640, 480).map_err(StudyError::size)?;
     let mut rows = Vec::new();
     for scene in scenes {
         // Enough that starting threads does not show.
@@ -64,7 +64,7 @@ pub(super) const STEPS: usize = TURNS * RIVALS.len();
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], String> {
+pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], StudyError> {
     let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
     let mut turns = Vec::new();
     for _ in 0..TURNS {
@@ -102,9 +102,9 @@ struct Sample {
 
 impl Sample {
     #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-    fn take(bench: &Fixture, header: &Header) -> Result<Self, String> {
+    fn take(bench: &Fixture, header: &Header) -> Result<Self, StudyError> {
         let (begun, before) = (Instant::now(), context_switches());
-        let log = run_to_end(&bench.tracer, header, &[])?;
+        let log = run_to_end(&bench.tracer, header, &[]).map_err(StudyError::run)?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
         let makespan = Metrics::of(&log).makespan().unwrap_or_default().as_secs_f64();

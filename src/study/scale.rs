@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::StudyError;
 use super::fixture::{AtomCosts, Fixture, STRATEGIES, simulate};
 use super::progress::{Progress, ProgressSink};
 use crate::balance::Rules;
@@ -59,8 +60,8 @@ pub(super) fn node_counts() -> impl Iterator<Item = usize> + Clone {
 ///
 /// # Errors
 /// A sentence, if the scene could not be traced.
-pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, String> {
-    let size = Size::new(SIZE.0, SIZE.1)?;
+pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, StudyError> {
+    let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;
     let bench = Fixture::new(scene, size, 1)?;
     let atoms = Division::new(size.pixels(), ATOM).atoms();
     let strong = bench.costs(ATOM, ATOM_COST * atoms);
@@ -85,13 +86,13 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
 
 /// What the strong picture's atoms cost, for a picture of [`ATOMS_A_NODE`] atoms a node: each has the cost of the atom at the
 /// same height of the picture; and that picture's size.
-fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), String> {
+fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), StudyError> {
     let atoms = ATOMS_A_NODE as usize * nodes;
     let at = |atom: usize| costs[(atom as u64 * costs.len() as u64 / atoms as u64) as usize];
     let total: Duration = (0..atoms).map(at).sum();
     let even = ATOM_COST.as_secs_f64() * atoms as f64 / total.as_secs_f64();
     let costs: Arc<[Duration]> = (0..atoms).map(|atom| at(atom).mul_f64(even)).collect();
-    Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32)?))
+    Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32).map_err(StudyError::size)?))
 }
 
 fn row(plain: Header, network: (f64, f64), weak: bool, costs: &AtomCosts) -> ScaleRow {

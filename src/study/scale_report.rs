@@ -3,7 +3,7 @@
 use super::fixture::STRATEGIES;
 use super::markdown::Report;
 use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::balance::Strategy;
 use crate::scene::Opened;
 use crate::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue};
@@ -13,7 +13,7 @@ use crate::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue}
 ///
 /// # Errors
 /// A sentence, if the scene could not be traced.
-pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let rows = measure(scene, tell)?;
     let mut study = Study::new("scale");
     study.add_rows(&rows)?;

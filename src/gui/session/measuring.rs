@@ -55,13 +55,14 @@ fn found(
     is_over: &(dyn Fn() -> bool + Sync),
     tell: &dyn Fn(Finding),
 ) -> Result<(), String> {
-    let size = size_for(scene, small(whole)?)?;
+    let size = size_for(scene, small(whole)?);
     let mut begun = 0;
     let mut begin = || {
         begun += 1;
         tell(Finding::Begun(begun));
     };
-    let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, is_over)? else { return Ok(()) };
+    let reference = Reference::trace(scene, size, MOST, &mut begin, is_over).map_err(|error| error.to_string())?;
+    let Some(reference) = reference else { return Ok(()) };
     tell(Finding::Reference(reference.clone()));
     let mut known = 0;
     measure(scene, &reference, qualities, is_over, &mut |place, point, frame| {

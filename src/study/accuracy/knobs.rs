@@ -77,21 +77,20 @@ const RAYS: f64 = 80_000.0;
 
 /// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about 80,000 rays at most, so
 /// that scenes whose trees of rays are large do not take much longer than others.
-///
-/// # Errors
-/// A sentence, if there is no such size.
-pub fn size_for(scene: &Scene, most: Size) -> Result<Size, String> {
-    let small = Size::new(most.width().min(64), most.height().min(48))?;
+pub fn size_for(scene: &Scene, most: Size) -> Size {
+    // Neither side of `most` is 0, and no side chosen here is longer: every such size is possible.
+    let size = |width: u32, height: u32| Size::new(width, height).unwrap_or(most);
+    let small = size(most.width().min(64), most.height().min(48));
     let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
     Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);
     let a_pixel = scratch.rays.total() as f64 / f64::from(small.pixels());
     let part = (RAYS / (a_pixel * f64::from(most.pixels()))).sqrt();
     if part >= 1.0 {
-        return Ok(most);
+        return most;
     }
     // Whole blocks of those whose similarity is compared.
     let side = |most: u32| ((f64::from(most) * part / 8.0).round() as u32 * 8).clamp(1, most);
-    Size::new(side(most.width()), side(most.height()))
+    size(side(most.width()), side(most.height()))
 }
 
 #[cfg(test)]
@@ -117,7 +116,7 @@ mod tests {
     #[test]
     fn the_more_rays_a_scene_takes_the_smaller_is_its_picture() {
         let most = Size::new(320, 240).unwrap();
-        let size = |name: &str| size_for(&Opened::new(name).unwrap().scene, most).unwrap();
+        let size = |name: &str| size_for(&Opened::new(name).unwrap().scene, most);
         assert!(size("glass").pixels() < size("ten-objects").pixels());
         for (name, _) in BUILT_IN {
             let size = size(name);
@@ -126,6 +125,6 @@ mod tests {
             assert!((ratio - 4.0 / 3.0).abs() < 0.1, "{name}: {size}");
         }
         let few = Size::new(3, 5).unwrap();
-        assert_eq!(size_for(&Opened::new("glass").unwrap().scene, few).unwrap(), few);
+        assert_eq!(size_for(&Opened::new("glass").unwrap().scene, few), few);
     }
 }

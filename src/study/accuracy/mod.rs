@@ -25,7 +25,7 @@ pub use reference::Reference;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::scene::Opened;
@@ -87,7 +87,7 @@ impl AccuracyRow {
 ///
 /// # Errors
 /// A sentence, if a thread could not be started, or failed.
-pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * (scene::steps() + 1) + ring::STEPS, tell);
     let mut study = Study::new("accuracy");
     let found: Vec<Found> =

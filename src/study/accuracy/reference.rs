@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::driver::TracedPicture;
 use crate::picture::{Colour, Difference, Division, Frame, Quality, Size};
 use crate::scene::Scene;
+use crate::study::StudyError;
 use crate::tracer::Tracer;
 
 /// A picture that is as good as true, and how good that is.
@@ -46,7 +47,7 @@ impl Reference {
         samples: u32,
         begin: &mut dyn FnMut(),
         is_over: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Self>, String> {
+    ) -> Result<Option<Self>, StudyError> {
         let usual = Quality::default();
         let many = (3 * samples).min(Quality::MOST_SAMPLES);
         // A single sample would lie in the middle of its pixel, whatever the pattern.
@@ -57,8 +58,9 @@ impl Reference {
                 begin();
                 let quality = Quality { samples, max_depth, cutoff, pattern, ..usual };
                 let tracer = Arc::new(Tracer::new(scene, size, quality));
-                let whole = TracedPicture::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)?;
-                Ok::<_, String>(whole.map(|whole| whole.pixels))
+                let whole = TracedPicture::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)
+                    .map_err(StudyError::run)?;
+                Ok::<_, StudyError>(whole.map(|whole| whole.pixels))
             };
             let Some(main) = trace(many, usual.max_depth, usual.cutoff)? else { return Ok(None) };
             let Some(short) = trace(few, usual.max_depth, usual.cutoff)? else { return Ok(None) };

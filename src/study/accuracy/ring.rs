@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::sharing::{NODES, SharedRun, Transfer, WatchedRun, run, usual};
 use crate::picture::Size;
 use crate::scene::Opened;
+use crate::study::StudyError;
 use crate::study::fixture::Fixture;
 use crate::study::progress::Progress;
 
@@ -51,7 +52,7 @@ impl RingAccuracy {
     ///
     /// # Errors
     /// A sentence, if a scene could not be traced.
-    pub fn of(scenes: &[Opened], size: Size, progress: &mut Progress<'_>) -> Result<Self, String> {
+    pub fn of(scenes: &[Opened], size: Size, progress: &mut Progress<'_>) -> Result<Self, StudyError> {
         let mut shared = Vec::new();
         let mut first = None;
         for opened in scenes {

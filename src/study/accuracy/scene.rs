@@ -5,6 +5,7 @@ use super::knobs::{Knob, MOST, combinations, size_for};
 use super::{Point, Reference, measure};
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Opened;
+use crate::study::StudyError;
 use crate::study::progress::Progress;
 
 /// What is found of one scene.
@@ -41,12 +42,12 @@ impl Found {
     ///
     /// # Errors
     /// A sentence, if a thread could not be started, or failed.
-    pub fn of(opened: &Opened, most: Size, progress: &mut Progress<'_>) -> Result<Self, String> {
+    pub fn of(opened: &Opened, most: Size, progress: &mut Progress<'_>) -> Result<Self, StudyError> {
         let (name, scene) = (&opened.name, &opened.scene);
-        let size = size_for(scene, most)?;
+        let size = size_for(scene, most);
         let mut begin = || progress.next(&format!("{name}: the reference"));
         let reference = Reference::trace(scene, size, MOST, &mut begin, &|| false)?;
-        let reference = reference.ok_or("the reference was given up")?;
+        let reference = reference.ok_or(StudyError::Cancelled)?;
         let mut entries = Vec::new();
         for knob in Knob::ALL {
             let qualities: Vec<Quality> = knob.values().iter().map(|&value| knob.quality(value)).collect();
@@ -85,7 +86,7 @@ fn at(
     qualities: &[Quality],
     what: &str,
     progress: &mut Progress<'_>,
-) -> Result<(Vec<Point>, Vec<Frame>), String> {
+) -> Result<(Vec<Point>, Vec<Frame>), StudyError> {
     let mut frames: Vec<Frame> = Vec::new();
     let points = measure(&opened.scene, reference, qualities, &|| false, &mut |place, _, frame| {
         if place == frames.len() {
@@ -93,5 +94,5 @@ fn at(
             frames.push(frame.clone());
         }
     });
-    Ok((points.ok_or("the measurement was given up")?, frames))
+    Ok((points.ok_or(StudyError::Cancelled)?, frames))
 }

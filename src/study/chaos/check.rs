@@ -1,6 +1,9 @@
 //! What has to be true of every run, whatever befalls it: looked for in its records, as they come.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use thiserror::Error;
 
 use super::plan::ChaosPlan;
 use crate::balance::adaptive::RingMembers;
@@ -19,6 +22,29 @@ const LONGEST: Time = Time(100_000 * 1_000_000_000);
 /// Changes what a party does: how often an action of it is carried out.
 pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 
+/// A property that a run violates.
+#[derive(Clone, Debug, Error)]
+pub(super) enum Violation {
+    #[error("the run does not end")]
+    Endless,
+    #[error("node {node} starts atom {atom} after its shutdown")]
+    StartedAfterShutdown { node: NodeId, atom: Atom },
+    #[error("node {node} sends atom {atom}, which it has not traced")]
+    SentUntraced { node: NodeId, atom: Atom },
+    #[error("the offer that node {offerer} made at {} s is in two places", made.secs())]
+    OfferInTwoPlaces { offerer: NodeId, made: Time },
+    #[error("the parent hands out {0:?} again, but nothing was lost")]
+    AgainWithoutLoss(Vec<Range<Atom>>),
+    #[error("the run is deadlocked, and {missing} atoms are missing")]
+    Deadlock { missing: usize },
+    #[error("the run ended without atom {0}")]
+    EndedWithoutAtom(usize),
+    #[error("{messages} messages are more than the bound of {bound}")]
+    TooManyMessages { messages: u64, bound: f64 },
+    #[error("a machine or the parent panicked: {0}")]
+    Panic(String),
+}
+
 /// What a run amounted to.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RunTotals {
@@ -33,7 +59,7 @@ pub(super) struct RunTotals {
 ///
 /// # Errors
 /// A sentence that says what is wrong with it.
-pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, String> {
+pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, Violation> {
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
     if let Some(tamper) = tamper {
@@ -42,11 +68,11 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
     let mut check = Check::new(plan);
     while let Some(next) = sim.next() {
         sim.advance(next, &mut |record| check.record(&record));
-        if let Some(wrong) = check.wrong.take() {
-            return Err(wrong);
+        if let Some(violation) = check.violation.take() {
+            return Err(violation);
         }
         if check.outcome.records > MOST_RECORDS || next > LONGEST {
-            return Err("it does not end".into());
+            return Err(Violation::Endless);
         }
     }
     check.end(sim.is_finished())
@@ -56,14 +82,14 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
 struct Check<'a> {
     plan: &'a ChaosPlan,
     outcome: RunTotals,
-    wrong: Option<String>,
+    violation: Option<Violation>,
     /// By node: the atoms that it has traced and not sent.
     traced: Vec<BTreeSet<Atom>>,
     stopped: Vec<bool>,
     /// By atom: how often it has reached the parent.
     placed: Vec<u32>,
     /// Results on their way to the parent.
-    results: BTreeMap<u64, Vec<std::ops::Range<Atom>>>,
+    results: BTreeMap<u64, Vec<Range<Atom>>>,
     /// Offers, and how many stops they had left when they were last sent.
     offers: BTreeMap<(NodeId, Time), u16>,
     messages: u64,
@@ -78,7 +104,7 @@ impl<'a> Check<'a> {
         Self {
             plan,
             outcome: RunTotals::default(),
-            wrong: None,
+            violation: None,
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
@@ -103,7 +129,7 @@ impl<'a> Check<'a> {
             }
             RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
             RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
-                self.fail(format!("node {node} begins atom {atom} after its shutdown"));
+                self.fail(Violation::StartedAfterShutdown { node: *node, atom: *atom });
             }
             RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
@@ -120,7 +146,7 @@ impl<'a> Check<'a> {
             (Party::Node(node), Message::Results(ranges)) => {
                 for atom in ranges.iter().cloned().flatten() {
                     if !self.traced[usize::from(node)].remove(&atom) {
-                        self.fail(format!("node {node} sends atom {atom}, which it has not traced"));
+                        self.fail(Violation::SentUntraced { node, atom });
                     }
                 }
                 self.results.insert(id, ranges.clone());
@@ -128,13 +154,13 @@ impl<'a> Check<'a> {
             (_, Message::Offer { who, help: Some(Helper { sent, left: Some(left), .. }), .. }) => {
                 let before = self.offers.insert((*who, *sent), *left);
                 if before.is_some_and(|before| before <= *left && before > 0) {
-                    self.fail(format!("the offer of node {who} made at {} s is in two places", sent.secs()));
+                    self.fail(Violation::OfferInTwoPlaces { offerer: *who, made: *sent });
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
                 self.outcome.again += u64::from(atoms_in(ranges));
                 if self.plan.calm {
-                    self.fail(format!("{ranges:?} are given out again, and nothing was lost"));
+                    self.fail(Violation::AgainWithoutLoss(ranges.clone()));
                 }
             }
             (Party::Parent, Message::Gone(_)) => self.gone += 1,
@@ -142,17 +168,17 @@ impl<'a> Check<'a> {
         }
     }
 
-    fn end(mut self, finished: bool) -> Result<RunTotals, String> {
+    fn end(mut self, finished: bool) -> Result<RunTotals, Violation> {
         if !finished {
             let missing = self.placed.iter().filter(|&&times| times == 0).count();
-            return Err(format!("it has come to a standstill, and {missing} atoms are missing"));
+            return Err(Violation::Deadlock { missing });
         }
         if let Some(atom) = self.placed.iter().position(|&times| times == 0) {
-            return Err(format!("it ended without atom {atom}"));
+            return Err(Violation::EndedWithoutAtom(atom));
         }
         self.outcome.of_bound = self.messages as f64 / self.bound();
         if self.outcome.of_bound > 1.0 {
-            return Err(format!("{} messages are more than the bound of {}", self.messages, self.bound()));
+            return Err(Violation::TooManyMessages { messages: self.messages, bound: self.bound() });
         }
         Ok(self.outcome)
     }
@@ -167,7 +193,7 @@ impl<'a> Check<'a> {
         3.0 * f64::from(stops + 2) * moments
     }
 
-    fn fail(&mut self, why: String) {
-        self.wrong.get_or_insert(why);
+    fn fail(&mut self, violation: Violation) {
+        self.violation.get_or_insert(violation);
     }
 }

@@ -11,14 +11,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use serde_json::json;
 
 use super::markdown::Report;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::balance::Condition;
 use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
 use crate::scene::Opened;
 use crate::sim::Sim;
 use bugs::Bug;
-use check::RunTotals;
+use check::{RunTotals, Violation};
 use plan::ChaosPlan;
 
 /// Of so many failing seeds the runs are kept.
@@ -33,9 +33,9 @@ const STEP: u64 = 250;
 ///
 /// # Errors
 /// A sentence, if a file could not be made.
-pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut seen = Seen::default();
-    let mut failures: Vec<(u64, String)> = Vec::new();
+    let mut failures: Vec<(u64, Violation)> = Vec::new();
     let count = seeds.end.saturating_sub(seeds.start);
     for seed in seeds.clone() {
         if (seed - seeds.start).is_multiple_of(STEP) {
@@ -53,9 +53,9 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Resul
     let kept: Vec<u64> =
         if count == 1 { seeds.clone().collect() } else { failures.iter().map(|(seed, _)| *seed).take(KEPT).collect() };
     for seed in kept {
-        let mut bytes = Vec::new();
-        record(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| error.to_string())?;
-        study.files.push((format!("chaos-{seed}.anel"), bytes));
+        let (file, mut bytes) = (format!("chaos-{seed}.anel"), Vec::new());
+        record(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| StudyError::file(&*file, error))?;
+        study.files.push((file, bytes));
     }
     let failing: Vec<u64> = failures.iter().map(|(seed, _)| *seed).collect();
     study.summary = [("seeds", json!(count)), ("failures", json!(failing.len())), ("failing_seeds", json!(failing))]
@@ -67,16 +67,16 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Resul
 }
 
 /// One run of a seed, with a bug if there is to be one. A party that finds the impossible panics; that is a failure too.
-fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, String> {
+fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, Violation> {
     let run = || check::run(plan, bug.map(Bug::tamper));
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        Err(format!("a party panicked: {}", said.unwrap_or_default()))
+        Err(Violation::Panic(said.unwrap_or_default().into()))
     })
 }
 
 /// The first seed from `first` on with which a bug is found, and what is said of it.
-fn find(bug: Bug, first: u64) -> Option<(u64, String)> {
+fn find(bug: Bug, first: u64) -> Option<(u64, Violation)> {
     (first..first + TRIED).find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
 }
 
@@ -133,8 +133,8 @@ impl Seen {
 fn report(
     seeds: &Range<u64>,
     seen: &Seen,
-    failures: &[(u64, String)],
-    bugs: &[(Bug, Option<(u64, String)>)],
+    failures: &[(u64, Violation)],
+    bugs: &[(Bug, Option<(u64, Violation)>)],
 ) -> Report {
     let mut report = Report::titled("Whatever befalls the ring that adapts");
     report.line(format!(

@@ -10,6 +10,7 @@ use crate::balance::Strategy;
 use crate::driver::{cores, run_to_end};
 use crate::runlog::{Driver, Header, Metrics};
 use crate::scenario::{Command, Script, square_wave};
+use crate::study::StudyError;
 use crate::study::fixture::{AtomCosts, Fixture, STRATEGIES, simulate, twin};
 use crate::time::Time;
 
@@ -67,14 +68,14 @@ impl<'a> Measuring<'a> {
     ///
     /// # Errors
     /// A sentence, if a run failed.
-    pub fn threads(&mut self, progress: &mut Progress<'_>) -> Result<(), String> {
+    pub fn threads(&mut self, progress: &mut Progress<'_>) -> Result<(), StudyError> {
         let kinds = self.kinds();
         let mut rows: Vec<Vec<PaperRow>> = kinds.iter().map(|_| Vec::new()).collect();
         for _ in 0..RUNS {
             for ((about, header, script), rows) in kinds.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
                 progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
-                let log = run_to_end(&self.bench.tracer, &header, script)?;
+                let log = run_to_end(&self.bench.tracer, &header, script).map_err(StudyError::run)?;
                 // Rayon's rules are not ours to simulate; and when threads obey a script is not quite when it says.
                 let has_twin = header.driver == Driver::Threads && script.is_empty();
                 let twin = if has_twin { Some(twin(&log)?) } else { None };

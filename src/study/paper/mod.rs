@@ -13,7 +13,7 @@ use std::time::Duration;
 use super::fixture::{Fixture, cost_of};
 use super::progress::Progress;
 use super::rivals::{self, Needs};
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::driver::cores;
 use crate::picture::{Quality, Size};
 use crate::scene::Opened;
@@ -30,10 +30,10 @@ const RUN: Duration = Duration::from_millis(1100);
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn paper(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn paper(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + rivals::STEPS, tell);
     progress.next("what the picture costs");
-    let size = Size::new(640, 480)?;
+    let size = Size::new(640, 480).map_err(StudyError::size)?;
     let (samples, work, pace) = long_enough(scene, size);
     let bench = Fixture::new(scene, size, samples)?;
     let mut measuring = Measuring::new(&bench, work, pace);
@@ -66,7 +66,7 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// The study that says so.
-    fn written(&self) -> Result<Study, String> {
+    fn written(&self) -> Result<Study, StudyError> {
         let mut study = Study::new("paper");
         study.add_rows(&self.rows)?;
         for (name, marks) in charts::all(&self.rows, &self.handling) {

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::rotation;
 use crate::picture::{Difference, Quality, Size, apart, srgb8};
+use crate::ron_file::FileError;
 use crate::scene::{Opened, Scene};
 use crate::tracer::{RayKind, Scratch, Tracer};
 
@@ -28,8 +29,8 @@ const RADIUS: f64 = 0.7;
 ///
 /// # Errors
 /// What is wrong with its text.
-pub(super) fn scene() -> Result<Opened, String> {
-    Opened::from_text("bored-cylinder", SCENE).map_err(|error| error.to_string())
+pub(super) fn scene() -> Result<Opened, FileError> {
+    Opened::from_text("bored-cylinder", SCENE)
 }
 
 /// The pixels whose rays go through the bore and touch nothing.

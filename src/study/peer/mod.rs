@@ -12,13 +12,14 @@ mod step;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
 use bored_cylinder::Bore;
 use povray::PovRay;
+pub use povray::PovRayError;
 use step::Step;
 
 /// A scene after some of the steps, as both programs see it.
@@ -47,7 +48,7 @@ struct PeerRow {
 ///
 /// # Errors
 /// A sentence, if POV-Ray is not installed or failed, or a picture could not be kept.
-pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let povray = PovRay::find()?;
     let bored = bored_cylinder::scene()?;
     let bore = Bore::of(&bored.scene, size);
@@ -115,16 +116,17 @@ impl Pictures {
     }
 
     /// Adds both pictures to the study's files, and one that shows where they differ.
-    fn keep(&self, study: &mut Study, scene: &str) -> Result<(), String> {
+    fn keep(&self, study: &mut Study, scene: &str) -> Result<(), StudyError> {
         let where_they_differ = self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
             if difference > Difference::SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
         });
         let pictures =
             [(OURS, self.ours.clone()), (THEIRS, self.theirs.clone()), (DIFFERENCE, where_they_differ.collect())];
         for (which, pixels) in pictures {
-            let mut png = Vec::new();
-            encode_png(&mut png, self.size, pixels.as_flattened()).map_err(|error| error.to_string())?;
-            study.files.push((picture_name(scene, which), png));
+            let (file, mut png) = (picture_name(scene, which), Vec::new());
+            let encoded = encode_png(&mut png, self.size, pixels.as_flattened());
+            encoded.map_err(|error| StudyError::file(&*file, error))?;
+            study.files.push((file, png));
         }
         Ok(())
     }

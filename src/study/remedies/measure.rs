@@ -12,6 +12,7 @@ use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, LinkSettings, Metrics};
 use crate::scene::Opened;
+use crate::study::StudyError;
 use crate::study::fixture::{Fixture, cost_of, simulate};
 
 /// How long a run in virtual time takes all machines together at full speed, and about how long one on threads does.
@@ -83,10 +84,10 @@ pub(super) fn steps() -> usize {
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec<RemedyRow>, String> {
+pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec<RemedyRow>, StudyError> {
     let cases = cases();
-    let size = Size::new(SIZE.0, SIZE.1)?;
-    let corner = Opened::new("corner").map_err(|error| error.to_string())?;
+    let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;
+    let corner = Opened::new("corner")?;
     let (plain, corner) = (Fixture::new(scene, size, 1)?, Fixture::new(&corner, size, 1)?);
     let bench = |case: &RemedyCase| if case.corner { &corner } else { &plain };
     let mut rows = Vec::new();
@@ -137,11 +138,11 @@ fn on_threads(
     case: &RemedyCase,
     rivals: &[Rival],
     progress: &mut Progress<'_>,
-) -> Result<Vec<RemedyRow>, String> {
+) -> Result<Vec<RemedyRow>, StudyError> {
     // What leaves more than half of the computer idle.
     let pace = (0.4 * cores() as f64 / case.speeds.iter().sum::<f64>()).min(1.0);
     let rate = case.speeds.iter().sum::<f64>() * pace;
-    let size = Size::new(SIZE.0, SIZE.1)?;
+    let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;
     let long_enough = |samples: &u32| cost_of(scene, size, *samples).as_secs_f64() >= RUN.as_secs_f64() * rate;
     let samples = (1..8).find(long_enough).unwrap_or(8);
     let bench = Fixture::new(scene, size, samples)?;
@@ -152,7 +153,8 @@ fn on_threads(
             progress.next(&format!("on threads: {}, {}", case.name, rival.name()));
             let driver = if rival == Rival::Rayon { Driver::WorkStealing } else { Driver::Threads };
             let header = Header { driver, pace, cores: cores(), ..header(&bench, case, 50, rival) };
-            runs.push(Metrics::of(&run_to_end(&bench.tracer, &header, &(case.script)(run))?));
+            let log = run_to_end(&bench.tracer, &header, &(case.script)(run)).map_err(StudyError::run)?;
+            runs.push(Metrics::of(&log));
         }
     }
     Ok(rivals.iter().zip(&runs).map(|(&rival, runs)| row(case, Driver::Threads, 0.0, rival, runs)).collect())

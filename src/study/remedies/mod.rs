@@ -6,14 +6,14 @@ mod measure;
 mod report;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::scene::Opened;
 
 /// Measures all cases with this scene's picture.
 ///
 /// # Errors
 /// A sentence, if a run failed.
-pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(measure::steps() + growth::STEPS, tell);
     let growth = growth::measure(&mut progress);
     let rows = measure::measure(scene, &mut progress)?;

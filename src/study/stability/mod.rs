@@ -19,7 +19,7 @@ use fastrand::Rng;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::view::Scale;
 
 /// Something that is tried at growing hardness, by several methods.
@@ -89,7 +89,7 @@ fn cases() -> Vec<StabilityCase> {
 ///
 /// # Errors
 /// A sentence, if the rows could not be written.
-pub fn stability(tell: ProgressSink<'_>) -> Result<Study, String> {
+pub fn stability(tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let cases = cases();
     let mut progress = Progress::new(cases.len(), tell);
     let mut study = Study::new("stability");
