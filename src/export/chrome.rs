@@ -1,9 +1,10 @@
-//! A run in the trace format of Chrome, which Perfetto (<https://ui.perfetto.dev>) shows: what each machine did, which
-//! messages were under way, and what part of the machines traced.
+//! A run in Chrome's trace format, which Perfetto (<https://ui.perfetto.dev>) shows: the atoms of each machine, the
+//! messages in flight, and the share of machines that trace.
 //!
-//! Machines and messages are processes of their own. A slice (`X`) never overlaps another on its track: a machine traces one atom at
-//! a time, and messages that are under way together have tracks beside each other. Arrows (`s`, `t`, `f`) lead from an offer's
-//! hop to the next and to its answer, and with atoms from whoever gives them to the first that is traced elsewhere.
+//! Machines and messages are separate processes. A slice (`X`) never overlaps another on its track: a machine traces
+//! one atom at a time, and messages in flight together have separate tracks. Arrows (`s`, `t`, `f`) lead from an
+//! offer's hop to the next and to its answer, and with atoms from their sender to the first of them that the receiver
+//! traces.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -17,19 +18,19 @@ use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::{Lanes, Traced, node_name};
 
-/// The process of the machines, and those of the messages.
+/// Processes of the trace: the machines, and three kinds of messages.
 const MACHINES: u32 = 1;
 const ATOMS: u32 = 2;
 const OFFERS: u32 = 3;
 const RESULTS: u32 = 4;
 
-/// Of how many stretches of the run it is told what part of the machines traced.
+/// Number of intervals for which the share of tracing machines is written.
 const STRETCHES: u64 = 400;
 
-/// Writes a run as Chrome's trace.
+/// Writes a run in Chrome's trace format.
 ///
 /// # Errors
-/// What `to` says.
+/// The error of writing to `to`.
 pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
     let lanes = Lanes::of(log);
     let header = &log.header;
@@ -53,7 +54,7 @@ pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
     writeln!(events.to, "\n]}}")
 }
 
-/// Events in the making, one a line.
+/// Writer of trace events, one a line.
 struct TraceEvents<W> {
     to: W,
     any: bool,
@@ -66,7 +67,7 @@ impl<W: Write> TraceEvents<W> {
         serde_json::to_writer(&mut self.to, event).map_err(io::Error::from)
     }
 
-    /// An arrow through these slices; a single one has nowhere to point at.
+    /// Writes an arrow through slices; with a single slice it has no end and is omitted.
     fn arrow(&mut self, (id, name): (u64, &str), through: &[TraceSlice]) -> io::Result<()> {
         if through.len() < 2 {
             return Ok(());
@@ -81,7 +82,7 @@ impl<W: Write> TraceEvents<W> {
                 "ph": phase, "cat": "message", "name": name, "id": id, "pid": process, "tid": track, "ts": micros(at),
             });
             if phase == "f" {
-                // To the slice that begins there, not to the one that follows.
+                // Binds to the slice that begins here, not to the next one.
                 event["bp"] = "e".into();
             }
             self.put(&event)?;
@@ -90,7 +91,7 @@ impl<W: Write> TraceEvents<W> {
     }
 }
 
-/// The slice that contains a time.
+/// A point on a track, which selects the slice that contains it.
 #[derive(Clone, Copy)]
 struct TraceSlice {
     process: u32,
@@ -98,10 +99,10 @@ struct TraceSlice {
     at: Time,
 }
 
-/// Where each atom was traced, and from when on.
+/// By atom: the node that traced it, and when.
 type AtomPlaces = BTreeMap<Atom, (NodeId, Traced)>;
 
-/// By message: the slice that shows it under way.
+/// By message: its slice in flight.
 type Travelled = BTreeMap<u64, TraceSlice>;
 
 fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
@@ -129,7 +130,7 @@ fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result
     Ok(())
 }
 
-/// A slice for each atom.
+/// Writes a slice for each atom.
 fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<AtomPlaces> {
     let mut places = AtomPlaces::new();
     for (node, lane) in (0..).zip(lanes.lanes()) {
@@ -152,10 +153,10 @@ fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Re
     Ok(places)
 }
 
-/// A slice for each message, from when it left to when it arrives, on the first of the tracks of its kind that is free.
+/// Writes a slice for each message, from departure to arrival, on the first free track of its kind.
 fn messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<Travelled> {
     let mut travelled = Travelled::new();
-    // By kind and track: until when it is taken.
+    // By kind and track: the time until which it is taken.
     let mut taken: BTreeMap<u32, Vec<Time>> = BTreeMap::new();
     for record in log.records() {
         let RecordKind::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
@@ -194,9 +195,9 @@ fn messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<Tr
     Ok(travelled)
 }
 
-/// An arrow through the hops of each offer, and on to the atoms that answer it.
+/// Writes an arrow through the hops of each offer, to the transfer that answers it.
 fn offers(log: &RunLog, travelled: &Travelled, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
-    // By machine: the number of the offer that it has out, and the slices that it has gone through.
+    // By machine: the number of its last offer, and the slices of its hops.
     let mut out: BTreeMap<NodeId, (u64, Vec<TraceSlice>)> = BTreeMap::new();
     for record in log.records() {
         let RecordKind::Sent { id, from, to, message, .. } = &record.what else { continue };
@@ -226,14 +227,14 @@ fn offers(log: &RunLog, travelled: &Travelled, events: &mut TraceEvents<impl Wri
     left.iter().try_for_each(|(id, through)| events.arrow((2 * id, "offer"), through))
 }
 
-/// An arrow from whoever gives atoms through their slice under way to the first of them that is traced.
+/// Writes an arrow from the sender of atoms through their message to the first of them that is traced.
 fn parcels(
     log: &RunLog,
     traced: &AtomPlaces,
     travelled: &Travelled,
     events: &mut TraceEvents<impl Write>,
 ) -> io::Result<()> {
-    // By machine: what it traced, by time.
+    // By machine: its traced atoms, by time.
     let mut by_node: BTreeMap<NodeId, Vec<Traced>> = BTreeMap::new();
     traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
@@ -259,7 +260,7 @@ fn parcels(
     Ok(())
 }
 
-/// What is done to machines, and what ends.
+/// Writes an instant for each change of a machine, and for the end.
 fn happenings(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     for record in log.records() {
         let (node, what) = match &record.what {
@@ -290,7 +291,7 @@ fn became(condition: Condition) -> &'static str {
     }
 }
 
-/// What part of the machines traced, stretch by stretch.
+/// Writes the share of machines that trace, by interval.
 fn usage(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     let bars = || lanes.lanes().iter().flat_map(|lane| lane.bars());
     let end = bars().map(|bar| bar.to.0).max().unwrap_or_default();
@@ -308,14 +309,14 @@ fn usage(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<()> 
     for (stretch, busy) in (0..).zip(busy) {
         let part = 100.0 * busy as f64 / whole;
         events.put(&json!({
-            "ph": "C", "name": "machines that trace (%)", "pid": MACHINES, "tid": 0, "ts": micros(Time(stretch * length)),
+            "ph": "C", "name": "machines tracing (%)", "pid": MACHINES, "tid": 0, "ts": micros(Time(stretch * length)),
             "args": { "part": part },
         }))?;
     }
     Ok(())
 }
 
-/// A slice from its place until a time.
+/// Makes a slice from its point until a time.
 fn slice(name: &str, kind: &str, place: TraceSlice, until: Time, args: Value) -> Value {
     let TraceSlice { process, track, at } = place;
     json!({
@@ -324,12 +325,12 @@ fn slice(name: &str, kind: &str, place: TraceSlice, until: Time, args: Value) ->
     })
 }
 
-/// The parent's is 0.
+/// Returns a node's track; 0 is the parent's.
 fn track_of(node: NodeId) -> usize {
     usize::from(node) + 1
 }
 
-/// The format's unit; nanoseconds are its decimals.
+/// Converts to microseconds, the format's unit; nanoseconds are decimals.
 fn micros(time: Time) -> f64 {
     time.0 as f64 / 1e3
 }

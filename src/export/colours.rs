@@ -1,4 +1,4 @@
-//! The few colours of a frame that has many.
+//! Reduces the colours of a frame to a palette.
 
 use std::cmp::Reverse;
 
@@ -7,22 +7,22 @@ use quantette::{Image, PaletteSize, Pipeline};
 
 use crate::palette::Rgb;
 
-/// A palette of at most 255 colours, and which of them stands for each colour that was there; one more place is for none.
+/// A palette of at most 255 colours and a transparent entry, with the entry that represents each original colour.
 pub(super) struct Colours {
     palette: Vec<u8>,
-    /// By colour.
+    /// Entry of the palette by original colour.
     indices: Vec<(Rgb, u8)>,
 }
 
-/// A palette has 256 places, of which one is for none.
+/// Most colours in a palette of 256 entries, of which one is transparent.
 const MOST: usize = 255;
 
-/// If colours are too many, those of whole areas are kept as they are, one in so many pixels or more: areas stay flat, and meet
-/// without a seam what was shown before.
+/// With too many colours, a colour that covers at least this fraction of the pixels (1 / `AREA`) is kept exactly: areas
+/// stay flat and meet earlier frames without a seam.
 const AREA: usize = 100;
 
 impl Colours {
-    /// For these pixels.
+    /// Chooses a palette for these pixels.
     pub fn of(pixels: impl Iterator<Item = Rgb>) -> Self {
         let mut pixels: Vec<Rgb> = pixels.collect();
         pixels.sort_unstable();
@@ -36,7 +36,7 @@ impl Colours {
         // At most 255 in all.
         let mut indices: Vec<(Rgb, u8)> = (0..).zip(kept).map(|(index, (colour, _))| (*colour, index)).collect();
         if !others.is_empty() {
-            // As often as they are seen.
+            // Each colour as often as it occurs.
             let rest = others.iter().flat_map(|&(colour, count)| std::iter::repeat_n(Srgb::from(colour), count));
             let (found, chosen) = chosen(&rest.clone().collect::<Vec<_>>(), MOST - kept.len());
             palette.extend(found.into_iter().flat_map(<[u8; 3]>::from));
@@ -47,28 +47,28 @@ impl Colours {
         Self { palette, indices }
     }
 
-    /// Three bytes a colour, the place for none included.
+    /// Returns the palette, three bytes per colour, with the transparent entry last.
     pub fn palette(&self) -> Vec<u8> {
         [&self.palette[..], &[0; 3]].concat()
     }
 
-    /// The place for none.
+    /// Returns the transparent entry.
     pub fn none(&self) -> u8 {
-        // There are at most 255 before it.
+        // At most 255 colours come before it.
         (self.palette.len() / 3) as u8
     }
 
-    /// The place of what stands for a colour that was there.
+    /// Returns the entry that represents an original colour.
     pub fn index(&self, colour: Rgb) -> u8 {
         let place = self.indices.binary_search_by_key(&colour, |(known, _)| *known);
         place.map_or(0, |place| self.indices[place].1)
     }
 }
 
-/// At most so many colours that stand for those of many pixels, and by pixel which of them.
+/// Chooses at most `most` colours that represent the pixels, and returns the colours and the entry of each pixel.
 fn chosen(pixels: &[Srgb<u8>], most: usize) -> (Vec<Srgb<u8>>, Vec<u8>) {
     let row = u32::try_from(pixels.len()).ok().and_then(|width| Image::new(width, 1, pixels).ok());
-    // No picture of this program has so many pixels that they cannot be counted.
+    // A picture of this program always has few enough pixels.
     let Some(row) = row else { return Default::default() };
     let size = PaletteSize::from_usize_clamped(most);
     Pipeline::new().palette_size(size).ditherer(None).input_image(row).output_srgb8_indexed_image().into_parts()
@@ -82,7 +82,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn few_colours_are_kept_and_many_are_never_none(
+        fn few_colours_are_exact_and_none_is_transparent(
             colours in prop::collection::vec(any::<Rgb>(), 1..600), frequent in any::<Rgb>(),
         ) {
             let pixels = colours.iter().copied().chain(std::iter::repeat_n(frequent, 50));

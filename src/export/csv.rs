@@ -1,4 +1,4 @@
-//! The records as a table: one row a record, in the order of time.
+//! The records of a run as CSV, one row per record, in order of time.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -12,36 +12,36 @@ use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
 use crate::time::Time;
 
-/// One row. What a record says nothing of is empty; machines are numbered from 1, as in the window.
+/// The row of a record. Fields that a record does not have are empty; machines are numbered from 1, as in the window.
 #[derive(Default, Serialize)]
 struct RecordRow {
     /// Seconds since the run began, to the nanosecond.
     time_s: String,
-    /// What happened.
+    /// Kind of the record.
     what: &'static str,
-    /// The machine that it happened to.
+    /// The machine of the event.
     node: Option<NodeName>,
-    /// Who sent the message.
+    /// Sender of the message.
     from: Option<NodeName>,
-    /// Who gets it.
+    /// Receiver of the message.
     to: Option<NodeName>,
-    /// The number of the message in the run.
+    /// Number of the message in the run.
     message: Option<u64>,
-    /// The machine whose offer it is.
+    /// The machine that made the offer.
     offerer: Option<NodeName>,
-    /// The atoms, as `4` or `4-9`, with spaces between.
+    /// The atoms, as `4` or `4-9`, separated by spaces.
     atoms: Option<String>,
-    /// How many atoms; of an offer, how many its machine has traced.
+    /// Number of atoms; of an offer, the number that its machine has traced.
     count: Option<u32>,
-    /// The weight of the message.
+    /// Size of the message.
     bytes: Option<u64>,
-    /// When the message arrives.
+    /// Time of arrival.
     arrives_s: Option<String>,
     /// CPU seconds in the tracer.
     cost_s: Option<String>,
-    /// The new speed, as a part of the reference machine's.
+    /// New speed, as a fraction of the reference machine's.
     speed: Option<f64>,
-    /// The new latency of all links.
+    /// New latency of all links; of a delay, its duration.
     latency_s: Option<String>,
 }
 
@@ -49,14 +49,14 @@ struct RecordRow {
 #[derive(Serialize)]
 struct NodeName(String);
 
-/// Writes the records of a run as CSV, with a line of names above them.
+/// Writes the records of a run as CSV, with a header row.
 ///
 /// # Errors
-/// What `to` says.
+/// The error of writing to `to`.
 pub fn write_csv(to: impl Write, log: &RunLog) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(to);
     if log.records().is_empty() {
-        // Without a row nobody would write the names.
+        // Without a row the writer would omit the header.
         table.write_record(COLUMNS)?;
     }
     log.records().iter().try_for_each(|record| table.serialize(row(record)))?;
@@ -146,7 +146,7 @@ fn row(record: &Record) -> RecordRow {
     RecordRow { time_s: at(record.at), ..row }
 }
 
-/// What a message says.
+/// Makes the part of a sent message's row that depends on its kind.
 fn sent(from: Party, message: &Message) -> RecordRow {
     let ranges = message.ranges();
     let carried =
@@ -202,7 +202,7 @@ fn at(time: Time) -> String {
     seconds(Duration::from_nanos(time.0))
 }
 
-/// With nine digits, so that nothing is lost.
+/// Formats seconds with nine decimals, without loss.
 fn seconds(length: Duration) -> String {
     format!("{}.{:09}", length.as_secs(), length.subsec_nanos())
 }
@@ -229,7 +229,7 @@ mod tests {
         log
     }
 
-    /// The rows, with their columns' names.
+    /// Reads the rows, by column name.
     fn read(log: &RunLog) -> Vec<BTreeMap<String, String>> {
         let mut text = Vec::new();
         write_csv(&mut text, log).expect("memory takes everything");
@@ -238,7 +238,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_table_tells_what_the_records_do(
+        fn table_matches_records(
             speeds in prop::collection::vec(0.1..1.0f64, 1..6), pixels in 1..60u32, strategy in prop::sample::select(&Sharing::ALL),
         ) {
             let log = log(speeds, pixels, strategy);
@@ -259,13 +259,13 @@ mod tests {
     }
 
     #[test]
-    fn atoms_are_told_as_ranges() {
+    fn atoms_are_written_as_ranges() {
         assert_eq!(atoms(&[4..5, 7..7, 9..12]), "4 9-11");
         assert_eq!((at(Time(1)), at(Time(12_000_000_345))), ("0.000000001".into(), "12.000000345".into()));
     }
 
     #[test]
-    fn a_run_without_records_has_the_names_of_the_columns() {
+    fn run_without_records_has_column_names() {
         let some = log(vec![1.0], 1, Sharing::Ring);
         let columns = |log: &RunLog| {
             let mut text = Vec::new();

@@ -1,4 +1,4 @@
-//! A whole run as pictures one after the other: the picture fills in, beside it the ring, below both the sentence.
+//! A run as an animation: the picture fills in, beside the ring; time and sentence are below both.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -14,14 +14,14 @@ use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::{Anchor, Canvas, Hue, Layer, Mark, RingOverlay, Snapshot, Summary, TextSize, ring, time_words};
 
-/// How a film is made of a run.
+/// Settings of a run's animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
-    /// How broad the picture is in it; neither side of the picture is longer.
+    /// Length of the picture's longer side in the animation, in pixels.
     pub width: u32,
-    /// How long the run takes in it, however long it took.
+    /// Duration of the run in the animation, whatever the run took.
     pub length: Duration,
-    /// What of the picture is shown: the render (0), a layer (1) or something between.
+    /// Look of the picture: a layer, and its weight from 0 (the render) to 1 (the layer).
     pub look: (Layer, f32),
 }
 
@@ -31,18 +31,18 @@ impl Default for Film {
     }
 }
 
-/// How long a frame is seen in hundredths of a second, the format's unit: 12.5 frames a second.
+/// How long a frame is shown in hundredths of a second, the format's unit: 12.5 frames a second.
 const SEEN: u16 = 8;
 
-/// How long the end is seen: at first as the run left it, then the render alone.
+/// How long the end is shown, in hundredths of a second: as the run left it, then the render alone.
 const END_SEEN: u16 = 150;
 const RENDER_SEEN: u16 = 300;
 
-/// Between things, and below them for the words.
+/// Gap between the parts, and height of the caption below them, in pixels.
 const GAP: u32 = 16;
 const WORDS: u32 = 44;
 
-/// Where things are in a frame.
+/// Places of the parts in a frame: x, y, width and height in pixels.
 struct Layout {
     whole: [u32; 2],
     picture: [u32; 4],
@@ -51,14 +51,15 @@ struct Layout {
 }
 
 impl Film {
-    /// The widest picture in a film, and the narrowest.
+    /// Possible values of [`Film::width`].
     pub const WIDTHS: std::ops::RangeInclusive<u32> = 100..=1920;
 
-    /// Writes a run whose picture is `frame` as an animated GIF that begins again and again. `tell` is told how much of
-    /// it is done, 0 to 1, and says whether to go on.
+    /// Writes a run whose picture is `frame` as an endlessly repeating GIF. `tell` gets the finished fraction, 0 to 1,
+    /// and returns whether to go on.
     ///
     /// # Errors
-    /// What `to` says; that it was interrupted, if it is not to go on.
+    /// The error of writing to `to`; [`io::ErrorKind::Interrupted`], if `tell` returns false; an [`ExportError`], if a
+    /// frame cannot be drawn.
     pub fn write(
         self,
         to: impl Write,
@@ -91,7 +92,7 @@ impl Layout {
         let side = |pixels: u32| ((f64::from(pixels) * scale).round() as u32).max(1);
         let [width, height] = [side(size.width()), side(size.height())];
         let tall = height.max(320);
-        // The ring wants a little more breadth than height, for its labels.
+        // The ring needs a little more width than height, for its labels.
         let ring = [tall + tall / 6, tall];
         let whole = [width + ring[0] + 3 * GAP, tall + WORDS + 2 * GAP];
         Self {
@@ -103,7 +104,7 @@ impl Layout {
     }
 }
 
-/// Goes through a run and draws its moments.
+/// Steps through a run and draws its frames.
 struct FilmFrames<'a> {
     log: &'a RunLog,
     look: (Layer, f32),
@@ -114,9 +115,9 @@ struct FilmFrames<'a> {
     outcome: Option<Summary>,
     /// When the picture was complete, or else the last record.
     end: Time,
-    /// How many of the run's seconds go by in one of the film.
+    /// Seconds of the run in a second of the animation.
     rate: f64,
-    /// What the words were last, and how they look.
+    /// The last caption, and its image.
     words: (String, RgbImage),
 }
 
@@ -142,7 +143,8 @@ impl<'a> FilmFrames<'a> {
         }
     }
 
-    /// The frame of a time, which is not before that of the last one; everything has come to rest at the end.
+    /// Draws the frame of a time, which is not before that of the last frame; in the last one all messages have
+    /// arrived.
     fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         let records = if is_last { self.log.records().len() } else { self.log.until(at) };
         for record in &self.log.records()[self.moment.records().min(records)..records] {
@@ -168,7 +170,7 @@ impl<'a> FilmFrames<'a> {
         let size = self.canvas.size();
         let (width, height) = (size.width(), size.height());
         let pixels = self.canvas.rows(0..height).as_flattened().to_vec();
-        // There are as many pixels as the size says.
+        // The canvas has as many pixels as its size says.
         let whole = RgbImage::from_raw(width, height, pixels).unwrap_or_default();
         let [_, _, across, down] = self.layout.picture;
         if (across, down) == (width, height) { whole } else { resize(&whole, across, down, FilterType::CatmullRom) }
@@ -183,7 +185,7 @@ impl<'a> FilmFrames<'a> {
         self.drawn(&ring(&self.moment.state, &overlay, at, [width as f32, height as f32]), [width, height])
     }
 
-    /// Time and sentence; drawn only where they are others than before.
+    /// Draws time and sentence, if they differ from the last caption.
     fn say(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
         let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0));
         let sentence = match self.outcome.filter(|_| is_last) {
@@ -203,9 +205,9 @@ impl<'a> FilmFrames<'a> {
             size: TextSize::Fit(size),
             ink: hue.full(),
         };
-        // Where it is told exactly a time is longer.
+        // A time with more decimals is longer.
         let clock = (9.5 * time.chars().count() as f32).max(64.0);
-        // About so many letters of this font fit a line, a little more than half as broad as high.
+        // Text size at which the sentence fits: this font's letters are a little more than half as wide as high.
         let fits = (width as f32 - clock - 12.0) / (0.54 * sentence.chars().count().max(1) as f32);
         let marks = [
             label(clock, Anchor::Right, time, 17.0, Hue::Quiet),

@@ -1,5 +1,4 @@
-//! What leaves the program: a scene for another renderer, drawings for paper and slides, films, and records for other
-//! programs.
+//! Files for other programs: a scene for another renderer, drawings for paper and slides, animations, and records.
 
 mod animation;
 mod chrome;

@@ -1,4 +1,4 @@
-//! Studies: many runs, and what they say, as CSV, charts and a report that one can read.
+//! Studies: many runs, reported as CSV tables, charts and a Markdown report.
 
 pub mod accuracy;
 mod chaos;
@@ -38,14 +38,14 @@ use crate::export::to_svg;
 use crate::view::{CHART_SIZE, Mark};
 use markdown::Report;
 
-/// What a study has found.
+/// The result of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Its name on the command line.
+    /// The study's name on the command line.
     pub name: &'static str,
     /// A JSON object for each run, with the columns of the CSV.
     pub rows: Vec<Value>,
-    /// What there is to say of all runs together, where they are too many to have a row each.
+    /// Results over all runs, for a study with too many runs for a row each.
     pub summary: Map<String, Value>,
     /// Files by name: CSV, SVG charts, PNG pictures, and a Markdown report.
     pub files: Vec<(String, Vec<u8>)>,
@@ -56,7 +56,7 @@ impl Study {
         Self { name, rows: Vec::new(), summary: Map::new(), files: Vec::new() }
     }
 
-    /// Adds rows, as JSON and as a CSV file of the study's name.
+    /// Adds rows, as JSON and as the CSV file named after the study.
     fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), StudyError> {
         for row in rows {
             self.rows.push(serde_json::to_value(row)?);
@@ -64,7 +64,7 @@ impl Study {
         self.add_csv(format!("{}.csv", self.name), rows)
     }
 
-    /// Adds a table of something else, as a CSV file.
+    /// Adds another table, as a CSV file.
     fn add_table(&mut self, name: &str, rows: &[impl Serialize]) -> Result<(), StudyError> {
         self.add_csv(format!("{}-{name}.csv", self.name), rows)
     }
@@ -87,13 +87,13 @@ impl Study {
     }
 }
 
-/// The middle one of some values, the greater of two; 0 of none.
+/// Returns the median, the greater of the two middle values if their number is even; 0 for no values.
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
 }
 
-/// Formats a number that may be missing: an en dash stands for none.
+/// Formats an optional number; an en dash stands for `None`.
 fn optional(value: Option<f64>, places: usize) -> String {
     value.map_or("–".into(), |value| format!("{value:.places$}"))
 }
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_median_is_in_the_middle() {
+    fn median_is_the_middle_value() {
         assert_eq!(median(&mut [3.0, 1.0, 2.0]), 2.0);
         assert_eq!([median(&mut [1.0, 4.0]), median(&mut [])], [4.0, 0.0]);
     }

@@ -1,4 +1,4 @@
-//! What each reduction of compiling saves: a scene's picture with all of them, and without one after the other.
+//! The effect of each compile pass: CPU time of a scene's picture with all passes, and without each.
 
 use serde::Serialize;
 
@@ -11,32 +11,32 @@ use crate::picture::{Quality, Size, srgb8};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
 
-/// Pictures with and without each reduction.
+/// Pairs of pictures, with and without each pass.
 const TURNS: usize = 5;
 
-/// What one reduction saves of a scene's picture.
+/// The effect of one pass on a scene's picture.
 #[derive(Debug, Serialize)]
 struct Saving {
     scene: String,
     reduction: String,
-    /// CPU time without it over that with it: the median of the turns.
+    /// CPU time without the pass over that with it: the median of the turns.
     ratio: f64,
-    /// CPU time with all reductions, in seconds.
+    /// CPU time with all passes, in seconds.
     cpu_s: f64,
     /// Pixels whose 8-bit colours differ.
     differing_pixels: usize,
 }
 
-/// What each reduction saves of each scene's picture.
+/// Measures the effect of each compile pass on each scene's picture.
 ///
 /// # Errors
-/// A sentence, if the rows cannot be written.
+/// A [`StudyError`], if a table cannot be made.
 pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let size = Size::new(240, 180).map_err(StudyError::size)?;
     let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
     let (mut rows, mut looks) = (Vec::new(), Vec::new());
     for scene in scenes {
-        progress.next(&format!("{}, a first look", scene.name));
+        progress.next(&format!("{}, preview", scene.name));
         looks.push(first_look(scene)?);
         let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
         let all = tracer(Passes::default());
@@ -47,7 +47,7 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyEr
         for turn in 0..TURNS {
             progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
             for (index, without) in without.iter().enumerate() {
-                // Side by side, so that what disturbs the computer disturbs both.
+                // Side by side, so that a disturbance of the computer affects both.
                 let [with, without] = [&all, without].map(picture);
                 ratios[index].push(without.cpu.as_secs_f64() / with.cpu.as_secs_f64());
                 seconds.push(with.cpu.as_secs_f64());
@@ -74,7 +74,7 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyEr
     Ok(study)
 }
 
-/// The turn in the middle.
+/// Returns the median turn by total time.
 fn first_look(scene: &Opened) -> Result<PreviewTimes, StudyError> {
     let size = Size::new(640, 480).map_err(StudyError::size)?;
     let look = |_| PreviewTimes::new(|| Tracer::new(&scene.scene, size, Quality::default()));
@@ -85,10 +85,10 @@ fn first_look(scene: &Opened) -> Result<PreviewTimes, StudyError> {
 
 fn looks_report(report: &mut Report, scenes: &[Opened], looks: &[PreviewTimes]) {
     report.line(
-        "\nA preview has every 16th pixel of every 16th row of the picture, which are not traced again. From the \
-         scene that is read to it, and to the picture of 640 × 480 pixels, in milliseconds on one thread; medians as \
-         above:\n\n| scene | compiled | first look | exact picture | without a preview | with / without | the same \
-         |\n|---|---:|---:|---:|---:|---:|---|",
+        "\nA preview traces every 16th pixel of every 16th row; these pixels are not traced again. Times from the \
+         parsed scene to the compiled scene, the preview, and the picture of 640 × 480 pixels, in milliseconds on one \
+         thread; medians as above:\n\n| scene | compiled | preview | exact picture | without a preview | with / \
+         without | same picture |\n|---|---:|---:|---:|---:|---:|---|",
     );
     for (scene, PreviewTimes { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
         let same = if *same { "yes" } else { "no" };
@@ -104,8 +104,8 @@ fn looks_report(report: &mut Report, scenes: &[Opened], looks: &[PreviewTimes]) 
 fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> Report {
     let mut report = Report::titled("What scenes need");
     report.line(
-        "A scene is compiled to what it needs. What was kept of each, of what its file has, and how many rays of a \
-         sample of the pixels end on each level of the tree of rays, beginning with the primary ones:\n",
+        "A scene is compiled to what it needs. The table shows how much of each scene file was kept, and how many \
+         rays of a sample of the pixels end on each level of the tree of rays, from the primary rays on:\n",
     );
     report.line(
         "| scene | primitives | operations | solids | no bounds | empty | out of reach | reflects | transmits | rays \
@@ -136,13 +136,11 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> Report {
         ));
     }
     report.line(format!(
-        "\nWhat each reduction saves: the CPU time of the picture of {size} pixels without it over that with it, \
-         medians of {TURNS} turns side by side. In brackets how many pixels differ, by rounding.\n"
+        "\nThe effect of each compile pass: CPU time of the picture of {size} pixels without the pass over that with \
+         it, medians of {TURNS} turns side by side. In brackets: the number of pixels that differ, by rounding.\n"
     ));
-    report.line(format!(
-        "| reduction | {} |",
-        scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | ")
-    ));
+    report
+        .line(format!("| pass | {} |", scenes.iter().map(|scene| scene.name.as_str()).collect::<Vec<_>>().join(" | ")));
     report.line(format!("|---|{}", "---:|".repeat(scenes.len())));
     for (index, reduction) in Pass::ALL.into_iter().enumerate() {
         let of_each = rows.iter().skip(index).step_by(Pass::ALL.len());

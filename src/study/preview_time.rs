@@ -1,22 +1,22 @@
-//! How soon there is something to see of a scene.
+//! Time until a preview of a scene is ready.
 
 use cpu_time::ThreadTime;
 
 use crate::driver::TimedPicture;
 use crate::tracer::Tracer;
 
-/// How long looking at a scene takes, in seconds of CPU time on this thread.
+/// CPU times on this thread until a scene can be seen, in seconds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PreviewTimes {
-    /// Until it is compiled.
+    /// Until the scene is compiled.
     pub compiled: f64,
-    /// Until its coarsest preview is there.
+    /// Until the coarsest preview is ready.
     pub first: f64,
-    /// Until the picture is there, which began with that preview.
+    /// Until the picture that began with that preview is ready.
     pub exact: f64,
-    /// Until the picture is there without a preview.
+    /// Until the picture is ready without a preview.
     pub plain: f64,
-    /// Whether both pictures are the same.
+    /// Whether both pictures are identical.
     pub same: bool,
 }
 
@@ -33,8 +33,8 @@ impl PreviewTimes {
     }
 }
 
-/// A picture that is traced on this thread, and what that takes.
+/// Traces a picture on this thread and measures its CPU time.
 pub(super) fn picture(tracer: &Tracer) -> TimedPicture {
-    // Nobody ends it before.
+    // Nothing cancels it.
     TimedPicture::of(tracer, &|| false).expect("a whole picture")
 }

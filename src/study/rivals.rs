@@ -1,5 +1,5 @@
-//! What sharing costs at full speed, a node a core: the ring, the ring with two threads a node (§10), and rayon's work
-//! stealing.
+//! Overhead of distributing work at full speed, with a node per core: the ring, the ring with two threads a node (§10),
+//! and rayon's work stealing.
 
 use std::time::{Duration, Instant};
 
@@ -15,38 +15,38 @@ use crate::picture::Size;
 use crate::runlog::{Driver, Header, Metrics};
 use crate::scene::Opened;
 
-/// Runs of each kind.
+/// Runs of each rival.
 const TURNS: usize = 9;
 
-/// The rivals, the one first with which the others are compared.
+/// The rivals; the others are compared with the first.
 const RIVALS: [Driver; 3] = [Driver::Threads, Driver::Pairs, Driver::WorkStealing];
 
-/// What one rival needs for a scene's picture: medians of its runs.
+/// Result of one rival for a scene's picture: medians of its runs.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Needs {
     pub scene: String,
     pub driver: &'static str,
     pub nodes: usize,
-    /// From the start of its threads to their end.
+    /// Time from the start of its threads to their end.
     pub wall_s: f64,
     pub makespan_s: f64,
-    /// Its wall time over that of the ring just before.
+    /// Wall time over that of the ring in the same turn.
     pub wall_over_ring: f64,
     pub makespan_over_ring: f64,
-    /// Of all its threads; `None` where the computer does not count them.
+    /// Context switches of all its threads; `None` where the system does not count them.
     pub context_switches: Option<u64>,
 }
 
-/// The rivals on each of the scenes.
+/// Runs the rivals on each of the scenes.
 ///
 /// # Errors
-/// A sentence, if a run failed.
+/// A [`StudyError`], if a run fails.
 pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * STEPS, tell);
     let size = Size::new(640, 480).map_err(StudyError::size)?;
     let mut rows = Vec::new();
     for scene in scenes {
-        // Enough that starting threads does not show.
+        // Long enough that starting threads has no visible cost.
         let least = Duration::from_millis(500) * cores() as u32;
         let samples = (1..8).find(|&samples| cost_of(scene, size, samples) >= least).unwrap_or(8);
         rows.extend(compete(&Fixture::new(scene, size, samples)?, &mut progress)?);
@@ -57,13 +57,13 @@ pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyE
     Ok(study)
 }
 
-/// How many steps [`compete`] takes.
+/// Number of steps that [`compete`] takes.
 pub(super) const STEPS: usize = TURNS * RIVALS.len();
 
-/// Lets the rivals trace the bench's picture in turn, so that what disturbs the computer disturbs all alike.
+/// Runs the rivals in turn on the fixture's picture, so that a disturbance of the computer affects all alike.
 ///
 /// # Errors
-/// A sentence, if a run failed.
+/// [`StudyError::Run`], if a run fails.
 pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], StudyError> {
     let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
     let mut turns = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[N
     Ok([needs(0), needs(1), needs(2)])
 }
 
-/// One run.
+/// Measurement of one run.
 #[derive(Clone, Copy, Default)]
 struct Sample {
     wall: f64,
@@ -112,7 +112,7 @@ impl Sample {
     }
 }
 
-/// How often the program's threads have left a core so far.
+/// Returns how often the program's threads have left a core so far.
 #[cfg(unix)]
 fn context_switches() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -127,7 +127,7 @@ fn context_switches() -> Option<u64> {
 
 #[cfg(test)]
 impl Needs {
-    /// What something needs.
+    /// Returns an example row.
     pub fn example() -> Self {
         Self {
             scene: "an example".into(),
@@ -143,18 +143,18 @@ impl Needs {
 }
 
 fn report(rows: &[Needs]) -> Report {
-    let mut report = Report::titled("What sharing costs at full speed");
+    let mut report = Report::titled("Overhead at full speed");
     report.line(format!(
-        "Each scene's picture of 640 × 480 in atoms of 50 pixels, on {} nodes at full speed, a node a core, without a \
-         network: the ring, the ring with two threads a node (one answers, one traces, as the article has it), and \
-         rayon's work stealing. Medians of {TURNS} turns, in one program that is warm; ratios are those within a \
-         turn. A makespan is from the first band to the last pixel, wall time from the start of the threads to their \
+        "Each scene's picture of 640 × 480 pixels in atoms of 50 pixels, on {} nodes at full speed, one per core, \
+         without a network: the ring, the ring with two threads a node (one answers, one traces, as in the article), \
+         and rayon's work stealing. Medians of {TURNS} turns in one warm process; ratios are within a turn. The \
+         makespan is from the first band to the last pixel, the wall time from the start of the threads to their \
          end.\n",
         cores()
     ));
     report.line(
-        "| scene | ring, s | ring / rayon | their makespans | two threads / one | context switches: ring | two \
-         threads | rayon |",
+        "| scene | ring, s | ring / rayon | makespans: ring / rayon | two threads / one | context switches: ring | \
+         two threads | rayon |\n",
     );
     report.line("|---|---:|---:|---:|---:|---:|---:|---:|");
     for scene in rows.chunks_exact(RIVALS.len()) {

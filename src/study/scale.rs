@@ -1,4 +1,4 @@
-//! From one machine to a thousand: how each strategy's efficiency decays.
+//! Runs from 1 to 1,024 machines: how each strategy's efficiency falls.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,17 +13,17 @@ use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scene::Opened;
 
-/// What an atom costs on average: a run of one machine on the strong picture takes about half a minute.
+/// Mean cost of an atom: one machine needs about half a minute for the strong picture.
 pub(super) const ATOM_COST: Duration = Duration::from_millis(2);
 
-/// The strong picture, whose size does not change.
+/// Width and height of the strong picture, whose size is constant, in pixels.
 pub(super) const SIZE: (u32, u32) = (1024, 768);
 
-/// Atoms a node in the weak picture, which grows with the nodes.
+/// Atoms per node in the weak picture, whose size grows with the nodes.
 pub(super) const ATOMS_A_NODE: u32 = 1024;
 
-/// What a message takes to travel, and how long the parent is busy with it, in milliseconds. Without the latter, the parent
-/// of a farm could answer any number of machines at once.
+/// Latency of a message, and time for which the parent is busy with it, in ms. If the second were always 0, a farm's
+/// parent could answer any number of machines at once.
 pub(super) const NETWORKS: [(f64, f64); 4] = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (1.0, 0.1)];
 
 const ATOM: u32 = 50;
@@ -33,33 +33,33 @@ const ATOM: u32 = 50;
 pub(super) struct ScaleRow {
     pub nodes: usize,
     pub latency_s: f64,
-    /// How long the parent is busy with each message.
+    /// Time for which the parent is busy with each message.
     pub handling_s: f64,
     pub weak: bool,
     pub strategy: &'static str,
     pub atoms: u32,
     pub makespan_s: f64,
     pub efficiency: f64,
-    /// The efficiency of a makespan of W/m + 3.65 log₂ W, for W atoms on m nodes.
+    /// Efficiency of a makespan of W/m + 3.65 log₂ W, for W atoms on m nodes.
     pub bound_efficiency: f64,
     pub messages_per_node: f64,
     pub bytes_per_node: f64,
     pub hops_per_node: f64,
     pub atoms_moved: u64,
     pub transfers: u64,
-    /// The share of the machines' time after their last atoms.
+    /// Share of the machines' time after their last atoms.
     pub tail_idle: f64,
 }
 
-/// How many machines there are.
+/// Returns the numbers of machines: 1, 2, 4 … 1,024.
 pub(super) fn node_counts() -> impl Iterator<Item = usize> + Clone {
     (0..=10).map(|power| 1 << power)
 }
 
-/// Runs all of it in virtual time.
+/// Simulates all runs in virtual time.
 ///
 /// # Errors
-/// A sentence, if the scene could not be traced.
+/// A [`StudyError`], if the scene cannot be traced.
 pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, StudyError> {
     let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;
     let bench = Fixture::new(scene, size, 1)?;
@@ -84,8 +84,8 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
     Ok(rows)
 }
 
-/// What the strong picture's atoms cost, for a picture of [`ATOMS_A_NODE`] atoms a node: each has the cost of the atom at the
-/// same height of the picture; and that picture's size.
+/// Stretches the strong picture's costs over a picture of [`ATOMS_A_NODE`] atoms per node, and returns the costs and
+/// that picture's size: each atom costs what the atom at the same height costs, scaled to the same mean.
 fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), StudyError> {
     let atoms = ATOMS_A_NODE as usize * nodes;
     let at = |atom: usize| costs[(atom as u64 * costs.len() as u64 / atoms as u64) as usize];
@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_grown_picture_costs_as_much_an_atom_and_where_the_old_one_did() {
+    fn grown_picture_keeps_costs_and_their_places() {
         let costs: AtomCosts = (0..3000u64).map(|atom| Duration::from_micros(500 + atom)).collect();
         for nodes in [1, 8] {
             let (grown, size) = resample(&costs, nodes).unwrap();

@@ -1,37 +1,37 @@
-//! Whether the automatic choice keeps what it promises.
+//! Checks that the automatic choice keeps its limit.
 
 use super::{Point, Reference, fastest_within, front, measure};
 use crate::picture::Quality;
 use crate::scene::Scene;
 
-/// So many limits of the error are tried.
+/// Number of limits of the error that are tried.
 const LIMITS: usize = 8;
 
-/// The pattern of samples of what is measured anew; neither the reference nor any other point has it.
+/// Pattern of samples for the second measurement; neither the reference nor any other point has it.
 const OTHER_PATTERN: u32 = 3;
 
-/// What came of one choice: the fastest within a limit of the error.
+/// Check of one choice: the fastest point within a limit of the error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Landing {
-    /// The limit.
+    /// The limit of the error.
     pub error: f64,
-    /// What was chosen from all points.
+    /// The choice from all points.
     pub chosen: Point,
-    /// The same measured anew, with other samples.
+    /// The same quality measured again, with other samples.
     pub anew: Point,
-    /// How much longer than this takes what is chosen where every other point is missing, the worse of both halves;
-    /// `None` if a half has nothing within the limit.
+    /// CPU time of the choice from every other point over that of the choice from all, the worse of the two halves;
+    /// `None` if a half has no point within the limit.
     pub half_over_all: Option<f64>,
 }
 
 impl Landing {
-    /// The error as measured anew over the limit.
+    /// Returns the error of the second measurement over the limit.
     pub fn overshoot(&self) -> f64 {
         self.anew.rmse() / self.error
     }
 }
 
-/// Chooses at limits from the fastest point's error to the best one's, equally far apart on a logarithmic scale.
+/// Checks choices for limits from the fastest point's error to the best one's, spaced evenly on a logarithmic scale.
 pub(super) fn check(scene: &Scene, reference: &Reference, points: &[Point]) -> Vec<Landing> {
     let front = front(points);
     let (Some(fastest), Some(best)) = (front.first(), front.last()) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! The knobs of quality: what each is set to while the others stand still, and how they are combined.
+//! The knobs of quality: their values, and their combinations.
 
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
@@ -13,10 +13,10 @@ pub(super) enum Knob {
     Cutoff,
 }
 
-/// The most samples of what is measured, a side.
+/// Most samples per side of a pixel in measured pictures.
 pub const MOST: u32 = 8;
 
-/// The samples a side at which depth and cutoff are turned: many enough that what these do is seen.
+/// Samples per side of a pixel while depth or cutoff is turned: enough to make their effect visible.
 const USUAL: u32 = 4;
 
 impl Knob {
@@ -31,12 +31,12 @@ impl Knob {
         }
     }
 
-    /// Whether it says how many samples are taken, and not how far rays are followed.
+    /// Returns whether the knob limits samples, not the depth to which rays are followed.
     pub fn is_of_sampling(self) -> bool {
         matches!(self, Self::Samples | Self::Threshold)
     }
 
-    /// What it is set to, the best last. The last of depth and cutoff stand for no limit.
+    /// Returns the knob's values, the best last. The last values of depth and cutoff stand for no limit.
     pub fn values(self) -> &'static [f64] {
         match self {
             Self::Samples => &[1.0, 2.0, 3.0, 4.0, 6.0, MOST as f64],
@@ -46,7 +46,8 @@ impl Knob {
         }
     }
 
-    /// The knob at some value. The others are at their defaults; but a threshold needs many samples to do without some.
+    /// Returns the quality with the knob at a value and the others at their defaults; a threshold has many samples to
+    /// save.
     pub fn quality(self, value: f64) -> Quality {
         let usual = Quality { samples: USUAL, ..Quality::default() };
         match self {
@@ -58,10 +59,10 @@ impl Knob {
     }
 }
 
-/// Sensible combinations of all knobs, with up to [`MOST`] × [`MOST`] samples a pixel.
+/// Returns sensible combinations of all knobs, with at most [`MOST`] × [`MOST`] samples a pixel.
 pub fn combinations() -> Vec<Quality> {
     const LIMITS: [(u32, f64); 3] = [(4, 0.03), (10, 1.0 / 255.0), (20, 1e-3)];
-    // With so few samples at most, a threshold would only add some.
+    // With this few samples a threshold would only add some.
     let even = [1, 2].map(|samples| (samples, 0.0));
     let adaptive = [4, MOST].into_iter().flat_map(|samples| [0.03, 0.01, 0.0].map(|error| (samples, error)));
     let samplings = even.into_iter().chain(adaptive);
@@ -72,11 +73,11 @@ pub fn combinations() -> Vec<Quality> {
     combined.collect()
 }
 
-/// Rays of all kinds in a picture of one sample a pixel.
+/// Most rays of all kinds in a picture of one sample a pixel.
 const RAYS: f64 = 80_000.0;
 
-/// The largest size, of no more than `most`, at which a picture of one sample a pixel takes about 80,000 rays at most, so
-/// that scenes whose trees of rays are large do not take much longer than others.
+/// Returns the largest size within `most` at which a picture of one sample a pixel takes about 80,000 rays or fewer, so
+/// that scenes with large trees of rays take about as long as others.
 pub fn size_for(scene: &Scene, most: Size) -> Size {
     // Neither side of `most` is 0, and no side chosen here is longer: every such size is possible.
     let size = |width: u32, height: u32| Size::new(width, height).unwrap_or(most);
@@ -88,7 +89,7 @@ pub fn size_for(scene: &Scene, most: Size) -> Size {
     if part >= 1.0 {
         return most;
     }
-    // Whole blocks of those whose similarity is compared.
+    // Whole blocks of 8 × 8 pixels, as the similarity compares them.
     let side = |most: u32| ((f64::from(most) * part / 8.0).round() as u32 * 8).clamp(1, most);
     size(side(most.width()), side(most.height()))
 }
@@ -99,12 +100,12 @@ mod tests {
     use crate::scene::{BUILT_IN, Opened};
 
     #[test]
-    fn every_quality_is_possible_and_none_is_tried_twice() {
+    fn qualities_are_valid_and_distinct() {
         for knob in Knob::ALL {
             let qualities: Vec<Quality> = knob.values().iter().map(|&value| knob.quality(value)).collect();
             assert!(qualities.iter().all(|quality| quality.check().is_ok()), "{}", knob.name());
             assert!(qualities.windows(2).all(|pair| pair[0] != pair[1]), "{}", knob.name());
-            // The default is among what is tried of each.
+            // The default is among the values.
             assert!(knob == Knob::Threshold || qualities.contains(&Quality { samples: USUAL, ..Quality::default() }));
         }
         let combined = combinations();
@@ -114,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn the_more_rays_a_scene_takes_the_smaller_is_its_picture() {
+    fn scenes_with_more_rays_get_smaller_pictures() {
         let most = Size::new(320, 240).unwrap();
         let size = |name: &str| size_for(&Opened::new(name).unwrap().scene, most);
         assert!(size("glass").pixels() < size("ten-objects").pixels());

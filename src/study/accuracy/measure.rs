@@ -1,4 +1,4 @@
-//! What pictures of several qualities cost, and how far they are from the reference.
+//! Measures the cost of qualities and the error of their pictures.
 
 use super::Reference;
 use crate::driver::TimedPicture;
@@ -7,35 +7,35 @@ use crate::scene::Scene;
 use crate::study::median;
 use crate::tracer::Tracer;
 
-/// What a quality costs, and how good it is.
+/// A quality with its cost and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// The knobs.
     pub quality: Quality,
-    /// CPU time on one thread, in seconds: the median of its turns so far.
+    /// CPU time on one thread in seconds: the median of the turns so far.
     pub cpu_s: f64,
     /// Rays of all kinds.
     pub rays: u64,
-    /// How far its picture is from the reference.
+    /// Difference of its picture from the reference.
     pub difference: Difference,
 }
 
 impl Point {
-    /// Its error: [`Difference::rmse`].
+    /// Returns the error: [`Difference::rmse`].
     pub fn rmse(&self) -> f64 {
         self.difference.rmse
     }
 }
 
-/// How often what does not take long is measured.
+/// How often a short measurement is repeated.
 const TURNS: usize = 3;
 
-/// Noise does not matter in what takes longer than this, in seconds.
+/// CPU time in seconds above which noise does not matter and a measurement is not repeated.
 const LONG: f64 = 0.2;
 
-/// Measures these qualities on this thread: all of them in turn, so that what disturbs the computer disturbs all alike.
-/// `each` is told the place of each point and its picture as soon as it is measured, and again when its time is known
-/// better. `None` if it `is_over` before.
+/// Measures the qualities on this thread. They take turns, so that a disturbance of the computer affects all alike.
+/// `each` gets the index of each point with its picture as soon as it is measured, and again when its time is more
+/// exact. `None` if `is_over` before the end.
 pub fn measure(
     scene: &Scene,
     reference: &Reference,
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_told_as_they_come_and_in_turn() {
+    fn points_are_reported_in_turns() {
         let (scene, reference) = subject();
         let qualities = [1, 2, 4].map(|samples| Quality { samples, ..Quality::default() });
         let mut told = Vec::new();
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn it_ends_when_nobody_wants_it_any_more() {
+    fn measurement_stops_when_cancelled() {
         let (scene, reference) = subject();
         let told = Cell::new(0);
         let qualities = [Quality::default(); 3];

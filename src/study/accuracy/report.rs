@@ -1,4 +1,4 @@
-//! What the study of accuracy says.
+//! The report of the study of accuracy.
 
 use super::check::Landing;
 use super::choice::front;
@@ -13,7 +13,7 @@ use crate::picture::{Difference, Quality};
 use crate::study::markdown::Report;
 use crate::study::{median, optional};
 
-/// The report, in Markdown.
+/// Writes the report.
 pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> Report {
     let mut report = Report::titled("Speed against accuracy");
     head(&mut report, found);
@@ -31,25 +31,25 @@ pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> Report {
 fn head(report: &mut Report, found: &[Found]) {
     let usual = Quality::default();
     report.line(format!(
-        "Each knob of quality is turned alone, and all are turned together. *Seconds* are CPU time on one core, the \
-         median of three turns where they are few. The *error* is the root of the mean squared error in linear light \
-         (RMSE). A pixel is *wrong* if a channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all \
-         blocks of 8 × 8 pixels; SPEC CPU asks for more than {SIMILAR} of each block of POV-Ray's pictures. A mean \
-         hides speckle, these two do not.\n",
+        "Each knob of quality is turned alone, and all are combined. *Seconds* are CPU time on one core, the median \
+         of three turns if they are few. The *error* is the root mean square error in linear light (RMSE). A pixel is \
+         *wrong* if a channel differs by more than {}/255 in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 \
+         pixels; SPEC CPU asks for more than {SIMILAR} of each block of POV-Ray's pictures. A mean hides speckle; \
+         wrong pixels and the worst SSIM do not.\n",
         Difference::SAME
     ));
     report.line(format!(
-        "While depth or cutoff is turned, there are 4 × 4 samples a pixel, and the other is at its default ({} \
-         levels, {:.4}); so are both while samples or threshold are. At the reference's values they would hide in \
-         their cost what the knob that is turned saves. A threshold is tried with {MOST} × {MOST} samples at most.\n",
+        "While depth or cutoff is turned, there are 4 × 4 samples a pixel and the other limit is at its default ({} \
+         levels, {:.4}); while samples or threshold is turned, both are. At the reference's limits the cost of these \
+         would hide the time that the turned knob saves. A threshold is tried with {MOST} × {MOST} samples at most.\n",
         usual.max_depth, usual.cutoff
     ));
     report.line(format!(
-        "The *reference* has two patterns of samples, each with {} × {} samples a pixel at the default depth and \
-         cutoff, and with what is beyond these limits, from {few} × {few} samples, down to {} levels and a cutoff of \
-         {:e}. A cutoff bounds what all rays that are left out count together, so that this leaves out less than is \
-         seen here; without one, a tree of 50 levels may have 2⁵⁰ rays. The reference's own error is half of what its \
-         two patterns are apart. Scenes with large trees of rays have smaller pictures.\n",
+        "The *reference* has two patterns of samples: {} × {} samples a pixel at the default depth and cutoff, plus \
+         the light beyond these limits from {few} × {few} samples, down to {} levels and a cutoff of {:e}. A cutoff \
+         bounds what all rays left out count together, so the reference leaves out less than is visible here; without \
+         a cutoff a tree of 50 levels may have 2⁵⁰ rays. The reference's own error is half of the difference of its \
+         two patterns. Scenes with large trees of rays have smaller pictures.\n",
         3 * MOST,
         3 * MOST,
         Reference::DEPTH,
@@ -67,11 +67,11 @@ fn head(report: &mut Report, found: &[Found]) {
     }
 }
 
-/// What SPEC asks of each block.
+/// Least SSIM of each block that SPEC asks for.
 const SIMILAR: f64 = 0.996;
 
-/// The slope of the error for the samples alone, by how many samples a pixel has; a single one lies in its middle and is of no
-/// pattern.
+/// Returns the slope of the error of samples alone, by samples a pixel. A single sample is excluded: it is in the
+/// middle of its pixel and has no pattern.
 fn slope(found: &Found) -> Option<f64> {
     let points = found.of_knob(Some(Knob::Samples)).filter(|entry| entry.point.quality.samples > 1);
     let point = |entry: &MeasuredPoint| Some((f64::from(entry.point.quality.samples).powi(2), entry.alone?));
@@ -82,8 +82,9 @@ fn slopes(report: &mut Report, found: &[Found]) {
     report.line(format!(
         "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 \
          × 2 to {MOST} × {MOST} samples a pixel, against a picture of very many samples at the same depth and cutoff. \
-         Theory for samples one in each cell of a pixel: −0.5 where there is no structure, −0.75 where edges cross \
-         pixels, −1 where all is smooth (D. P. Mitchell, *Consequences of stratified sampling in graphics*, 1996).\n"
+         Theory for one sample in each cell of a pixel (stratified sampling): −0.5 where there is no structure, −0.75 \
+         where edges cross pixels, −1 where all is smooth (D. P. Mitchell, *Consequences of stratified sampling in \
+         graphics*, 1996).\n"
     ));
     report.line("| scene | slope |\n|---|---:|");
     for found in found {
@@ -91,17 +92,17 @@ fn slopes(report: &mut Report, found: &[Found]) {
     }
 }
 
-/// So much more error is as good.
+/// Error over the best error up to which a value counts as equally good.
 const NEARLY: f64 = 1.1;
 
-/// The coarsest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
+/// Returns the coarsest value of a knob whose error is nearly the best value's, and its share of the best value's time.
 fn coarsest(found: &Found, knob: Knob) -> Option<(&MeasuredPoint, f64)> {
     let best = found.of_knob(Some(knob)).last()?;
     let coarsest = found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= NEARLY * best.point.rmse())?;
     Some((coarsest, coarsest.point.cpu_s / best.point.cpu_s))
 }
 
-/// The threshold that saves most, and what part it takes of the time that samples alone need for its error.
+/// Returns the threshold that saves most, and its share of the time that samples alone need for the same error.
 fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
     let point = |entry: &MeasuredPoint| (entry.point.cpu_s, entry.point.rmse());
     let samples: Vec<(f64, f64)> = found.of_knob(Some(Knob::Samples)).map(point).collect();
@@ -112,12 +113,13 @@ fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
 
 fn which_pays(report: &mut Report, found: &[Found]) {
     report.line(
-        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the \
-         time which samples alone need for the same error. Of depth and cutoff, the coarsest value with at most a \
-         tenth more error than without a limit, and the part that it takes of the time without one.\n",
+        "\n## Which knob pays where\n\nThreshold: the value that saves most, and its share of the time that samples \
+         alone need for the same error. Depth and cutoff: the coarsest value with at most a tenth more error than \
+         without a limit, and its share of the time without one.\n",
     );
     report.line(
-        "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|",
+        "| scene | threshold | time share | depth | time share | cutoff | time share \
+         |\n|---|---:|---:|---:|---:|---:|---:|",
     );
     for found in found {
         let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
@@ -133,13 +135,13 @@ fn which_pays(report: &mut Report, found: &[Found]) {
 
 fn choice(report: &mut Report, found: &[Found]) {
     report.line(
-        "\n## Whether the automatic choice keeps its word\n\nOf all points the fastest within some error is chosen, \
-         for limits from the fastest point's error to the best one's, and measured anew with other samples. And the \
-         choice is made from every other point, to be compared with that from all.\n",
+        "\n## Does the automatic choice keep its limit?\n\nThe choice is the fastest of all points within a limit of \
+         the error, for limits from the fastest point's error to the best one's. The chosen quality is measured again \
+         with other samples. The choice is also made from every other point, and compared with the choice from all.\n",
     );
     report.line(
-        "| scene | limits | error over the limit, the worst | kept within 10 % | time anew / time | from half: time / \
-         time from all, median | the worst |",
+        "| scene | limits | worst error / limit | kept within 10 % | second time / first time | from half: time / \
+         time from all, median | worst |",
     );
     report.line("|---|---:|---:|---:|---:|---:|---:|");
     for found in found {
@@ -166,13 +168,13 @@ fn scene(report: &mut Report, found: &Found) {
     let similar = points.iter().filter(|point| point.difference.worst_ssim > SIMILAR);
     match similar.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s)) {
         Some(Point { quality, cpu_s, .. }) => {
-            report.line(format!("Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality)));
+            report.line(format!("All blocks are similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality)));
         }
-        None => report.line("At no quality tried are all blocks similar enough.\n"),
+        None => report.line("At no measured quality are all blocks similar enough.\n"),
     }
     report.line(
-        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst \
-         SSIM | samples | threshold | depth | cutoff |",
+        "The Pareto front, where the error is at least a twentieth below that of the line above:\n\n| seconds | error \
+         | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |",
     );
     report.line("|---:|---:|---:|---:|---:|---:|---:|---:|");
     let mut last = f64::INFINITY;
@@ -192,7 +194,7 @@ fn scene(report: &mut Report, found: &Found) {
     }
 }
 
-/// A quality in words.
+/// Describes a quality.
 fn knobs(quality: &Quality) -> String {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
     let threshold =
@@ -200,7 +202,7 @@ fn knobs(quality: &Quality) -> String {
     format!("{samples} × {samples} samples{threshold}, a depth of {max_depth} and a cutoff of {}", short(cutoff))
 }
 
-/// A number with at most three figures.
+/// Formats a number with at most three significant digits.
 fn short(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().map_or_else(|_| value.to_string(), |short| short.to_string())
 }

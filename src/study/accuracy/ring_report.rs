@@ -1,4 +1,4 @@
-//! What the study of accuracy says of the ring.
+//! The chapter on the ring in the report of the study of accuracy.
 
 use super::charts::MANY;
 use super::fit::log_correlation;
@@ -7,12 +7,12 @@ use super::sharing::{NODES, WHOLE};
 use crate::study::markdown::Report;
 use crate::study::{median, optional};
 
-/// The chapter on the ring.
+/// Adds the chapter on the ring.
 pub(super) fn ring(report: &mut Report, ring: &RingAccuracy) {
     report.line(format!(
-        "\n## The same question of the ring\n\nHow good is what the ring knows, and what does it gain by knowing \
-         better? Runs in virtual time: {NODES} machines of random speeds from 0.1 to 1, pictures of {} that take the \
-         reference machine {} s, as dear from place to place as their rays make them.\n",
+        "\n## Accuracy of the ring\n\nHow good are the ring's estimates, and what would better ones gain? Runs in \
+         virtual time: {NODES} machines of random speeds from 0.1 to 1, and pictures of {} that take the reference \
+         machine {} s, with costs in proportion to their rays.\n",
         ring.size,
         WHOLE.as_secs()
     ));
@@ -22,15 +22,15 @@ pub(super) fn ring(report: &mut Report, ring: &RingAccuracy) {
 
 fn estimates(report: &mut Report, ring: &RingAccuracy) {
     report.line(
-        "### Its estimate of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by \
-         counts: offerer / (offerer + own). *True* is the share with which both would end together, knowing their \
-         speeds, what each atom that waits costs, and what the owner has in hand. The error of a run is the mean \
-         distance of both shares at its transfers, weighted by the work that waits there. Correlations are of the \
-         logarithms: within a scene, where only speeds differ, they say what a wrong share costs; over all scenes \
-         also that what is dear in one place makes both worse.\n",
+        "### Estimates of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by counts: \
+         offerer / (offerer + own). The *true* share makes both finish together, given their speeds, the cost of each \
+         waiting atom, and the owner's atoms in its pipe. A run's error is the mean distance of both shares at its \
+         transfers, weighted by the waiting work. Correlations are of the logarithms. Within a scene only speeds \
+         differ, so the correlation shows the cost of a wrong share; over all scenes it also shows that uneven costs \
+         make both figures worse.\n",
     );
     report.line(
-        "| scene | runs | transfers a run | error of the share, median | makespan / ideal − 1, median | correlation \
+        "| scene | runs | transfers per run | error of the share, median | makespan / ideal − 1, median | correlation \
          of both |",
     );
     report.line("|---|---:|---:|---:|---:|---:|");
@@ -56,19 +56,20 @@ fn estimates(report: &mut Report, ring: &RingAccuracy) {
         .collect();
     let bias = large.iter().sum::<f64>() / large.len().max(1) as f64;
     report.line(format!(
-        "\nOver all runs the correlation is {}. Where at least {MANY} atoms wait, the estimated share is {bias:+.3} \
-         from the true one on average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
+        "\nOver all runs the correlation is {}. Where at least {MANY} atoms wait, the estimated share differs from \
+         the true one by {bias:+.3} on average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
         optional(log_correlation(&ring.all_points()), 2)
     ));
 }
 
 fn atoms(report: &mut Report, ring: &RingAccuracy) {
     report.line(
-        "\n### Finer atoms\n\nThe last atom that is traced can be neither shared nor taken back, so that coarse atoms \
-         keep all waiting for it; fine ones cost messages. Means over rings of random speeds; an atom itself costs \
-         nothing here, and results travel when a node's atoms have run out.\n",
+        "\n### Finer atoms\n\nNobody can share or take back the last atom that is traced, so all machines wait for \
+         it, the longer the coarser atoms are. Finer atoms cost messages. The figures are means over rings of random \
+         speeds; *late* is makespan / ideal − 1. An atom has no cost of its own here, and a node sends its results \
+         when it has no atoms left.\n",
     );
-    report.line(format!("| pixels an atom |{}", LATENCIES.map(|ms| format!(" {ms} ms: messages | late |")).concat()));
+    report.line(format!("| pixels per atom |{}", LATENCIES.map(|ms| format!(" {ms} ms: messages | late |")).concat()));
     report.line(format!("|---:|{}", "---:|---:|".repeat(LATENCIES.len())));
     let sizes: Vec<u32> =
         ring.grained.iter().filter(|grain| grain.latency_ms == LATENCIES[0]).map(|grain| grain.atom_pixels).collect();

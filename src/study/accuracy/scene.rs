@@ -1,4 +1,4 @@
-//! What is found of one scene: every knob alone, their combinations, and where the automatic choice lands.
+//! Measurements of one scene: every knob alone, combinations, and the automatic choice.
 
 use super::check::{Landing, check};
 use super::knobs::{Knob, MOST, combinations, size_for};
@@ -8,40 +8,40 @@ use crate::scene::Opened;
 use crate::study::StudyError;
 use crate::study::progress::Progress;
 
-/// What is found of one scene.
+/// Results for one scene.
 pub(super) struct Found {
     pub scene: String,
     pub size: Size,
-    /// The error of the reference itself.
+    /// Error of the reference itself.
     pub floor: f64,
-    /// How far the reference is from a picture of as many samples at the default depth and cutoff.
+    /// Difference of the reference from a picture with as many samples at the default depth and cutoff.
     pub beyond_limits: f64,
     pub entries: Vec<MeasuredPoint>,
     pub landings: Vec<Landing>,
 }
 
-/// A point, and why it was measured.
+/// A point, and the reason why it was measured.
 pub(super) struct MeasuredPoint {
-    /// The knob that is turned alone; `None` where all are.
+    /// The knob that is turned alone; `None` for a combination.
     pub knob: Option<Knob>,
-    /// What that is set to.
+    /// The value of that knob.
     pub value: Option<f64>,
     pub point: Point,
-    /// The error for this knob alone: samples and threshold against very many samples, everything else being the same;
-    /// depth and cutoff against the same samples without that limit. `None` of that without a limit, and of combinations.
+    /// The error of this knob alone. Samples and threshold: against very many samples, all else being equal. Depth and
+    /// cutoff: against the same samples without that limit. `None` for the point without a limit, and for combinations.
     pub alone: Option<f64>,
 }
 
-/// How many steps [`Found::of`] takes.
+/// Number of steps that [`Found::of`] takes.
 pub(super) fn steps() -> usize {
     Reference::STEPS + Knob::ALL.iter().map(|knob| knob.values().len()).sum::<usize>() + combinations().len() + 1
 }
 
 impl Found {
-    /// Measures a scene, in a picture of no more than `most`.
+    /// Measures a scene, in a picture within `most`.
     ///
     /// # Errors
-    /// A sentence, if a thread could not be started, or failed.
+    /// [`StudyError::Run`], if a thread cannot be started or panics.
     pub fn of(opened: &Opened, most: Size, progress: &mut Progress<'_>) -> Result<Self, StudyError> {
         let (name, scene) = (&opened.name, &opened.scene);
         let size = size_for(scene, most);
@@ -68,18 +68,18 @@ impl Found {
         Ok(Self { scene: name.clone(), size, floor: reference.floor, beyond_limits, entries, landings })
     }
 
-    /// All that was measured.
+    /// Returns all measured points.
     pub fn points(&self) -> Vec<Point> {
         self.entries.iter().map(|entry| entry.point).collect()
     }
 
-    /// What was measured of one knob alone, the best last; of all together, if none.
+    /// Returns the measurements of one knob alone, the best last; of the combinations, if `None`.
     pub fn of_knob(&self, knob: Option<Knob>) -> impl Iterator<Item = &MeasuredPoint> {
         self.entries.iter().filter(move |entry| entry.knob == knob)
     }
 }
 
-/// The points of these qualities, and their pictures.
+/// Measures qualities and returns their points and pictures.
 fn at(
     opened: &Opened,
     reference: &Reference,

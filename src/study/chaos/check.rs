@@ -1,4 +1,4 @@
-//! What has to be true of every run, whatever befalls it: looked for in its records, as they come.
+//! Checks the invariants of a run on its records, as they come.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -13,13 +13,13 @@ use crate::record::{Record, RecordKind};
 use crate::sim::Sim;
 use crate::time::Time;
 
-/// A run that takes more records than this does not end.
+/// A run with more records counts as endless.
 const MOST_RECORDS: u64 = 1_000_000;
 
-/// Nor one that takes so long.
+/// A run that lasts longer counts as endless.
 const LONGEST: Time = Time(100_000 * 1_000_000_000);
 
-/// Changes what a party does: how often an action of it is carried out.
+/// Changes a party's actions: returns how often an action is carried out.
 pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 
 /// A property that a run violates.
@@ -45,20 +45,20 @@ pub(super) enum Violation {
     Panic(String),
 }
 
-/// What a run amounted to.
+/// Totals of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RunTotals {
     pub records: u64,
-    /// Atoms that the parent gave out again.
+    /// Atoms that the parent handed out again.
     pub again: u64,
-    /// Messages over the bound that is stated.
+    /// Messages over the bound of [`Check::bound`].
     pub of_bound: f64,
 }
 
-/// Lets a run happen.
+/// Runs a plan in virtual time and checks every record.
 ///
 /// # Errors
-/// A sentence that says what is wrong with it.
+/// The first [`Violation`].
 pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, Violation> {
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
@@ -78,19 +78,19 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
     check.end(sim.is_finished())
 }
 
-/// What has been seen of a run.
+/// State of the checks of a run.
 struct Check<'a> {
     plan: &'a ChaosPlan,
     outcome: RunTotals,
     violation: Option<Violation>,
-    /// By node: the atoms that it has traced and not sent.
+    /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
     stopped: Vec<bool>,
-    /// By atom: how often it has reached the parent.
+    /// By atom: how often its result has reached the parent.
     placed: Vec<u32>,
-    /// Results on their way to the parent.
+    /// Results in flight to the parent, by message.
     results: BTreeMap<u64, Vec<Range<Atom>>>,
-    /// Offers, and how many stops they had left when they were last sent.
+    /// Offers by offerer and time, with the stops left when last sent.
     offers: BTreeMap<(NodeId, Time), u16>,
     messages: u64,
     atoms_done: u64,
@@ -183,7 +183,7 @@ impl<'a> Check<'a> {
         Ok(self.outcome)
     }
 
-    /// The most messages that such a run may need (see the ring's README).
+    /// The most messages that the run may need (see `src/balance/adaptive/README.md`).
     fn bound(&self) -> f64 {
         let nodes = self.plan.header.speeds.len();
         let rules = self.plan.header.rules;

@@ -1,5 +1,4 @@
-//! Many random runs of the ring that adapts, with everything that can befall machines and links: each has to end with the
-//! whole picture, whatever happens.
+//! Many random runs of the adaptive ring with failing machines and links. Every run must end with the whole picture.
 
 mod bugs;
 mod check;
@@ -21,18 +20,18 @@ use bugs::Bug;
 use check::{RunTotals, Violation};
 use plan::ChaosPlan;
 
-/// Of so many failing seeds the runs are kept.
+/// Number of failing seeds whose runs are kept.
 const KEPT: usize = 5;
-/// Seeds that are tried for each bug that is put in.
+/// Seeds tried for each injected bug.
 const TRIED: u64 = 10_000;
-/// How many seeds are a step.
+/// Seeds per progress step.
 const STEP: u64 = 250;
 
-/// Tries these seeds, and says which fail. Of those, and of a seed that is tried alone, the run is kept as a file that the
-/// window shows, with `scene` as its picture.
+/// Runs every seed and reports the seeds that fail. Keeps the runs of the first failing seeds, or of a single seed, as
+/// run files with the picture of `scene`.
 ///
 /// # Errors
-/// A sentence, if a file could not be made.
+/// [`StudyError::File`], if a run file cannot be made.
 pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut seen = Seen::default();
     let mut failures: Vec<(u64, Violation)> = Vec::new();
@@ -66,7 +65,7 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Resul
     Ok(study)
 }
 
-/// One run of a seed, with a bug if there is to be one. A party that finds the impossible panics; that is a failure too.
+/// Runs a seed, with an injected bug if there is one. A panic of a party counts as a violation.
 fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, Violation> {
     let run = || check::run(plan, bug.map(Bug::tamper));
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
@@ -75,12 +74,12 @@ fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, Violation> {
     })
 }
 
-/// The first seed from `first` on with which a bug is found, and what is said of it.
+/// Finds the first seed from `first` on with which a bug is detected, and the violation that reveals it.
 fn find(bug: Bug, first: u64) -> Option<(u64, Violation)> {
     (first..first + TRIED).find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
 }
 
-/// All records of a plan's run, as far as a run that does not end has any that are of use.
+/// Returns all records of a plan's run; of a run that does not end, the first million.
 fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
     const MOST: usize = 1_000_000;
     let costs = plan.costs.clone();
@@ -95,7 +94,7 @@ fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
     log
 }
 
-/// What the runs amounted to that did not fail.
+/// Totals over the runs that passed.
 #[derive(Default)]
 struct Seen {
     runs: u64,
@@ -103,7 +102,8 @@ struct Seen {
     records: u64,
     again: u64,
     of_bound: f64,
-    /// Of all scripts: switched off, hung, cut off, links cut, ways held up, speeds, latencies.
+    /// Commands in all scripts: machines off, hung and cut off; links cut; messages delayed; speeds and latencies
+    /// changed.
     befell: [u64; 7],
 }
 
@@ -136,34 +136,33 @@ fn report(
     failures: &[(u64, Violation)],
     bugs: &[(Bug, Option<(u64, Violation)>)],
 ) -> Report {
-    let mut report = Report::titled("Whatever befalls the ring that adapts");
+    let mut report = Report::titled("The adaptive ring under random failures");
     report.line(format!(
-        "Seeds {} to {}: random runs in virtual time, of 1 to 24 machines (some of them spares that join later), 1 to \
-         400 atoms whose cost varies a hundredfold, speeds of 0.001 to 1, latencies of 0 to 200 ms, in some a slow \
-         shared wire and a slow parent. In seven of eight runs machines change their speed, stand still, hang, are \
-         cut off, are switched off and begin anew, join, or are lost for good, links are cut and mended, and what is \
-         on a way is held up for up to 10 s; at last one machine is well. Each run has to end; the picture has to be \
-         whole, each atom of it traced by who sent it; no node may begin an atom after its shutdown; no offer may be \
-         in two places; nothing may be given out again where nothing was lost; and there may be no more messages than \
-         the ring's README says.\n",
+        "Seeds {} to {}: random runs in virtual time with 1 to 24 machines (some of them spares that join later), 1 \
+         to 400 atoms whose costs vary by a factor of 100, speeds from 0.001 to 1 and latencies from 0 to 200 ms. \
+         Some runs have a slow shared wire and a slow parent. In seven of eight runs, machines change their speed, \
+         stand still, hang, are cut off, are switched off and restart, join, or are lost for good; links are cut and \
+         repaired; and messages are delayed by up to 10 s. In the end at least one machine works. Every run must \
+         satisfy these conditions: it ends; the picture is whole, and each atom was traced by the node that sent it; \
+         no node starts an atom after its shutdown; no offer is in two places; no atom is handed out again where \
+         nothing was lost; and the number of messages stays within the bound of the adaptive ring's README.\n",
         seeds.start,
         seeds.end.saturating_sub(1)
     ));
     let [off, hung, cut_off, links, delays, speeds, latencies] = seen.befell;
-    report.line(format!("- runs that held: {}, of which nothing befell {}", seen.runs, seen.calm));
+    report.line(format!("- runs that passed: {}, of which {} had no failures and no changes", seen.runs, seen.calm));
     report.line(format!("- runs that failed: {}", failures.len()));
     report.line(format!(
-        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} \
-         ways held up, {speeds} changed speeds, {latencies} changed latencies"
+        "- injected: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} delays, \
+         {speeds} changes of speed, {latencies} changes of latency"
     ));
-    report.line(format!("- records: {}; atoms given out again by the parent: {}", seen.records, seen.again));
-    report.line(format!("- most messages, over the bound: {:.2}\n", seen.of_bound));
+    report.line(format!("- records: {}; atoms handed out again by the parent: {}", seen.records, seen.again));
+    report.line(format!("- most messages / bound: {:.2}\n", seen.of_bound));
     for (seed, why) in failures {
-        report
-            .line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` tries it again and keeps its run)"));
+        report.line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` runs it again and keeps its run)"));
     }
     if !bugs.is_empty() {
-        report.line("\n## Bugs that were put in on purpose\n");
+        report.line("\n## Injected bugs\n");
         for (bug, found) in bugs {
             match found {
                 Some((seed, why)) => report.line(format!("- {}: found with seed {seed}: {why}", bug.name())),
@@ -179,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ring_survives_whatever_befalls_it() {
+    fn adaptive_ring_survives_random_failures() {
         for seed in 0..3_000 {
             if let Err(why) = try_run(&ChaosPlan::new(seed), None) {
                 panic!("seed {seed}: {why}");
@@ -188,15 +187,15 @@ mod tests {
     }
 
     #[test]
-    fn bugs_that_are_put_in_are_found() {
+    fn injected_bugs_are_found() {
         for bug in Bug::ALL {
             assert!(find(bug, 0).is_some(), "{bug:?}");
         }
     }
 
     #[test]
-    fn a_seed_is_the_same_run_whenever_it_is_tried() {
-        let scene = Opened::new("csg-primer").expect("a scene that is built in");
+    fn seed_determines_run() {
+        let scene = Opened::new("csg-primer").expect("a built-in scene");
         assert_eq!(record(&ChaosPlan::new(77), &scene), record(&ChaosPlan::new(77), &scene));
         let study = chaos(77..78, &scene, &mut |_, _, _| {}).expect("a study");
         assert!(study.files.iter().any(|(name, _)| name == "chaos-77.anel"));

@@ -1,4 +1,4 @@
-//! The article's claims, and what our figures say of each.
+//! The article's claims, each with a verdict from the measured figures.
 
 use super::super::rivals::Needs;
 use super::article::{PACKETS, slow_speed};
@@ -8,13 +8,13 @@ use crate::balance::Strategy;
 
 /// A claim and the verdict on it.
 pub(super) struct ClaimVerdict {
-    /// Where the article says it.
+    /// Where the article makes the claim.
     pub place: &'static str,
-    /// What it says.
+    /// The claim.
     pub says: &'static str,
-    /// What ours says: `borne out`, `not borne out`, or `it depends`.
+    /// The verdict: `borne out`, `not borne out`, or `it depends`.
     pub verdict: &'static str,
-    /// The figures.
+    /// The figures behind the verdict.
     pub why: String,
 }
 
@@ -22,7 +22,8 @@ const YES: &str = "borne out";
 const NO: &str = "not borne out";
 const DEPENDS: &str = "it depends";
 
-/// All claims of §7, §10 and §11 that can be put to a test; `competing` are the ring with one thread a node, with two, and rayon.
+/// Judges all testable claims of §7, §10 and §11. `competing` holds the ring with one thread a node, with two, and
+/// rayon.
 pub(super) fn all(rows: &[PaperRow], competing: &[Needs; 3]) -> Vec<ClaimVerdict> {
     let rows = Rows(rows);
     vec![
@@ -63,7 +64,7 @@ fn near_ideal(rows: &Rows<'_>) -> ClaimVerdict {
         says: "The ring comes close to the ideal.",
         verdict: if all.iter().flatten().all(|&over| over < 1.1) { YES } else { DEPENDS },
         why: format!(
-            "Time over ideal at 2, 3, 4 machines and at 4 with the slow one: threads {}; virtual time {}; on the \
+            "Makespan / ideal at 2, 3, 4 machines and at 4 with the slow one: threads {}; virtual time {}; on the \
              modelled network {}. The article's own: 1.034, 1.138, 1.131, 1.109.",
             words(all[0]),
             words(all[1]),
@@ -86,8 +87,8 @@ fn network_use(rows: &Rows<'_>) -> ClaimVerdict {
         verdict: if holds && usual > messages[1] { YES } else { DEPENDS },
         why: format!(
             "Messages of static bands, ring and farm at four machines: {:.0}, {:.0}, {:.0}; kilobytes: {:.0}, {:.0}, \
-             {:.0}, of which nearly all are pixels. The farm's number depends on its parts: that was with parts of \
-             one atom; with 16 parts a machine it says {usual:.0}.",
+             {:.0}, nearly all of them pixels. The farm's number depends on the size of its parts: here a part is one \
+             atom; with 16 parts a machine the farm sends {usual:.0} messages.",
             messages[0],
             messages[1],
             messages[2],
@@ -110,14 +111,15 @@ fn finish_together(rows: &Rows<'_>) -> ClaimVerdict {
         says: "All computers finish practically together.",
         verdict: if ring.iter().all(|&spread| spread < 5.0) { YES } else { DEPENDS },
         why: format!(
-            "From the first machine's last atom to the last one's: {:.2} % of the time on threads and {:.2} % in \
-             virtual time at four machines, {:.2} % with the slow one; static bands {:.0} %, farm {:.1} %.",
+            "Spread, from the first machine's last atom to the last machine's last atom, as a share of the makespan: \
+             {:.2} % on threads and {:.2} % in virtual time at four machines, {:.2} % with the slow one; static bands \
+             {:.0} %, farm {:.1} %.",
             ring[0], ring[1], ring[2], others[0], others[1]
         ),
     }
 }
 
-/// Sizes are as good as the best if their time is within this factor of it.
+/// A size is good if its makespan is within this factor of the best.
 const GOOD: f64 = 1.05;
 
 fn easier_to_size(rows: &Rows<'_>) -> ClaimVerdict {
@@ -144,7 +146,7 @@ fn easier_to_size(rows: &Rows<'_>) -> ClaimVerdict {
             _ => DEPENDS,
         },
         why: format!(
-            "Sizes in pixels whose time is within {:.0} % of the best (of those tried), at four machines, at four \
+            "Sizes in pixels whose makespan is within {:.0} % of the best of those tried, at four machines, at four \
              with the slow one, and both on the modelled network: the ring's atoms {}; the farm's parts {}.",
             100.0 * (GOOD - 1.0),
             words(atoms),
@@ -183,7 +185,7 @@ fn slow_machine_helps(rows: &Rows<'_>) -> ClaimVerdict {
     }
 }
 
-/// A gain in per cent, in words.
+/// Formats a gain in per cent: `4.3 % faster`.
 fn speedup(gain: f64) -> String {
     format!("{:.1} % {}", gain.abs(), if gain < 0.0 { "slower" } else { "faster" })
 }
@@ -212,12 +214,12 @@ fn small_packets(rows: &Rows<'_>) -> ClaimVerdict {
             _ => DEPENDS,
         },
         why: format!(
-            "On the modelled network, packets of {small:.1} atoms on average take {time_small:.3} times the ideal, \
-             packets of {large:.1} atoms {time_large:.3}; without a network {free_small:.3} and {free_large:.3}. \
-             Small last packets are what lets all end together; a lap of the ring costs far less than the atoms it \
-             moves. The article's five runs moved {moved} atoms: the fifth, on which its curve hangs, moved a third \
-             of the others' and so had little to share, or shared it badly; four points between 160 and 168 s show no \
-             trend."
+            "On the modelled network, makespan / ideal is {time_small:.3} with packets of {small:.1} atoms on \
+             average, and {time_large:.3} with packets of {large:.1} atoms; without a network {free_small:.3} and \
+             {free_large:.3}. Small last packets let all machines finish together, and a lap of the ring costs far \
+             less than the atoms it moves. The article's five runs moved {moved} atoms. The fifth run, on which its \
+             curve depends, moved a third of the others' atoms: it had little to share, or shared it badly. Four \
+             points between 160 and 168 s show no trend."
         ),
     }
 }
@@ -229,9 +231,9 @@ fn compete([one, two, _]: &[Needs; 3]) -> ClaimVerdict {
         says: "Child and grandchild compete for the processor.",
         verdict: if two.wall_over_ring > 1.02 { YES } else { NO },
         why: format!(
-            "At full speed, a machine a core: {:.0} ms with one thread a node, {:.0} ms with two, which is {:.2} \
-             times as long; {} context switches become {}. One thread that is both, and looks for messages between \
-             two pieces of an atom, has none of this.",
+            "At full speed, with a machine per core: {:.0} ms with one thread a node, {:.0} ms with two, a factor of \
+             {:.2}; {} context switches become {}. A single thread that traces, and handles messages between two \
+             pieces of an atom, avoids this.",
             1e3 * one.wall_s,
             1e3 * two.wall_s,
             two.wall_over_ring,

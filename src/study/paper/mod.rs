@@ -1,4 +1,4 @@
-//! The article's comparison, Figures 5 to 9, and a verdict on each of its claims.
+//! The article's comparison, Figures 5 to 9, with a verdict on each of its claims.
 
 mod article;
 mod charts;
@@ -22,17 +22,17 @@ pub use article::over_ideal as article_over_ideal;
 use measure::Measuring;
 use rows::PaperRow;
 
-/// How long a run of four machines is to last on threads: "a second or more", and the threads' rests make work dearer.
+/// Makespan of a run of four machines on threads: "a second or more"; and the threads' pauses make work dearer.
 const RUN: Duration = Duration::from_millis(1100);
 
-/// Figures 5 to 9 on threads and in virtual time, without a network and on a modelled one; what else one wants to know of
-/// the strategies; and a verdict on each claim of §7, §10 and §11.
+/// Runs Figures 5 to 9 on threads and in virtual time, without a network and on a modelled one, with further
+/// comparisons of the strategies, and judges each claim of §7, §10 and §11.
 ///
 /// # Errors
-/// A sentence, if a run failed.
+/// A [`StudyError`], if a run fails.
 pub fn paper(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(3 + Measuring::THREAD_STEPS + rivals::STEPS, tell);
-    progress.next("what the picture costs");
+    progress.next("cost of the picture");
     let size = Size::new(640, 480).map_err(StudyError::size)?;
     let (samples, work, pace) = long_enough(scene, size);
     let bench = Fixture::new(scene, size, samples)?;
@@ -44,17 +44,17 @@ pub fn paper(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError
     let handling = measuring.handling();
     measuring.threads(&mut progress)?;
     let competing = rivals::compete(&bench, &mut progress)?;
-    progress.next("rays that change hands");
+    progress.next("rays between owners");
     // The article's picture has one sample a pixel.
     let divisions = division::count(&Tracer::new(&scene.scene, size, Quality::default()));
     let found = Found { bench: &bench, pace, rows: measuring.rows, handling, competing, divisions };
     found.written()
 }
 
-/// Everything that was found, and how.
+/// Results of all parts of the study.
 struct Found<'a> {
     bench: &'a Fixture,
-    /// The part of a core that a machine of the article's speed gets.
+    /// Fraction of a core that a machine of the article's speed gets.
     pace: f64,
     rows: Vec<PaperRow>,
     /// See [`Measuring::handling`].
@@ -65,7 +65,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// The study that says so.
+    /// Writes the tables, charts and report.
     fn written(&self) -> Result<Study, StudyError> {
         let mut study = Study::new("paper");
         study.add_rows(&self.rows)?;
@@ -77,8 +77,8 @@ impl Found<'_> {
     }
 }
 
-/// Samples a pixel, the CPU time that the picture then takes, and the part of a core that a machine is given: together they
-/// make a run of four machines last [`RUN`], and five machines take no more than half of the computer.
+/// Chooses samples a pixel and a pace, and returns them with the CPU time of that picture: a run of four machines lasts
+/// [`RUN`], and five machines take no more than half of the computer.
 fn long_enough(scene: &Opened, size: Size) -> (u32, Duration, f64) {
     let most = (0.1 * cores() as f64).min(1.0);
     let pace = |work: Duration| work.div_duration_f64(4 * RUN);
@@ -93,9 +93,9 @@ fn long_enough(scene: &Opened, size: Size) -> (u32, Duration, f64) {
 mod tests {
     use super::*;
 
-    /// Runs on threads take minutes; here those in virtual time are taken for them.
+    /// Runs on threads take minutes; runs in virtual time stand in for them here.
     #[test]
-    fn the_report_shows_its_charts_and_misses_no_number() {
+    fn report_shows_all_charts_and_no_missing_numbers() {
         let scene = Opened::new("ten-objects").unwrap();
         let bench = Fixture::new(&scene, Size::new(100, 75).unwrap(), 1).unwrap();
         let mut measuring = Measuring::new(&bench, RUN, 0.2);

@@ -1,4 +1,4 @@
-//! What the study of the article says.
+//! The report of the study of the article.
 
 use super::super::rivals::Needs;
 use super::Found;
@@ -13,7 +13,7 @@ use crate::study::fixture::STRATEGIES;
 use crate::study::markdown::Report;
 use std::collections::BTreeSet;
 
-/// The report, in Markdown.
+/// Writes the report.
 pub(super) fn report(found: &Found<'_>) -> Report {
     let Found { rows, competing, divisions, handling, .. } = found;
     let mut report = Report::titled("The article's comparison, run anew");
@@ -30,10 +30,10 @@ pub(super) fn report(found: &Found<'_>) -> Report {
     report
 }
 
-/// Figure 9: whether time rises as packets shrink.
+/// Adds the chapter on sizes, with Figure 9: does the makespan rise as packets shrink?
 fn packets(report: &mut Report, rows: &[PaperRow]) {
     report.line("\n## Sizes\n\n![](paper-atoms.svg)\n\n![](paper-parts.svg)\n\n![](paper-figure9.svg)");
-    report.line("\nMean atoms in a packet, and time over the ideal, by the least atoms that are worth sending:\n");
+    report.line("\nMean atoms in a packet: makespan / ideal, by the least number of atoms that a node sends:\n");
     report.line("| at least | ring | ring, network | adaptive | adaptive, network |\n|---:|---:|---:|---:|---:|");
     let parts: BTreeSet<u32> = select(rows, "part", "none", "sim").map(|row| row.part).collect();
     for part in parts {
@@ -53,12 +53,12 @@ fn packets(report: &mut Report, rows: &[PaperRow]) {
 
 fn head(report: &mut Report, Found { bench, pace, .. }: &Found<'_>) {
     report.line(format!(
-        "The scene is {}, {} pixels in atoms of {ATOM}. *Threads* are real runs of emulated machines, {} samples a \
-         pixel (n × n), each machine at {:.0} % of a core of this computer, the middle one of {RUNS} runs; *virtual \
-         time* is the same protocol in a simulator, its machines as fast as the article's ({} s for the picture \
-         alone, the slow one {} s), atoms as dear as their rays make them. As in the article, results leave a machine \
-         when its atoms have run out. Every time is given over the ideal one, the work divided by the sum of \
-         speeds.\n",
+        "The scene is {}, {} pixels in atoms of {ATOM}. *Threads*: real runs of emulated machines with {} samples a \
+         pixel (n × n), each machine at {:.0} % of a core of this computer; the median of {RUNS} runs. *Virtual \
+         time*: the same protocol in a simulator, with machines as fast as the article's ({} s for the picture on one \
+         machine, {} s on the slow one) and costs of atoms in proportion to their rays. As in the article, a machine \
+         sends its results when it has no atoms left. The figure is makespan / ideal, where the ideal is the work \
+         divided by the sum of speeds.\n",
         bench.scene.name,
         bench.size,
         bench.samples,
@@ -67,11 +67,11 @@ fn head(report: &mut Report, Found { bench, pace, .. }: &Found<'_>) {
         SLOW_SERIAL.as_secs()
     ));
     report.line(format!(
-        "*The modelled network* is one wire that all share, of {} MB/s, {} ms a message, and a parent that is busy \
-         for {} ms with each message; its farm hands out parts of {} atom. On threads, which are faster than the \
-         article's machines, its times are shorter in proportion. These are the conditions under which the article's \
-         order comes out, ring before static bands before farm; without them, or with larger parts, the farm is about \
-         as good as the ring (see *When is a farm worse*).\n",
+        "*The modelled network* is one wire shared by all, of {} MB/s, with {} ms a message, and a parent that is \
+         busy for {} ms with each message; its farm hands out parts of {} atom. On threads, which are faster than the \
+         article's machines, its times are shorter in proportion. Under these conditions the article's order comes \
+         out: ring before static bands before farm. Without them, or with larger parts, the farm is about as good as \
+         the ring (see *When is a farm worse*).\n",
         NETWORK.bandwidth / 1e6,
         1e3 * NETWORK.latency,
         1e3 * NETWORK.handling,
@@ -94,7 +94,7 @@ fn figures(report: &mut Report, rows: &[PaperRow]) {
         ("sim", "modelled", "virtual time, modelled network"),
     ] {
         report.line(format!("\n## Figures 5 to 7: {name}\n"));
-        report.line("Times over the ideal; the article's in brackets.\n");
+        report.line("Makespan / ideal; the article's value in brackets.\n");
         let names = STRATEGIES.map(Strategy::name).join(" | ");
         report.line(format!("| machines | {names} | rayon |\n|---|{}---:|", "---:|".repeat(STRATEGIES.len())));
         for (nodes, label) in [(2, "2"), (3, "3"), (4, "4"), (5, "4 and a slow one")] {
@@ -121,11 +121,13 @@ fn figures(report: &mut Report, rows: &[PaperRow]) {
     }
 }
 
-/// Whether real and virtual time agree.
+/// Adds the chapter that compares threads with virtual time.
 fn agreement(report: &mut Report, rows: &[PaperRow]) {
     report.line("\n## Do threads and virtual time agree?\n");
-    report.line("Makespan on threads over that of the same run in virtual time, with the costs measured in it.\n");
-    report.line("| strategy | runs | least | middle | greatest |\n|---|---:|---:|---:|---:|");
+    report.line(
+        "The makespan on threads over that of the same run in virtual time, with the costs measured on threads.\n",
+    );
+    report.line("| strategy | runs | least | median | greatest |\n|---|---:|---:|---:|---:|");
     for strategy in STRATEGIES.into_iter().chain([Strategy::Serial]) {
         let of = rows.iter().filter(|row| row.strategy == strategy.name());
         let mut ratios: Vec<f64> = of.filter_map(|row| Some(row.makespan_s / row.twin_s?)).collect();
@@ -139,12 +141,15 @@ fn agreement(report: &mut Report, rows: &[PaperRow]) {
     }
 }
 
-/// The slow machine at every place.
+/// Adds the chapter on the place of the slow machine.
 fn places(report: &mut Report, rows: &[PaperRow]) {
     report.line("\n## The slow machine at every place of the ring\n");
-    report.line("| place | threads | virtual time | virtual time, modelled network |\n|---:|---:|---:|---:|");
+    report.line(
+        "Makespan / ideal:\n\n| place | threads | virtual time | virtual time, modelled network \
+         |\n|---:|---:|---:|---:|",
+    );
     let at = |network: &str, driver: &str, place: usize| {
-        // At the last place it is that of Figure 7.
+        // The slow machine at the last place is the run of Figure 7.
         let figures = ["place", "7"].into_iter();
         let mut found = figures.flat_map(|figure| select(rows, figure, network, driver).collect::<Vec<_>>());
         found
@@ -160,9 +165,10 @@ fn places(report: &mut Report, rows: &[PaperRow]) {
         ));
     }
     report.line(format!(
-        "\nWhat differs is where the last atoms lie when the machines run dry. An atom in the slow machine's pipe \
-         takes it {:.1} times as long as another, two wait there, and nobody can take them back; whether that shows \
-         depends on what its band costs and on when the last offer passes, which its place decides.",
+        "\nThe runs differ in the place of the last atoms when the machines run out of work. An atom in the slow \
+         machine's pipe takes {:.1} times as long as on another machine. Two atoms wait there, and nobody can take \
+         them back. Whether that shows depends on the cost of its band and on when the last offer passes, and both \
+         depend on its place.",
         1.0 / article::slow_speed()
     ));
 }
@@ -170,7 +176,7 @@ fn places(report: &mut Report, rows: &[PaperRow]) {
 fn choking(report: &mut Report, handling: &[(f64, [f64; 4])]) {
     report.line("\n## When is a farm worse?\n");
     report.line(format!(
-        "| ms a message | farm, parts of {} atom | farm, 16 parts a machine | ring | static \
+        "Makespan / ideal:\n\n| ms a message | farm, parts of {} atom | farm, 16 parts a machine | ring | static \
          |\n|---:|---:|---:|---:|---:|",
         Network::PART
     ));
@@ -180,19 +186,20 @@ fn choking(report: &mut Report, handling: &[(f64, [f64; 4])]) {
     report.line("\n![](paper-handling.svg)");
 }
 
-/// §5's division of space.
+/// Adds the chapter on the division of space (§5).
 fn space(report: &mut Report, divisions: &[SpaceDivision]) {
     report.line("\n## The third way: division of space (§5)\n");
     report.line(format!(
-        "The scene's octree is dealt to owners, and a ray that leaves an owner's cells is sent to the next. Counted \
-         on one render with one sample a pixel, and kindly: empty cells cost nothing, and solids without bounds are \
-         everywhere. *Wire* is for how long the modelled network's wire would be busy with it, *travel* the time of \
-         all messages one after the other; the picture itself takes one machine {} s.\n",
+        "The cells of the scene's octree are dealt to owners, and a ray that leaves an owner's cells is sent to the \
+         next owner. The counts are of one render with one sample a pixel, in favour of this method: empty cells cost \
+         nothing, and solids without bounds are everywhere. *Wire* is the time for which the modelled network's wire \
+         would be busy with the messages; *travel* is the time of all messages one after the other. One machine needs \
+         {} s for the picture itself.\n",
         SERIAL.as_secs()
     ));
     report.line(
-        "| owners | cells dealt | rays | that change hands | messages | results sent back | wire, s | travel, s | \
-         busiest owner / mean |",
+        "| owners | cells dealt | rays | rays sent on | messages | results sent back | wire, s | travel, s | busiest \
+         owner / mean |",
     );
     report.line("|---:|---|---:|---:|---:|---:|---:|---:|---:|");
     for division in divisions {
@@ -211,18 +218,18 @@ fn space(report: &mut Report, divisions: &[SpaceDivision]) {
         ));
     }
     report.line(
-        "\nThe ring says less than a hundred messages for the same picture. The article's fear is borne out: *exige \
-         muita comunicação entre os nós*.",
+        "\nThe ring sends fewer than a hundred messages for the same picture. The article's concern is borne out: \
+         *exige muita comunicação entre os nós*.",
     );
 }
 
 fn swings(report: &mut Report, rows: &[PaperRow]) {
     report.line("\n## A machine whose speed swings\n");
     report.line(
-        "A ring of four on the modelled network, of which one machine swings between full speed and a tenth; over the \
-         ideal time, which knows of the swings.\n",
+        "A ring of four on the modelled network; one machine swings between full speed and a tenth. Makespan / ideal, \
+         where the ideal accounts for the swings:\n",
     );
-    report.line("| | period, s | time / ideal | atoms moved | transfers |\n|---|---:|---:|---:|---:|");
+    report.line("| | period, s | makespan / ideal | atoms moved | transfers |\n|---|---:|---:|---:|---:|");
     let steady = "steady at the mean";
     for (driver, name, of) in [
         ("sim", "virtual time", &[steady, "an offer's lap", "an atom", "a tenth of the run", "the run"][..]),

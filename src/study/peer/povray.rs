@@ -1,4 +1,4 @@
-//! POV-Ray as a program that is run.
+//! POV-Ray as an external program.
 
 use std::io::{self, ErrorKind};
 use std::process::{Child, Command, Stdio};
@@ -49,13 +49,15 @@ impl PovRayError {
 /// POV-Ray as it is installed.
 #[derive(Debug)]
 pub(super) struct PovRay {
-    /// What it says of itself, as `POV-Ray 3.7.0.10`.
+    /// The version as the program reports it, such as `POV-Ray 3.7.0.10`.
     pub version: String,
 }
 
 impl PovRay {
+    /// Looks for the program and asks for its version.
+    ///
     /// # Errors
-    /// A sentence, if it is not installed or does not run.
+    /// A [`PovRayError`], if it is not installed or does not run.
     pub fn find() -> Result<Self, PovRayError> {
         let output =
             Command::new("povray").arg("--version").stdin(Stdio::null()).output().map_err(PovRayError::start)?;
@@ -67,16 +69,16 @@ impl PovRay {
         version.map(|version| Self { version }).ok_or(PovRayError::UnknownVersion)
     }
 
-    /// Starts on a picture of `scene`.
+    /// Starts rendering a picture of `scene`.
     ///
     /// # Errors
-    /// A sentence, if it cannot.
+    /// A [`PovRayError`], if the scene cannot be written or the program does not start.
     pub fn start(&self, scene: &Scene, size: Size, quality: &Quality) -> Result<Rendering, PovRayError> {
         let directory = tempfile::tempdir().map_err(PovRayError::NoInput)?;
         std::fs::write(directory.path().join("scene.pov"), to_pov(scene, size, quality))
             .map_err(PovRayError::NoInput)?;
         let program = Command::new("povray")
-            // It may always read and write where it stands, whatever its configuration forbids.
+            // Its configuration always lets it read and write in its working directory.
             .current_dir(directory.path())
             .args(["+Iscene.pov", "+Opicture.png", &format!("+W{}", size.width()), &format!("+H{}", size.height())])
             // One ray a pixel, one thread, no window; 8-bit PNG in sRGB, as this program writes it.
@@ -90,7 +92,7 @@ impl PovRay {
     }
 }
 
-/// A picture that POV-Ray is drawing.
+/// A picture being rendered by POV-Ray.
 #[derive(Debug)]
 pub(super) struct Rendering {
     program: Child,
@@ -99,10 +101,10 @@ pub(super) struct Rendering {
 }
 
 impl Rendering {
-    /// Waits for the picture: its pixels in scan order, in 8-bit sRGB.
+    /// Waits for the picture and returns its pixels in scan order, in 8-bit sRGB.
     ///
     /// # Errors
-    /// A sentence, if there is none.
+    /// A [`PovRayError`], if there is no picture.
     pub fn finish(self) -> Result<Vec<[u8; 3]>, PovRayError> {
         let output = self.program.wait_with_output().map_err(PovRayError::Lost)?;
         match image::open(self.directory.path().join("picture.png")) {

@@ -1,4 +1,4 @@
-//! What the comparison with POV-Ray says.
+//! The report of the comparison with POV-Ray.
 
 use super::povray::PovRay;
 use super::step::Step;
@@ -6,9 +6,9 @@ use super::{DIFFERENCE, OURS, PeerRow, THEIRS, picture_name};
 use crate::picture::{Difference, Size};
 use crate::study::markdown::Report;
 
-/// The report, in Markdown. `rows` are by scene, then by step; the last scene is the bored cylinder.
+/// Writes the report. `rows` are ordered by scene, then by step; the last scene is the bored cylinder.
 pub(super) fn report(povray: &PovRay, size: Size, rows: &[PeerRow]) -> Report {
-    let mut report = Report::titled("Every pixel beside POV-Ray's");
+    let mut report = Report::titled("Every pixel compared with POV-Ray's");
     let scenes: Vec<&[PeerRow]> = rows.chunks_exact(Step::ALL.len()).collect();
     head(&mut report, povray, size);
     table(&mut report, &scenes);
@@ -26,18 +26,18 @@ pub(super) fn report(povray: &PovRay, size: Size, rows: &[PeerRow]) -> Report {
 fn head(report: &mut Report, povray: &PovRay, size: Size) {
     report.line(format!(
         "{} and anel trace the same scenes, as `anel export` writes them: {size} pixels, one ray a pixel through its \
-         middle, the same limit of the tree of rays, pictures in 8-bit sRGB. A pixel *differs* if a channel is more \
-         than {}/255 apart. No pixel is left out, not even where edges cross it, since both send their rays through \
+         middle, the same limit of the tree of rays, pictures in 8-bit sRGB. A pixel *differs* if a channel differs \
+         by more than {}/255. No pixel is excluded, not even at edges, since both programs send their rays through \
          the same points.\n",
         povray.version,
         Difference::SAME
     ));
     report.line(
-        "The causes are found by taking them away. From column to column each scene is changed for both programs \
-         alike, and what then agrees had differed for that cause: every primitive moves by a hundred-thousandth of \
-         the scene, so that *faces* no longer coincide; the scene is made so *large* that absolute tolerances are \
-         nothing beside it; what transmits is *lossless*, Ks + Kt = 1; *no cutoff* ends a branch of the tree of rays. \
-         What differs in the last column is not explained.\n",
+        "The causes are found by removing them. From column to column each scene is changed for both programs alike; \
+         pixels that agree after a change had differed for its cause. *Faces apart*: every primitive moves by a \
+         hundred-thousandth of the scene, so that faces no longer coincide. *Large*: the scene is so large that \
+         absolute tolerances are negligible. *Lossless*: for transparent materials Ks + Kt = 1. *No cutoff*: no \
+         cutoff ends a branch of the tree of rays. Differences in the last column are not explained.\n",
     );
 }
 
@@ -62,10 +62,10 @@ fn table(report: &mut Report, scenes: &[&[PeerRow]]) {
 }
 
 fn causes(report: &mut Report) {
-    report.line("\n## Causes, and who is right\n");
+    report.line("\n## Causes, and which program is right\n");
     for step in Step::ALL {
         if let Some([cause, verdict]) = step.cause() {
-            report.line(format!("- **{cause}** (gone in *{}*): {verdict}", step.name()));
+            report.line(format!("- **{cause}** (removed by *{}*): {verdict}", step.name()));
         }
     }
 }
@@ -73,9 +73,9 @@ fn causes(report: &mut Report) {
 fn through_the_bore(report: &mut Report, povray: &PovRay, bored: &PeerRow) {
     let count = |pixels: Option<u32>| pixels.map_or("–".into(), |pixels| pixels.to_string());
     report.line(format!(
-        "\n## A bored cylinder whose ends coincide with those of its bore\n\nThe bore is open: whoever looks through \
-         it sees the background. Of {} pixels whose rays touch nothing, anel gets {} wrong and {} {}: there the bore \
-         keeps a skin at its ends. POV-Ray's manual knows that, and advises to make a cutter longer than what it \
+        "\n## A cylinder whose ends coincide with those of its bore\n\nThe bore is open, so the background is visible \
+         through it. Of {} pixels whose rays touch nothing, anel gets {} wrong and {} {}: there the bore keeps a skin \
+         at its ends. POV-Ray's manual describes this, and advises to make the cutter longer than the solid that it \
          cuts.",
         count(bored.through_bore),
         count(bored.anel_wrong),
@@ -94,8 +94,10 @@ fn side_by_side(report: &mut Report, steps: &[PeerRow]) {
     report.line(format!("\n### {}\n", as_it_is.scene));
     match differing {
         0 => report.line("No pixel differs."),
-        _ => report
-            .line(format!("Pixels that differ: {differing}, for {}; not explained: {unexplained}.", causes.join(", "))),
+        _ => report.line(format!(
+            "Pixels that differ: {differing}. Causes: {}. Not explained: {unexplained}.",
+            causes.join(", ")
+        )),
     }
     pictures(report, as_it_is);
 }

@@ -1,4 +1,4 @@
-//! From four machines to a thousand: efficiency, and how messages grow.
+//! From 4 to 1,024 machines: efficiency, and growth of messages.
 
 use std::time::Duration;
 
@@ -13,16 +13,17 @@ use crate::runlog::{Driver, Header, LinkSettings};
 use crate::study::fixture::{AtomCosts, simulate, weighted};
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
-/// How many machines.
+/// Numbers of machines.
 const NODES: [usize; 5] = [4, 16, 64, 256, 1024];
-/// Atoms a machine, and what one costs on the average.
+/// Atoms per machine.
 const ATOMS: u32 = 512;
+/// Mean CPU time of an atom.
 const COST: Duration = Duration::from_millis(2);
-/// What a message takes.
+/// Latency of a message.
 const LATENCY: Duration = Duration::from_millis(1);
-/// Where the work is uneven, nine tenths of it are in this part of the picture.
+/// Where the work is uneven, nine tenths of it are in this fraction of the picture: one sixteenth.
 const PART: usize = 16;
-/// What is compared.
+/// Strategies that are compared.
 const RIVALS: [(&str, Strategy, Remedies); 3] = [
     ("ring", Strategy::Ring, Remedies::ALL),
     ("adaptive", Strategy::Adaptive, Remedies::ALL),
@@ -38,15 +39,15 @@ pub(super) struct GrowthRow {
     pub efficiency: f64,
     pub makespan_s: f64,
     pub messages_per_node: f64,
-    /// Offers, hops, offers left by sleepers, and those that are woken, a machine.
+    /// Offers, hops, notes (offers left with sleepers) and wakes per machine.
     pub asking_per_node: f64,
     pub transfers_per_node: f64,
 }
 
-/// How many steps [`measure`] takes.
+/// Number of steps that [`measure`] takes.
 pub(super) const STEPS: usize = 2 * NODES.len();
 
-/// Runs all of it in virtual time.
+/// Simulates all runs in virtual time.
 pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<GrowthRow> {
     let mut rows = Vec::new();
     for uneven in [false, true] {
@@ -61,7 +62,7 @@ pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<GrowthRow> {
     rows
 }
 
-/// What atoms cost: within a tenfold range at random, and nine tenths of it in one part of the picture if it is uneven.
+/// Returns random costs within a tenfold range; if `uneven`, nine tenths of the work are in one part of the picture.
 fn costs(nodes: usize, uneven: bool) -> AtomCosts {
     let mut rng = Rng::with_seed(nodes as u64);
     let atoms = ATOMS as usize * nodes;
@@ -78,7 +79,7 @@ fn row(
     rival: &'static str,
     (strategy, remedies): (Strategy, Remedies),
 ) -> GrowthRow {
-    // No picture of so many atoms is too large.
+    // Pictures of this many atoms are small enough.
     let size = Size::new(50, costs.len() as u32).unwrap_or_else(|why| unreachable!("{why}"));
     let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
     let header = Header {
@@ -102,7 +103,7 @@ fn row(
     }
 }
 
-/// Efficiency, and messages a machine, over the number of machines.
+/// Charts efficiency, and messages per machine, by number of machines.
 pub(super) fn charts(rows: &[GrowthRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
     for uneven in [false, true] {
@@ -114,8 +115,11 @@ pub(super) fn charts(rows: &[GrowthRow]) -> Vec<(String, LineChart)> {
             LineChart { title: format!("A picture that grows: {words}"), ..efficiency },
         ));
         let asking =
-            chart(rows, uneven, "offers, hops, notes and wakes a machine", Scale::Log10, |row| row.asking_per_node);
-        charts.push((format!("asking-{kind}"), LineChart { title: format!("How asking grows: {words}"), ..asking }));
+            chart(rows, uneven, "offers, hops, notes and wakes per machine", Scale::Log10, |row| row.asking_per_node);
+        charts.push((
+            format!("asking-{kind}"),
+            LineChart { title: format!("Growth of messages that look for work: {words}"), ..asking },
+        ));
     }
     charts
 }
@@ -128,7 +132,7 @@ fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: imp
     };
     let range = (scale == Scale::Linear).then_some((0.0, 1.0));
     LineChart {
-        note: format!("{} ms a message, {ATOMS} atoms a machine", LATENCY.as_millis()),
+        note: format!("{} ms a message, {ATOMS} atoms per machine", LATENCY.as_millis()),
         x: Axis { label: "machines".into(), scale: Scale::Log2, range: None },
         y: Axis { label: label.into(), scale, range },
         series: RIVALS.into_iter().enumerate().map(line).collect(),
@@ -136,12 +140,12 @@ fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: imp
     }
 }
 
-/// Both as a table.
+/// Adds the chapter on growth: a table for even and for uneven work.
 pub(super) fn report(report: &mut Report, rows: &[GrowthRow]) {
-    report.line("\n## From four machines to a thousand\n");
+    report.line("\n## From 4 to 1,024 machines\n");
     report.line(format!(
-        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, \
-         hops, notes and wakes a machine.\n",
+        "In virtual time, with {} ms a message and {ATOMS} atoms of {} ms per machine. Each cell: efficiency, and in \
+         brackets offers, hops, notes and wakes per machine.\n",
         LATENCY.as_millis(),
         COST.as_millis()
     ));

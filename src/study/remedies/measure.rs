@@ -1,4 +1,4 @@
-//! The runs: the article's ring, the ring that adapts, and that ring without each of its remedies.
+//! Runs of the article's ring, the adaptive ring, and the adaptive ring without each of its remedies.
 
 use std::time::Duration;
 
@@ -15,18 +15,20 @@ use crate::scene::Opened;
 use crate::study::StudyError;
 use crate::study::fixture::{Fixture, cost_of, simulate};
 
-/// How long a run in virtual time takes all machines together at full speed, and about how long one on threads does.
+/// Time that all machines together need at full speed, for a run in virtual time; about the makespan of a run on
+/// threads.
 const RUN: Duration = Duration::from_millis(1200);
-/// How long a message travels, in ms. On threads there is no network.
+/// Latencies of a message in ms. On threads there is no network.
 pub(super) const LATENCIES: [f64; 3] = [0.0, 1.0, 10.0];
-/// Pixels in an atom: in virtual time each is a run, and the middle one counts, since the last atoms are a matter of luck.
+/// Sizes of atoms in pixels. In virtual time each is a run and the median counts, since the last atoms are a matter of
+/// chance.
 const ATOMS: [u32; 5] = [40, 45, 50, 55, 60];
-/// Runs on threads, of which the middle one counts.
+/// Runs on threads, of which the median counts.
 const RUNS: usize = 3;
-/// The picture.
+/// Width and height of the picture, in pixels.
 const SIZE: (u32, u32) = (640, 480);
 
-/// What shares the atoms.
+/// What distributes the atoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rival {
     Ring,
@@ -35,7 +37,8 @@ pub(super) enum Rival {
 }
 
 impl Rival {
-    /// What is measured in virtual time: the ring, the one that adapts, and that one without each remedy.
+    /// Returns the rivals measured in virtual time: the ring, the adaptive ring, and the adaptive ring without each
+    /// remedy.
     pub fn simulated() -> impl Iterator<Item = Self> {
         let without = Remedy::ALL.map(|remedy| Self::Adaptive(Remedies::ALL.without(remedy)));
         [Self::Ring, Self::Adaptive(Remedies::ALL)].into_iter().chain(without)
@@ -58,32 +61,32 @@ impl Rival {
     }
 }
 
-/// One case of one rival: the middle of its runs.
+/// Result of one rival in one case: the median of its runs.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct RemedyRow {
     pub case: String,
     pub driver: &'static str,
     pub latency_ms: f64,
     pub rival: String,
-    /// The time over the least T with ∫ Σ speed dt ≥ work; `None` if it never ends.
+    /// Makespan / bound, where the bound is the least T with ∫ Σ speed dt ≥ work; `None` if a run never ends.
     pub over_bound: Option<f64>,
-    /// Of the runs.
+    /// The worst makespan / bound of the runs.
     pub worst: Option<f64>,
     pub aim: f64,
     pub messages_per_node: f64,
-    /// Work that was done twice, over all work.
+    /// CPU time of atoms traced again, over the work.
     pub twice: f64,
 }
 
-/// How many steps [`measure`] takes at most.
+/// Number of steps that [`measure`] takes at most.
 pub(super) fn steps() -> usize {
     cases().len() * (LATENCIES.len() + RUNS * 2) + RUNS * 2
 }
 
-/// Everything: in virtual time, and on threads.
+/// Measures all cases in virtual time and on threads.
 ///
 /// # Errors
-/// A sentence, if a run failed.
+/// A [`StudyError`], if a run fails.
 pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec<RemedyRow>, StudyError> {
     let cases = cases();
     let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;
@@ -98,7 +101,7 @@ pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec
         }
     }
     for case in &cases {
-        // Who never ends there would not end here either.
+        // A rival that never ends in virtual time would not end on threads either.
         let ends = |rival: &Rival| {
             rows.iter().any(|row| row.case == case.name && row.rival == rival.name() && row.over_bound.is_some())
         };
@@ -106,7 +109,7 @@ pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec
         let measured = on_threads(&bench(case).scene, case, &rivals, progress)?;
         rows.extend(measured);
     }
-    // Rayon knows no losses, but a machine that becomes slow.
+    // Rayon tolerates no losses, only a machine that becomes slow.
     rows.extend(on_threads(scene, &throttled(), &[Rival::Adaptive(Remedies::ALL), Rival::Rayon], progress)?);
     Ok(rows)
 }
@@ -132,14 +135,14 @@ fn virtually(bench: &Fixture, case: &RemedyCase, latency: f64, rival: Rival) -> 
     row(case, Driver::Sim, latency, rival, &runs)
 }
 
-/// Each of the rivals in turn, so that what disturbs the computer disturbs all alike.
+/// Runs the rivals in turn, so that a disturbance of the computer affects all alike.
 fn on_threads(
     scene: &Opened,
     case: &RemedyCase,
     rivals: &[Rival],
     progress: &mut Progress<'_>,
 ) -> Result<Vec<RemedyRow>, StudyError> {
-    // What leaves more than half of the computer idle.
+    // Leaves more than half of the computer idle.
     let pace = (0.4 * cores() as f64 / case.speeds.iter().sum::<f64>()).min(1.0);
     let rate = case.speeds.iter().sum::<f64>() * pace;
     let size = Size::new(SIZE.0, SIZE.1).map_err(StudyError::size)?;

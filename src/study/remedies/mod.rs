@@ -1,4 +1,4 @@
-//! The ring that adapts beside the article's, and what each of its remedies gains, alone.
+//! The adaptive ring compared with the article's ring, and the gain of each remedy alone.
 
 mod cases;
 mod growth;
@@ -9,10 +9,10 @@ use super::progress::Progress;
 use super::{ProgressSink, Study, StudyError};
 use crate::scene::Opened;
 
-/// Measures all cases with this scene's picture.
+/// Measures all cases with the scene's picture.
 ///
 /// # Errors
-/// A sentence, if a run failed.
+/// A [`StudyError`], if a run fails.
 pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(measure::steps() + growth::STEPS, tell);
     let growth = growth::measure(&mut progress);

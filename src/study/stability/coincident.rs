@@ -1,4 +1,4 @@
-//! Faces that lie at one place, and faces that nearly do.
+//! Coincident faces, and faces that nearly coincide.
 
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
@@ -14,11 +14,12 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         StabilityCase {
             name: "bore",
             title: "Coincident faces",
-            about: "A cylinder bored by one that ends exactly where it ends, which its map says in another order of \
-                    moves and scales, so that the two caps round differently; turned by (3°, 11°, 5°), or somehow. \
-                    Rays through the bore have to meet nothing. A plain merge of intervals sees a skin over the bore, \
-                    grouping only equal distances does where rounding made them unequal; ours groups what differs by \
-                    less than 10⁻¹² of what it was computed from. Truth: by construction.",
+            about: "A cylinder with a bore that ends exactly where the cylinder ends. The bore's map has another \
+                    order of moves and scales, so that the two caps round differently. Both are rotated by (3°, 11°, \
+                    5°), or at random. Rays through the bore must meet nothing. A plain merge of intervals sees a \
+                    skin over the bore; grouping equal distances does so where rounding made them unequal; ours \
+                    groups distances that differ by less than 10⁻¹² of the values they were computed from. Truth: by \
+                    construction.",
             parameter: "distance from the origin",
             values: tens(0, 9),
             required: 1e3,
@@ -31,10 +32,11 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         StabilityCase {
             name: "plate",
             title: "A thin plate",
-            about: "What is grouped may not be lost: a plate seen from a distance of 10, turned somehow, in a union \
-                    with a ball behind it or as the intersection of two half-spaces, is entered and left. Fusing what \
-                    is nearer than an absolute 0.0005 loses it. Wrong: its entry and its exit are not as far apart as \
-                    the ray's way through it is long, within a thousandth, or are not there. Truth: by construction.",
+            about: "Grouping must not lose anything. A plate seen from a distance of 10, rotated at random, in a \
+                    union with a ball behind it or as the intersection of two half-spaces, is entered and left. \
+                    Fusing distances within an absolute 0.0005 loses the plate. Wrong: entry or exit is missing, or \
+                    their distance differs from the length of the ray's path through the plate by more than a \
+                    thousandth. Truth: by construction.",
             parameter: "thickness",
             values: tens(0, -13),
             required: 1e-7,
@@ -47,7 +49,7 @@ pub(super) fn cases() -> [StabilityCase; 2] {
     ]
 }
 
-/// A solid's events on a ray: distances, entries and exits in turn.
+/// Returns the distances at which the ray enters and leaves the solid, in turn.
 fn events(solid: &Solid, ray: &Ray) -> Vec<f64> {
     let mut tree = Tree::default();
     let mut places = Vec::new();
@@ -66,7 +68,7 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let turned = if index % 4 == 0 { rotation(DVec3::new(3.0, 11.0, 5.0)) } else { turn(rng) };
         let place = DAffine3 { matrix3: turned, translation: unit(rng) * distance };
         let body = place * DAffine3::from_scale(DVec3::new(1.0, 1.5, 1.0));
-        // The same height, reached by a longer way: moved, scaled, moved back.
+        // The same height by a longer sequence: moved, scaled, moved back.
         let up = DAffine3::from_translation(DVec3::Y * 0.75) * DAffine3::from_scale(DVec3::new(0.4, 0.75, 0.4));
         let lengthened = DAffine3::from_scale(DVec3::new(1.0, 2.0, 1.0)) * up;
         let cutter = place * DAffine3::from_translation(DVec3::Y * -1.5) * lengthened;
@@ -78,7 +80,7 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let [body_caps, cutter_caps] = [body, cutter].map(|map| caps(&map, &ray));
         let cylinder = |scene_from_own, tag| Solid::Placed { primitive: Primitive::Cylinder, scene_from_own, tag };
         let bored = Solid::Difference(vec![cylinder(body, 0), cylinder(cutter, 1)]);
-        // What is left of the body before and after the cutter.
+        // The remains of the body before and after the cutter.
         let skins = [cutter_caps[0] - body_caps[0], body_caps[1] - cutter_caps[1]];
         count.add([
             skins.iter().any(|&skin| skin >= 0.0),
@@ -89,7 +91,7 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     count.outcomes()
 }
 
-/// Where the ray passes the caps of a cylinder.
+/// Returns the distances at which the ray crosses the caps of a cylinder.
 fn caps(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
     let own_from_scene = scene_from_own.inverse();
     let o = own_from_scene.transform_point3(ray.origin);
@@ -142,12 +144,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_sees_through_a_bore_however_it_is_turned() {
+    fn rays_pass_through_a_bore_in_any_orientation() {
         check(&cases()[0], 500);
     }
 
     #[test]
-    fn a_thin_plate_survives_the_grouping() {
+    fn thin_plate_survives_grouping() {
         check(&cases()[1], 200);
     }
 }

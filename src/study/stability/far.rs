@@ -10,15 +10,15 @@ use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
 
-/// Discriminants by b² − c lose what the ball is to what the distance is.
+/// Returns the case: the discriminant b² − c loses the ball's size against the distance.
 pub(super) fn sphere() -> StabilityCase {
     StabilityCase {
         name: "far-sphere",
         title: "A far sphere",
-        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is it hit? The textbook's \
+        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is the sphere hit? The textbook's \
                 discriminant b² − ac subtracts squares of the distance; ours is that of the line's closest approach \
-                (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the sign of the discriminant, \
-                without rounding. In f32 the ray is rounded first, and the truth is that of the rounded ray.",
+                (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the exact sign of the \
+                discriminant. In f32 the ray is rounded first, and the truth is that of the rounded ray.",
         parameter: "distance, radii",
         values: tens(1, 13),
         required: 1e8,
@@ -54,7 +54,7 @@ fn is_hit_in_f32(o: Vec3, d: Vec3) -> bool {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn a_far_sphere_is_hit_or_missed_rightly() {
+    fn far_sphere_is_hit_or_missed_correctly() {
         super::super::check(&super::sphere(), 2000);
     }
 }

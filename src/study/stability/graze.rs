@@ -14,7 +14,7 @@ use crate::view::Scale;
 
 const CONE: Primitive = Primitive::Cone { bottom: 1.0, top: 0.0 };
 
-/// From how far grazing rays come.
+/// Distance from which grazing rays come.
 const FROM: f64 = 100.0;
 
 const SIZE: DVec3 = DVec3::new(1.0, 0.8, 0.6);
@@ -24,7 +24,7 @@ pub(super) fn cases() -> [StabilityCase; 4] {
         name,
         title,
         about,
-        parameter: "distance from it, over the solid's size",
+        parameter: "distance from the tangent point, edge or apex, over the solid's size",
         values: down_to_0(-1),
         required,
         scale: Scale::Log10,
@@ -40,11 +40,11 @@ pub(super) fn cases() -> [StabilityCase; 4] {
             ..grazing(
                 "cone-generator",
                 "Rays along a cone's generator",
-                "Rays that go to a point inside a cone of 45°, parallel to one of its generators up to an angle. The \
-                 square term vanishes, and the textbook's −b ± √(b² − ac) over a loses its figures; ours takes the \
-                 root that nothing is lost of, and gets the other from the constant (Kahan). Wrong: not one entry and \
-                 one exit, or one that is further than 10⁻⁹ from where the exact solid changes from outside to \
-                 inside.",
+                "Rays to a point inside a cone of 45°, parallel to one of its generators up to an angle. The square \
+                 term vanishes, and the textbook's (−b ± √(b² − ac)) / a loses significant digits; ours takes the \
+                 root without cancellation, and gets the other from the constant (Kahan). Wrong: not exactly one \
+                 entry and one exit, or one of them is further than 10⁻⁹ from the point where the exact solid changes \
+                 from outside to inside.",
                 0.0,
                 generator,
             )
@@ -52,9 +52,9 @@ pub(super) fn cases() -> [StabilityCase; 4] {
         grazing(
             "tangent",
             "Tangents",
-            "Spheres, ellipsoids, cylinders and cones, turned somehow, and rays from a distance of 100 that pass a \
-             tangent's point inside or outside by a small distance: hit or not? Wrong is also an odd number of \
-             events, and one that is no number. Truth: signs of the exact quadratic at the caps, and of its \
+            "Spheres, ellipsoids, cylinders and cones in random orientations, and rays from a distance of 100 that \
+             pass a tangent's point inside or outside by a small distance: hit or miss? Wrong: also an odd number of \
+             events, or an event that is not a number. Truth: exact signs of the quadratic at the caps, and of its \
              discriminant.",
             1e-12,
             tangent,
@@ -62,24 +62,24 @@ pub(super) fn cases() -> [StabilityCase; 4] {
         grazing(
             "rim",
             "The rim of a cylinder",
-            "Rays that pass the edge between the side and a cap at a small distance, one way or another; a quarter of \
-             them along the side or the cap of a cylinder that is not turned. Otherwise as tangents. A textbook that \
-             tests the side and the caps one by one finds one of the two events and not the other.",
+            "Rays that pass the edge between the side and a cap at a small distance, inside or outside; a quarter of \
+             them along the side or the cap of a cylinder that is not rotated. Otherwise as for tangents. A textbook \
+             method that tests the side and the caps one by one finds one of the two events and not the other.",
             1e-12,
             rim,
         ),
         grazing(
             "apex",
             "The apex of a cone",
-            "Rays that pass the apex at a small distance; otherwise as tangents. What such a ray is inside for is as \
-             small as the distance, and the discriminant is its square.",
+            "Rays that pass the apex at a small distance; otherwise as for tangents. The length of a ray inside the \
+             cone is as small as this distance, and the discriminant is its square.",
             1e-9,
             apex,
         ),
     ]
 }
 
-/// From a power of ten down to the last that f64 knows beside 1, and then 0.
+/// Returns powers of ten down to the last that changes 1 in f64, and then 0.
 fn down_to_0(from: i32) -> Vec<f64> {
     tens(from, -16).into_iter().chain([0.0]).collect()
 }
@@ -88,11 +88,11 @@ fn generator(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     const TOLERANCE: f64 = 1e-9;
     let mut count = Count::<2>::new();
     for index in 0..tries {
-        // A cone that no rounding turns knows rays that are exactly parallel.
+        // Only a cone that is not rotated has rays that are exactly parallel.
         let turn = if index % 2 == 0 { DMat3::IDENTITY } else { turn(rng) };
         let cone = Subject::new(CONE, DAffine3::from_mat3(turn * DMat3::from_diagonal(DVec3::new(2.0, 1.0, 2.0))));
         let about = if index % 4 == 0 { TAU / 4.0 * f64::from(index / 4 % 4) } else { between(rng, 0.0, TAU) };
-        // The sine and cosine of right angles, too, are to be exact.
+        // For right angles sine and cosine must be exact, too.
         let (mut sine, mut cosine) = about.sin_cos();
         if index % 4 == 0 {
             (sine, cosine) = (sine.round(), cosine.round());
@@ -161,7 +161,7 @@ fn apex(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     })
 }
 
-/// What becomes of rays given by their origin and direction, each with the solid that it grazes.
+/// Tries rays given by origin and direction, each with the solid that it grazes.
 fn graze(tries: u32, rng: &mut Rng, mut aim: impl FnMut(u32, &mut Rng) -> (Subject, DVec3, DVec3)) -> Vec<Verdicts> {
     let mut count = Count::<2>::new();
     for index in 0..tries {
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn grazing_rays_hit_or_miss_rightly_and_enter_as_often_as_they_leave() {
+    fn grazing_rays_hit_or_miss_correctly_and_have_an_exit_for_each_entry() {
         for case in &cases()[1..] {
             check(case, 1000);
             let broken = case.rows(1000).into_iter().filter(|row| row.method == "ours" && row.measured != Some(0.0));

@@ -28,19 +28,19 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         flat(
             "ellipsoid",
             "Normals of a flat ellipsoid",
-            "A sphere scaled by (1, 1, s), and our normal at points of it: the greatest n · tangent of any tangent of \
-             length 1, which is the sine of the angle to the true normal. Naive: the sphere's normal, carried along \
-             as if it were a vector; it has to go by the inverse transpose. Wrong: more than 10⁻¹². Truth: the \
-             gradient at that very point, without rounding.",
+            "A sphere scaled by (1, 1, s), and our normal at its points: the greatest n · tangent of any unit \
+             tangent, which is the sine of the angle to the true normal. Naive: the sphere's normal, transformed as a \
+             vector instead of by the inverse transpose. Wrong: more than 10⁻¹². Truth: the exact gradient at that \
+             very point.",
             1e-3,
             |scale, tries, rng| attempt(scale, tries, rng, |_| DMat3::IDENTITY),
         ),
         flat(
             "ellipsoid-turned",
-            "Normals of a flat ellipsoid that is turned",
-            "The same, turned somehow. At its rim the ellipsoid's curvature is s⁻², so that the last digit of a \
-             point, or of the map that turns it, moves the true normal by some 10⁻¹⁶ s⁻²: from s = 10⁻³ on a normal \
-             is as exact as its point, but no longer within 10⁻¹².",
+            "Normals of a flat ellipsoid that is rotated",
+            "The same, rotated at random. At its rim the ellipsoid's curvature is s⁻², so that the last digit of a \
+             point, or of the rotation, moves the true normal by some 10⁻¹⁶ s⁻²: from s = 10⁻³ on a normal is as \
+             exact as its point, but no longer within 10⁻¹².",
             1e-2,
             |scale, tries, rng| attempt(scale, tries, rng, turn),
         ),
@@ -70,7 +70,7 @@ fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3)
 #[cfg(test)]
 mod tests {
     #[test]
-    fn normals_stand_on_a_flat_ellipsoid() {
+    fn normals_of_flat_ellipsoids_are_exact() {
         super::cases().iter().for_each(|case| super::super::check(case, 300));
     }
 }

@@ -1,4 +1,4 @@
-//! The protocol where machines and networks misbehave, in virtual time.
+//! The protocol under failing machines and networks, in virtual time.
 
 use std::time::Duration;
 
@@ -21,11 +21,11 @@ pub(super) const METHODS: &[&str] = &["static", "farm", "ring"];
 
 const NODES: usize = 8;
 const ATOMS: u32 = 1024;
-/// Of an atom, on average.
+/// Mean cost of an atom.
 const COST: Duration = Duration::from_millis(2);
-/// What all nodes need together, at full speed.
+/// Time that all nodes together need at full speed.
 const IDEAL: Duration = Duration::from_millis(2 * ATOMS as u64 / NODES as u64);
-/// A message's, where nothing else is said.
+/// Latency of a message where a case does not set it.
 const LATENCY: Duration = Duration::from_micros(100);
 
 pub(super) fn cases() -> [StabilityCase; 5] {
@@ -38,7 +38,7 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         values,
         scale,
         methods: METHODS,
-        measures: Some("time / ideal time, the worst run"),
+        measures: Some("makespan / ideal, the worst run"),
         tries: 10,
         attempt,
     };
@@ -46,8 +46,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "swing",
             "Machines whose speed swings",
-            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about \
-             the one given; every other one begins slow. The ideal time knows of every swing.",
+            "Each of eight machines swings between full speed and a twentieth, with its own period near the given \
+             one; every other machine begins slow. The ideal time accounts for every swing.",
             "period over the time at full speed",
             twos(-6, 4),
             Scale::Log2,
@@ -57,10 +57,10 @@ pub(super) fn cases() -> [StabilityCase; 5] {
             "stop",
             "A machine that stops",
             "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from \
-             somewhere in the first half of the run. The two atoms in its pipe cannot be taken back, so that every \
-             strategy waits for it to go on, and would for ever if it never did; in a ring all its other atoms leave \
-             it when others offer help.",
-            "time that it stands over the time of all at full speed",
+             some point in the first half of the run. The two atoms in its pipe cannot be taken back, so that every \
+             strategy waits until the machine goes on, and would wait for ever if it never did. In a ring all its \
+             other atoms leave it when other machines offer help.",
+            "stop over the time of all at full speed",
             twos(-6, 3),
             Scale::Log2,
             stop,
@@ -68,10 +68,10 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "crowd",
             "More machines than atoms",
-            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom: where \
-             that is longer, it is the ideal time, here and below. Where a machine has two atoms, both are in its \
-             pipe, and a ring has nothing to give.",
-            "machines an atom",
+            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom; where \
+             that is longer, it counts as the ideal time, here and below. Where a machine has two atoms, both are in \
+             its pipe, and a ring has nothing to give.",
+            "machines per atom",
             twos(-3, 4),
             Scale::Log2,
             crowd,
@@ -79,8 +79,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "corner",
             "All the work in one corner",
-            "Of 1,024 atoms, some that stand together somewhere in the picture cost 999 parts in 1,000 of all the \
-             work; at last it is one atom. Of two dear atoms in one pipe the second has to wait for the first.",
+            "Of 1,024 atoms, some neighbouring ones at a random place in the picture cost 999/1000 of all the work; \
+             in the end it is one atom. Where a pipe holds two dear atoms, the second waits for the first.",
             "share of the atoms that hold the work",
             twos(0, -10),
             Scale::Log2,
@@ -89,8 +89,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "latency",
             "Wild latencies",
-            "The latency of all messages changes fifty times in the time of the run, to anything between a thousandth \
-             of the one given and that.",
+            "The latency of all messages changes fifty times within the time of the run, to a random value between a \
+             thousandth of the given latency and the whole.",
             "greatest latency over an atom's time",
             twos(-6, 7),
             Scale::Log2,
@@ -99,8 +99,8 @@ pub(super) fn cases() -> [StabilityCase; 5] {
     ]
 }
 
-/// So many runs of each strategy. `plan` says, the same for all of them, what atoms cost, how many nodes there are, and what is
-/// done to them.
+/// Runs each strategy `tries` times. `plan` returns, the same for all strategies, the atoms' costs, the number of
+/// nodes, and the script.
 fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (AtomCosts, usize, Script)) -> Vec<Verdicts> {
     let mut outcomes = vec![Verdicts { measured: Some(0.0), ..Verdicts::default() }; STRATEGIES.len()];
     for index in 0..tries {
@@ -115,7 +115,7 @@ fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (AtomCosts
     outcomes
 }
 
-/// One run: wrong are the atoms that were not traced and placed exactly once; measured is its time over the ideal one.
+/// Simulates a run. Wrong are the atoms not traced and placed exactly once; measured is makespan / ideal.
 fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> Verdicts {
     // One atom a row.
     let Ok(size) = Size::new(50, costs.len() as u32) else { return Verdicts::default() };
@@ -146,7 +146,7 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> 
     Verdicts { tried: costs.len() as u64, wrong: wrong as u64, measured: tally.makespan().and_then(over) }
 }
 
-/// Costs of so many atoms, [`COST`] on average: the dearest costs ten times what the cheapest does.
+/// Returns random costs with the mean [`COST`]; the dearest atom costs up to ten times the cheapest.
 fn uneven(atoms: u32, rng: &mut Rng) -> AtomCosts {
     weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect(), COST)
 }
@@ -212,7 +212,7 @@ mod tests {
     use super::super::StabilityRow;
     use super::*;
 
-    /// The rows of one method, which all have ended with every atom once.
+    /// Returns the rows of a method, all of which ended with every atom traced and placed once.
     fn ended(case: &StabilityCase, method: &str) -> Vec<StabilityRow> {
         let rows: Vec<StabilityRow> = case.rows(4).into_iter().filter(|row| row.method == method).collect();
         assert_eq!(rows.len(), case.values.len());
@@ -223,14 +223,14 @@ mod tests {
     }
 
     #[test]
-    fn the_ring_ends_with_every_atom_once_whatever_happens() {
+    fn ring_ends_with_every_atom_once_in_all_cases() {
         for case in cases() {
             ended(&case, "ring");
         }
     }
 
     #[test]
-    fn who_never_goes_on_keeps_what_is_in_its_pipe_and_no_more() {
+    fn stopped_machine_keeps_only_the_atoms_in_its_pipe() {
         let costs = uneven(ATOMS, &mut Rng::with_seed(0));
         let script = vec![(Time::ZERO, Command::Speed { node: 3, speed: 0.0 })];
         let lost = run(Strategy::Ring, NODES, &script, &costs);
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ring_shares_what_equal_bands_cannot() {
+    fn ring_is_faster_than_equal_bands_under_changes() {
         for case in &cases()[..4] {
             let (ring, bands) = (ended(case, "ring"), ended(case, "static"));
             let gains =

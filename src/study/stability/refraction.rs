@@ -1,4 +1,4 @@
-//! Light that only just gets out of glass, and light that goes through many slabs of it.
+//! Refraction near the critical angle of glass, through many slabs, and between glass and water.
 
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
@@ -21,16 +21,16 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "critical",
             title: "The critical angle",
-            about: "Rays inside glass (n = 1.5) that meet its face at a small angle more or less than the critical \
-                    one (41.81°: from 41.80° it refracts, from 41.82° it reflects), the face turned somehow: do they \
-                    get out? What takes the root of 1 − n² sin² without a look at its sign has no number where light \
-                    is reflected. Truth: the sign of the radicand, without rounding, for the ray and the normal as \
-                    they are.",
-            parameter: "angle off the critical one, radians",
+            about: "Rays inside glass (n = 1.5) that meet its face at a small angle above or below the critical one \
+                    (41.81°: at 41.80° light refracts, at 41.82° it reflects), the face in a random orientation: is \
+                    the light transmitted? A method that takes the root of 1 − n² sin² without checking its sign gets \
+                    NaN where light is reflected. Truth: the exact sign of the radicand, for the given ray and \
+                    normal.",
+            parameter: "angle off the critical angle, radians",
             values: tens(-1, -16),
             required: 1e-12,
             scale: Scale::Log10,
-            methods: &["f32", "no look at the sign", "ours"],
+            methods: &["unchecked sign", "no look at the sign", "ours"],
             measures: None,
             tries: 2000,
             attempt: critical,
@@ -38,10 +38,10 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "slabs",
             title: "A stack of slabs",
-            about: "Rays through k parallel slabs of glass, turned somehow, at angles from 10⁻⁶ to 80° off their \
-                    normal: they must leave as they came. Going by angles (arc cosine, arc sine and sine) loses \
-                    figures near the normal. Wrong: a direction that differs by more than 10⁻¹², or a ray that does \
-                    not get through.",
+            about: "Rays through k parallel slabs of glass in a random orientation, at angles from 10⁻⁶ to 80° off \
+                    their normal: they must leave in the direction in which they came. A method with angles (arc \
+                    cosine, arc sine and sine) loses significant digits near the normal. Wrong: a direction that \
+                    differs by more than 10⁻¹², or a ray that does not pass.",
             parameter: "slabs",
             values: twos(0, 8),
             required: 256.0,
@@ -54,10 +54,10 @@ pub(super) fn cases() -> [StabilityCase; 3] {
         StabilityCase {
             name: "media",
             title: "Glass that overlaps water",
-            about: "Rays that go through water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only \
-                    touches it: in the glass they go as by 1.33 / 1.5 at its face. Who takes every face to lie in air \
-                    has to leave a gap, and in it light goes as in air. Wrong: a direction behind the water that \
-                    differs by more than 10⁻¹², or a ray that does not get through.",
+            about: "Rays from water (n = 1.33) into glass (n = 1.5) that overlaps it a little, or only touches it: in \
+                    the glass they refract by 1.33 / 1.5 at its face. A method that assumes air at every face has to \
+                    leave a gap, and in the gap light travels as in air. Wrong: a direction behind the water that \
+                    differs by more than 10⁻¹², or a ray that does not pass.",
             parameter: "overlap, or width of the gap",
             values: tens(-1, -14).into_iter().chain([0.0]).collect(),
             required: 0.0,
@@ -70,7 +70,7 @@ pub(super) fn cases() -> [StabilityCase; 3] {
     ]
 }
 
-/// A scene of glass (tag 0) and water (tag 1) with an eye in it, without light.
+/// Returns a scene of glass (tag 0) and water (tag 1) with an eye in it and without lights.
 fn scene_of(solids: Vec<Solid>, eye: DVec3, direction: DVec3) -> Scene {
     let clear = |ior: f64| Material { ka: 0.0, kd: 0.0, kt: 1.0, ior, ..Material::default() };
     let up = direction.any_orthonormal_vector();
@@ -86,7 +86,7 @@ fn scene_of(solids: Vec<Solid>, eye: DVec3, direction: DVec3) -> Scene {
     }
 }
 
-/// The ways of the ray from the eye and of those that it becomes, `depth` in a row at most.
+/// Returns the paths of the ray from the eye and of the rays that it spawns, at most `depth` in sequence.
 fn ways(scene: &Scene, depth: u32) -> Vec<Path> {
     let quality = Quality { max_depth: depth, cutoff: 0.0, ..Quality::default() };
     let mut ways = Vec::new();
@@ -116,14 +116,14 @@ fn critical(off: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let rounded = is_let_out(DVec3::from(d32), DVec3::from(n32));
         let truth = is_let_out(d, normal);
         let root = (1.0 - IOR * IOR * (1.0 - d.dot(normal).powi(2))).sqrt();
-        // A colour that is made of no number is wrong, whatever it stands for.
+        // A colour computed from NaN is wrong, whatever the truth.
         count.add([in_f32 != rounded, root.is_nan() || !truth, gets_out != truth]);
     }
     count.outcomes()
 }
 
-/// Whether light of this direction leaves glass through a face of this normal, neither of which need have length 1:
-/// n² sin² ≤ 1.
+/// Returns whether light of this direction leaves glass through a face with this normal: n² sin² ≤ 1. Neither vector
+/// needs length 1.
 fn is_let_out(direction: DVec3, normal: DVec3) -> bool {
     let (d, n) = (vector(direction), vector(normal));
     let (lengths, cosine) = (dot(&d, &d) * dot(&n, &n), dot(&d, &n));
@@ -191,7 +191,7 @@ fn media(overlap: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
     count.outcomes()
 }
 
-/// Snell's law, angle by angle.
+/// Refracts by Snell's law with angles instead of vectors.
 fn by_angles(direction: DVec3, normal: DVec3, enters: bool) -> DVec3 {
     let ratio = if enters { IOR.recip() } else { IOR };
     let incoming = (-direction.dot(normal)).acos();
@@ -206,22 +206,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn light_gets_out_of_glass_below_the_critical_angle() {
+    fn light_leaves_glass_below_the_critical_angle() {
         check(&cases()[0], 400);
     }
 
     #[test]
-    fn light_leaves_a_stack_of_slabs_as_it_came() {
+    fn light_leaves_slabs_in_its_first_direction() {
         check(&cases()[1], 30);
     }
 
     #[test]
-    fn there_is_no_air_between_glass_and_the_water_that_it_overlaps() {
+    fn glass_that_overlaps_water_has_no_air_between() {
         check(&cases()[2], 20);
     }
 
     #[test]
-    fn the_critical_angle_is_where_it_should_be() {
+    fn critical_angle_of_glass_is_between_41_80_and_41_82_degrees() {
         let direction = |degrees: f64| DVec3::new(degrees.to_radians().sin(), degrees.to_radians().cos(), 0.0);
         assert!(is_let_out(direction(41.80), DVec3::Y) && !is_let_out(direction(41.82), DVec3::Y));
     }

@@ -1,16 +1,16 @@
-//! What the study of stability says.
+//! The report of the study of stability.
 
 use super::{StabilityCase, StabilityRow, protocol};
 use crate::study::markdown::Report;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
-/// The report, in Markdown.
+/// Writes the report.
 pub(super) fn report(found: &[Found<'_>]) -> Report {
     let mut report = Report::titled("Where methods fail");
     report.line(
-        "Cases that grow harder step by step, and what a naive method and ours make of them. In geometry, what is \
-         true is worked out without rounding from the very numbers that the methods were given. All is in f64 unless \
-         it says otherwise, and random with fixed seeds: who runs it again gets the same.\n",
+        "Cases of growing difficulty for this program's method (*ours*) and for naive methods. In geometry, the truth \
+         is computed without rounding from the very numbers that the methods get. All methods use f64 unless stated \
+         otherwise. Random numbers have fixed seeds, so another run gives the same results.\n",
     );
     let of_protocol = |(case, _): &&(&StabilityCase, &[StabilityRow])| case.methods == protocol::METHODS;
     methods(&mut report, found.iter().filter(|found| !of_protocol(found)));
@@ -26,9 +26,9 @@ pub(super) fn report(found: &[Found<'_>]) -> Report {
 
 type Found<'a> = (&'a StabilityCase, &'a [StabilityRow]);
 
-/// Where geometric methods hold, and where they first fail.
+/// Adds the table of the geometric methods: where each holds, and where it first fails.
 fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
-    report.line("| case | what grows harder | required up to | ours holds | ours first fails | others first fail |");
+    report.line("| case | parameter | required up to | ours holds | ours first fails | others first fail |");
     report.line("|---|---|---:|---:|---:|---|");
     for (case, rows) in found {
         let (ours, others) = (case.ours(), &case.methods[..case.methods.len() - 1]);
@@ -47,14 +47,14 @@ fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) 
     }
 }
 
-/// What strategies lose, and where a ring does not trace every atom once.
+/// Adds the table of the strategies: their worst makespan / ideal, and where the ring traces every atom once.
 fn strategies<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
     let names = protocol::METHODS.join(" | ");
     report.line(
-        "\nThe protocol in virtual time, where machines, costs or the network are wild: each strategy's worst time \
-         over the ideal one, and where it had that.\n",
+        "\nThe protocol in virtual time under extreme machines, costs or networks: each strategy's worst makespan / \
+         ideal, and the value at which it occurs.\n",
     );
-    report.line(format!("| case | what is varied | the ring traces every atom once | {names} |"));
+    report.line(format!("| case | parameter | the ring traces every atom once | {names} |"));
     report.line(format!("|---|---|---:|{}", "---:|".repeat(protocol::METHODS.len())));
     for (case, rows) in found {
         let worst = protocol::METHODS.iter().map(|method| {
@@ -77,7 +77,7 @@ fn of<'a>(rows: &'a [StabilityRow], method: &str) -> impl Iterator<Item = &'a St
     rows.iter().filter(move |row| row.method == method)
 }
 
-/// From where to where a method is never wrong.
+/// Returns the range of values over which a method is never wrong.
 fn held(rows: &[StabilityRow], method: &str) -> String {
     let held: Vec<&StabilityRow> = of(rows, method).take_while(|row| row.wrong == 0).collect();
     match held[..] {
@@ -111,7 +111,7 @@ fn cell(case: &StabilityCase, row: &StabilityRow) -> String {
     }
 }
 
-/// A number with four figures, or a whole one with all that it has.
+/// Formats a number with four significant digits, or a whole number in full.
 fn number(value: f64) -> String {
     let short: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     match value.abs() {
@@ -121,13 +121,13 @@ fn number(value: f64) -> String {
     }
 }
 
-/// The colour of what is required; no case has so many methods.
+/// Colour of the required limit; no case has this many methods.
 const REQUIRED: usize = 3;
 
-/// The share of wrong answers, or what was measured, against what grows harder.
+/// Charts the share of wrong answers, or the measured figure, by the case's parameter.
 pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
     let tried = rows.iter().map(|row| row.tried).max().unwrap_or(1).max(1);
-    // What is 0 has no place on a logarithmic axis: it lies on the lowest line.
+    // 0 has no place on a logarithmic axis: it is drawn on the lowest line.
     let floor = if case.measures.is_some() { 1e-17 } else { 10f64.powf((0.1 / tried as f64).log10().floor()) };
     let y = |row: &StabilityRow| match case.measures {
         Some(_) => row.measured.map(|measured| measured.max(floor)),
@@ -135,7 +135,7 @@ pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
     };
     let least = case.values.iter().copied().filter(|&value| value > 0.0).fold(f64::INFINITY, f64::min);
     let x = |value: f64| value.max(least / 10.0);
-    // Ours has the same colour everywhere.
+    // This program's method has the same colour everywhere.
     let line = |(i, method): (usize, &&str)| Series {
         name: (*method).into(),
         hue: series_hue(case.methods.len() - 1 - i),
@@ -153,9 +153,9 @@ pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
     }
     let at_0 = if case.values.contains(&0.0) { "; leftmost: exactly 0" } else { "" };
     let note = match case.measures {
-        None => format!("On the lowest line: none wrong of {tried} a point"),
+        None => format!("On the lowest line: none of {tried} answers per point wrong"),
         Some(_) if rows.iter().any(|row| row.measured.is_some_and(|measured| measured < floor)) => {
-            format!("What is below {floor:e} is drawn there")
+            format!("Values below {floor:e} are drawn there")
         }
         Some(_) => String::new(),
     };

@@ -10,19 +10,19 @@ use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
 
-/// Naive methods forget what is nearer than this.
+/// Offsets of naive methods, which ignore nearer crossings.
 const OFFSETS: [f64; 2] = [1e-4, 1e-9];
 
-/// The root where a ray starts is 0, and rounding makes something else of it.
+/// Returns the case: the root at a ray's start is 0, and rounding turns it into another number.
 pub(super) fn on_faces() -> StabilityCase {
     StabilityCase {
         name: "start",
         title: "Rays that start on a face",
-        about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, where another ray has \
-                hit it: outwards they must meet nothing, inwards they must leave the solid once. A naive method \
-                forgets hits nearer than an offset: a large one forgets the way out of a flat stay, a small one meets \
-                the face itself again (acne). Ours knows which root of which primitive is 0. Truth: the sign of the \
-                exact quadratic's slope at the start, which stands for its point on the surface.",
+        about: "Rays leave a face of a sphere, ellipsoid, cylinder or cone at a small angle, from a point that \
+                another ray has hit: outwards they must meet nothing, inwards they must leave the solid once. A naive \
+                method ignores hits nearer than an offset: a large offset ignores the exit of a short span, a small \
+                one meets the face itself again (acne). Ours knows which root of which primitive is 0. Truth: the \
+                exact sign of the quadratic's slope at the start, which represents its point on the surface.",
         parameter: "angle, radians",
         values: tens(0, -16),
         required: 1e-8,
@@ -69,7 +69,7 @@ fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn a_ray_that_starts_on_a_face_neither_meets_it_again_nor_forgets_the_way_out() {
+    fn ray_from_a_face_neither_meets_it_again_nor_misses_its_exit() {
         super::super::check(&super::on_faces(), 2000);
     }
 }

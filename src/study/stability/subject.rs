@@ -1,4 +1,5 @@
-//! A placed primitive that is met in three ways: by our tree, as a textbook has it, and without rounding.
+//! A placed primitive that is intersected in three ways: by this program's tree, by a textbook method, and without
+//! rounding.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -6,20 +7,20 @@ use super::exact::{Exact, Vector, cross, dot, vector};
 use crate::csg::{Hit, Primitive, RayStart, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 
-/// A sphere, cylinder or cone at its place.
+/// A sphere, cylinder, cone or torus at its place.
 pub(super) struct Subject {
     pub primitive: Primitive,
     pub scene_from_own: DAffine3,
     pub own_from_scene: DAffine3,
     tree: Tree,
     root: u32,
-    /// The inverse of the map times its determinant, row by row, and that determinant, which is positive.
+    /// The rows of the map's inverse times its determinant, and that determinant, which is positive.
     rows: [Vector; 3],
     determinant: Exact,
 }
 
-/// What is true of a line and the primitive: it is inside where a t² + 2 b t + c < 0, and between the caps where there are
-/// such.
+/// Exact quadratic of a line and the primitive: inside where a t² + 2 b t + c < 0, and between the caps if there are
+/// any.
 pub(super) struct Truth {
     a: Exact,
     pub b: Exact,
@@ -27,7 +28,7 @@ pub(super) struct Truth {
     caps: Option<Caps>,
 }
 
-/// The caps are where y + speed t is ± `height`.
+/// The caps, where y + speed t is ± `height`.
 struct Caps {
     y: Exact,
     speed: Exact,
@@ -35,7 +36,7 @@ struct Caps {
 }
 
 impl Subject {
-    /// The map must not mirror.
+    /// Places the primitive; the map must not mirror.
     pub fn new(primitive: Primitive, scene_from_own: DAffine3) -> Self {
         let mut tree = Tree::default();
         let root = tree.add(&Solid::Placed { primitive, scene_from_own, tag: 0 }).map_or(0, |(root, _)| root);
@@ -46,7 +47,7 @@ impl Subject {
         Self { primitive, scene_from_own, own_from_scene: scene_from_own.inverse(), tree, root, rows, determinant }
     }
 
-    /// Where our tree says that the ray crosses the boundary.
+    /// Returns the crossings of the boundary as this program finds them.
     pub fn crossings(&self, ray: &Ray, start: Option<RayStart>) -> Vec<Hit> {
         let mut hits = Vec::new();
         self.tree.crossings(self.root, ray, start, f64::INFINITY, &mut Stack::new(), |hit| {
@@ -56,23 +57,23 @@ impl Subject {
         hits
     }
 
-    /// Their distances, of a ray that comes from outside.
+    /// Returns the distances of the crossings of a ray from outside.
     pub fn ours(&self, ray: &Ray) -> Vec<f64> {
         self.crossings(ray, None).iter().map(|hit| hit.t).collect()
     }
 
-    /// Where a ray starts that goes on from a hit of this solid.
+    /// Returns the start of a ray that continues from a hit of this solid.
     pub fn start(&self, hit: &Hit) -> RayStart {
         RayStart { root: self.root, surface: hit.surface, leaves: !hit.enters, turned: false }
     }
 
-    /// Our normal at a point of a face.
+    /// Returns this program's normal at a point of a face.
     pub fn normal(&self, surface: Surface, point: DVec3) -> DVec3 {
         self.tree.leaf(surface).normal(surface.face, point)
     }
 
-    /// Where a textbook says that the line crosses the boundary, in order: roots by −b ± √(b² − ac), of which those count
-    /// that lie between the caps, and places on the caps that lie within their circles.
+    /// Returns the crossings of the line as a textbook finds them, in order: roots by −b ± √(b² − ac) that lie between
+    /// the caps, and points on the caps within their circles.
     pub fn textbook(&self, ray: &Ray) -> Vec<f64> {
         let o = self.own_from_scene.transform_point3(ray.origin);
         let d = self.own_from_scene.transform_vector3(ray.direction);
@@ -99,7 +100,7 @@ impl Subject {
         places
     }
 
-    /// A point's own coordinates times [`Subject::determinant`].
+    /// Returns a point's own coordinates times [`Subject::determinant`].
     fn own(&self, point: DVec3) -> Vector {
         let (p, at) = (vector(point), vector(self.scene_from_own.translation));
         let from_centre: Vector = [0, 1, 2].map(|axis| &p[axis] - &at[axis]);
@@ -110,7 +111,7 @@ impl Subject {
         [0, 1, 2].map(|row| dot(&self.rows[row], v))
     }
 
-    /// What is true of the line on which the ray lies.
+    /// Returns the exact quadratic of the line through the ray.
     pub fn truth(&self, ray: &Ray) -> Truth {
         let (o, d) = (self.own(ray.origin), self.own_vector(&vector(ray.direction)));
         let one = &self.determinant;
@@ -129,13 +130,14 @@ impl Subject {
         }
     }
 
-    /// A vector along the outward normal of a sphere's image through `point`.
+    /// Returns a vector along the outward normal of a sphere's image through `point`.
     pub fn gradient(&self, point: DVec3) -> Vector {
         let own = self.own(point);
         [0, 1, 2].map(|axis| dot(&own, &[0, 1, 2].map(|row| self.rows[row][axis].clone())))
     }
 
-    /// Which way a ray goes from a flat face that it starts on: outwards if positive. Faces are numbered as the tree's.
+    /// Returns the outward component of a ray's direction at the flat face on which it starts. Faces are numbered as in
+    /// the tree.
     pub fn outwards_of_cap(&self, ray: &Ray, is_upper: bool) -> Exact {
         let speed = dot(&self.rows[1], &vector(ray.direction));
         if is_upper { speed } else { Exact::from(0.0) - speed }
@@ -143,7 +145,7 @@ impl Subject {
 }
 
 impl Truth {
-    /// Whether the line has a stay inside.
+    /// Returns whether part of the line is inside.
     pub fn meets(&self) -> bool {
         let Self { a, b, c, caps } = self;
         let dips = a.is_positive() && (b * b - a * c).is_positive();
@@ -157,12 +159,12 @@ impl Truth {
         if ends.iter().any(|n| (a * n * n + b * n * speed * Exact::from(2.0) + c * speed * speed).is_negative()) {
             return true;
         }
-        // Outside at both caps: it dips inside if the least value lies between them.
+        // Outside at both caps: the line dips inside if the least value lies between them.
         let sides = ends.map(|n| (n * a + b * speed).sign());
         dips && sides[0] != sides[1] && sides.iter().all(|side| side.is_ne())
     }
 
-    /// Whether the point at distance `t` is inside.
+    /// Returns whether the point at distance `t` is inside.
     pub fn contains(&self, t: f64) -> bool {
         let t = Exact::from(t);
         let is_round = ((&self.a * &t + &self.b * Exact::from(2.0)) * &t + &self.c).is_negative();
@@ -173,13 +175,13 @@ impl Truth {
             })
     }
 
-    /// Whether what a method says about the line is wrong: not an entry and an exit where there is a stay inside, or
-    /// something where there is none.
+    /// Returns whether a method's distances are wrong: no entry and exit where part of the line is inside, or any
+    /// distance where none is.
     pub fn is_missed_by(&self, places: &[f64]) -> bool {
         is_broken(places) || places.is_empty() == self.meets()
     }
 
-    /// Whether a method's places are further than `tolerance` from where the line crosses the boundary.
+    /// Returns whether a method's distances are further than `tolerance` from the crossings of the line.
     pub fn is_missed_within(&self, places: &[f64], tolerance: f64) -> bool {
         let is_wrong = |(index, t): (usize, &f64)| {
             let enters = index % 2 == 0;
@@ -189,12 +191,12 @@ impl Truth {
     }
 }
 
-/// Whether the places are such as no line through a convex solid has: an odd number, more than two, or no numbers.
+/// Returns whether the distances are impossible for a convex solid: an odd number, more than two, or not finite.
 pub(super) fn is_broken(places: &[f64]) -> bool {
     !matches!(places.len(), 0 | 2) || places.iter().any(|t| !t.is_finite())
 }
 
-/// The radius at height y is the first plus the second times y.
+/// Returns the radius at height y as r₀ and k of r₀ + k y.
 fn radius(primitive: Primitive) -> (f64, f64) {
     match primitive {
         Primitive::Cone { bottom, top } => ((top + bottom) / 2.0, (top - bottom) / 2.0),
@@ -207,9 +209,9 @@ mod tests {
     use super::super::super::random::{between, placing, unit};
     use super::*;
 
-    /// On lines that are no hard cases, all three say the same.
+    /// On lines without difficulty all three methods agree.
     #[test]
-    fn all_three_agree_where_it_is_easy() {
+    fn methods_agree_on_easy_lines() {
         let rng = &mut fastrand::Rng::with_seed(1);
         let (mut hits, mut all) = (0, 0);
         for primitive in [Primitive::Sphere, Primitive::Cylinder, Primitive::Cone { bottom: 1.0, top: 0.25 }] {
