@@ -7,7 +7,7 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use image::RgbImage;
 
 use super::ExportError;
-use super::colours::Colours;
+use super::frame_palette::FramePalette;
 use crate::palette::Rgb;
 
 /// Encoder of an animation. Frames are encoded as they come, so that at most two are in memory.
@@ -33,19 +33,19 @@ impl<W: Write> Animation<W> {
             (seen != Some(pixel)).then_some(pixel.0)
         };
         let pixels: Vec<Option<Rgb>> = (top..bottom).flat_map(|y| (left..right).map(move |x| new(x, y))).collect();
-        let colours = Colours::of(pixels.iter().flatten().copied());
-        let index = |pixel: &Option<Rgb>| pixel.map_or(colours.none(), |colour| colours.index(colour));
+        let palette = FramePalette::of(pixels.iter().flatten().copied());
+        let index = |pixel: &Option<Rgb>| pixel.map_or(palette.transparent(), |colour| palette.index(colour));
         let frame = Frame {
             delay: hundredths,
             // Unchanged pixels are transparent.
             dispose: DisposalMethod::Keep,
-            transparent: Some(colours.none()),
+            transparent: Some(palette.transparent()),
             left: side(left)?,
             top: side(top)?,
             width: side(right - left)?,
             height: side(bottom - top)?,
             buffer: pixels.iter().map(index).collect::<Vec<u8>>().into(),
-            palette: Some(colours.palette()),
+            palette: Some(palette.palette()),
             ..Frame::default()
         };
         self.encoder.write_frame(&frame).map_err(io::Error::other)?;

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::party_name;
 use crate::balance::{Condition, Helper, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
@@ -20,15 +21,15 @@ struct RecordRow {
     /// Kind of the record.
     what: &'static str,
     /// The machine of the event.
-    node: Option<NodeName>,
+    node: Option<String>,
     /// Sender of the message.
-    from: Option<NodeName>,
+    from: Option<String>,
     /// Receiver of the message.
-    to: Option<NodeName>,
+    to: Option<String>,
     /// Number of the message in the run.
     message: Option<u64>,
     /// The machine that made the offer.
-    offerer: Option<NodeName>,
+    offerer: Option<String>,
     /// The atoms, as `4` or `4-9`, separated by spaces.
     atoms: Option<String>,
     /// Number of atoms; of an offer, the number that its machine has traced.
@@ -44,10 +45,6 @@ struct RecordRow {
     /// New latency of all links; of a delay, its duration.
     latency_s: Option<String>,
 }
-
-/// `parent`, or a machine's number.
-#[derive(Serialize)]
-struct NodeName(String);
 
 /// Writes the records of a run as CSV, with a header row.
 ///
@@ -81,18 +78,18 @@ const COLUMNS: [&str; 14] = [
 ];
 
 fn row(record: &Record) -> RecordRow {
-    let of = |what, node: NodeId| RecordRow { what, node: Some(name(Party::Node(node))), ..RecordRow::default() };
+    let of = |what, node: NodeId| RecordRow { what, node: Some(party_name(Party::Node(node))), ..RecordRow::default() };
     let row = match &record.what {
         RecordKind::Sent { id, from, to, message, bytes, arrives } => RecordRow {
-            from: Some(name(*from)),
-            to: Some(name(*to)),
+            from: Some(party_name(*from)),
+            to: Some(party_name(*to)),
             message: Some(*id),
             bytes: Some(*bytes),
             arrives_s: Some(at(*arrives)),
             ..sent(*from, message)
         },
         RecordKind::Received { id, by } => {
-            RecordRow { what: "received", node: Some(name(*by)), message: Some(*id), ..RecordRow::default() }
+            RecordRow { what: "received", node: Some(party_name(*by)), message: Some(*id), ..RecordRow::default() }
         }
         RecordKind::AtomStarted { node, atom } => {
             RecordRow { atoms: Some(atom.to_string()), count: Some(1), ..of("started", *node) }
@@ -125,12 +122,12 @@ fn row(record: &Record) -> RecordRow {
         }
         RecordKind::Link { one, other, cut } => {
             let what = if *cut { "link cut" } else { "link mended" };
-            RecordRow { what, from: Some(name(*one)), to: Some(name(*other)), ..RecordRow::default() }
+            RecordRow { what, from: Some(party_name(*one)), to: Some(party_name(*other)), ..RecordRow::default() }
         }
         RecordKind::Delayed { from, to, until } => RecordRow {
             what: "held up",
-            from: Some(name(*from)),
-            to: Some(name(*to)),
+            from: Some(party_name(*from)),
+            to: Some(party_name(*to)),
             latency_s: Some(seconds(until.since(record.at))),
             ..RecordRow::default()
         },
@@ -177,16 +174,9 @@ fn sent(from: Party, message: &Message) -> RecordRow {
                 _ if from == Party::Node(*who) => "offer",
                 _ => "hop",
             };
-            RecordRow { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..RecordRow::default() }
+            RecordRow { what, offerer: Some(party_name(Party::Node(*who))), count: Some(*done), ..RecordRow::default() }
         }
     }
-}
-
-fn name(party: Party) -> NodeName {
-    NodeName(match party {
-        Party::Parent => "parent".into(),
-        Party::Node(node) => (u32::from(node) + 1).to_string(),
-    })
 }
 
 fn atoms(ranges: &[Range<Atom>]) -> String {

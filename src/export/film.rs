@@ -32,22 +32,22 @@ impl Default for Film {
 }
 
 /// How long a frame is shown in hundredths of a second, the format's unit: 12.5 frames a second.
-const SEEN: u16 = 8;
+const FRAME_CENTISECONDS: u16 = 8;
 
 /// How long the end is shown, in hundredths of a second: as the run left it, then the render alone.
-const END_SEEN: u16 = 150;
-const RENDER_SEEN: u16 = 300;
+const END_CENTISECONDS: u16 = 150;
+const RENDER_CENTISECONDS: u16 = 300;
 
 /// Gap between the parts, and height of the caption below them, in pixels.
-const GAP: u32 = 16;
-const WORDS: u32 = 44;
+const GAP_PX: u32 = 16;
+const CAPTION_HEIGHT_PX: u32 = 44;
 
 /// Places of the parts in a frame: x, y, width and height in pixels.
 struct Layout {
     whole: [u32; 2],
     picture: [u32; 4],
     ring: [u32; 4],
-    words: [u32; 4],
+    caption: [u32; 4],
 }
 
 impl Film {
@@ -69,19 +69,19 @@ impl Film {
     ) -> io::Result<()> {
         let layout = Layout::new(self.width, log.header.size);
         let mut animation = Animation::begin(to, layout.whole)?;
-        let mut projector = FilmFrames::new(log, frame, self, layout);
-        let frames = (self.length.as_millis() as u64 / (10 * u64::from(SEEN))).max(1);
+        let mut film_frames = FilmFrames::new(log, frame, self, layout);
+        let frames = (self.length.as_millis() as u64 / (10 * u64::from(FRAME_CENTISECONDS))).max(1);
         for number in 0..=frames {
             if !tell(number as f64 / frames as f64) {
                 return Err(io::ErrorKind::Interrupted.into());
             }
-            let at = Time((u128::from(projector.end.0) * u128::from(number) / u128::from(frames)) as u64);
+            let at = Time((u128::from(film_frames.end.0) * u128::from(number) / u128::from(frames)) as u64);
             let is_last = number == frames;
-            let image = projector.at(at, is_last).map_err(io::Error::other)?;
-            animation.show(&image, if is_last { END_SEEN } else { SEEN })?;
+            let image = film_frames.at(at, is_last).map_err(io::Error::other)?;
+            animation.show(&image, if is_last { END_CENTISECONDS } else { FRAME_CENTISECONDS })?;
         }
-        projector.look.1 = 0.0;
-        animation.show(&projector.at(projector.end, true).map_err(io::Error::other)?, RENDER_SEEN)?;
+        film_frames.look.1 = 0.0;
+        animation.show(&film_frames.at(film_frames.end, true).map_err(io::Error::other)?, RENDER_CENTISECONDS)?;
         animation.end()
     }
 }
@@ -94,12 +94,12 @@ impl Layout {
         let tall = height.max(320);
         // The ring needs a little more width than height, for its labels.
         let ring = [tall + tall / 6, tall];
-        let whole = [width + ring[0] + 3 * GAP, tall + WORDS + 2 * GAP];
+        let whole = [width + ring[0] + 3 * GAP_PX, tall + CAPTION_HEIGHT_PX + 2 * GAP_PX];
         Self {
             whole,
-            picture: [GAP, GAP + (tall - height) / 2, width, height],
-            ring: [2 * GAP + width, GAP, ring[0], ring[1]],
-            words: [GAP, GAP + tall + GAP / 2, whole[0] - 2 * GAP, WORDS],
+            picture: [GAP_PX, GAP_PX + (tall - height) / 2, width, height],
+            ring: [2 * GAP_PX + width, GAP_PX, ring[0], ring[1]],
+            caption: [GAP_PX, GAP_PX + tall + GAP_PX / 2, whole[0] - 2 * GAP_PX, CAPTION_HEIGHT_PX],
         }
     }
 }
@@ -108,7 +108,7 @@ impl Layout {
 struct FilmFrames<'a> {
     log: &'a RunLog,
     look: (Layer, f32),
-    moment: Snapshot,
+    snapshot: Snapshot,
     canvas: Canvas,
     raster: Raster,
     layout: Layout,
@@ -118,7 +118,7 @@ struct FilmFrames<'a> {
     /// Seconds of the run in a second of the animation.
     rate: f64,
     /// The last caption, and its image.
-    words: (String, RgbImage),
+    caption: (String, RgbImage),
 }
 
 impl<'a> FilmFrames<'a> {
@@ -131,14 +131,14 @@ impl<'a> FilmFrames<'a> {
         let end = finished.map_or_else(|| log.end(), |finished| finished.at);
         Self {
             look: film.look,
-            moment: Snapshot::new(header),
+            snapshot: Snapshot::new(header),
             canvas,
             raster: Raster::new(),
             layout,
             outcome: Summary::of(log),
             end,
             rate: end.secs() / film.length.as_secs_f64().max(1e-3),
-            words: Default::default(),
+            caption: Default::default(),
             log,
         }
     }
@@ -147,10 +147,10 @@ impl<'a> FilmFrames<'a> {
     /// arrived.
     fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         let records = if is_last { self.log.records().len() } else { self.log.until(at) };
-        for record in &self.log.records()[self.moment.records().min(records)..records] {
-            self.moment.apply(record);
+        for record in &self.log.records()[self.snapshot.records().min(records)..records] {
+            self.snapshot.apply(record);
         }
-        let state = &mut self.moment.state;
+        let state = &mut self.snapshot.state;
         state.set_rate(self.rate);
         for atoms in state.take_touched() {
             self.canvas.show(atoms, state);
@@ -158,11 +158,11 @@ impl<'a> FilmFrames<'a> {
         self.canvas.set_look(self.look, PRINT.ground, state);
         let [width, height] = self.layout.whole;
         let mut image = RgbImage::from_pixel(width, height, image::Rgb(PRINT.ground));
-        put(&mut image, self.layout.picture, &self.picture());
+        paste(&mut image, self.layout.picture, &self.picture());
         let ring = self.ring(at, is_last)?;
-        put(&mut image, self.layout.ring, &ring);
-        self.say(at, is_last)?;
-        put(&mut image, self.layout.words, &self.words.1);
+        paste(&mut image, self.layout.ring, &ring);
+        self.draw_caption(at, is_last)?;
+        paste(&mut image, self.layout.caption, &self.caption.1);
         Ok(image)
     }
 
@@ -182,21 +182,21 @@ impl<'a> FilmFrames<'a> {
         let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
-        self.drawn(&ring(&self.moment.state, &overlay, at, [width as f32, height as f32]), [width, height])
+        self.draw(&ring(&self.snapshot.state, &overlay, at, [width as f32, height as f32]), [width, height])
     }
 
     /// Draws time and sentence, if they differ from the last caption.
-    fn say(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
+    fn draw_caption(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
         let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0));
         let sentence = match self.outcome.filter(|_| is_last) {
             Some(_) => format!("Complete after {time}"),
-            None => self.moment.narrator.sentence(&self.moment.state, at),
+            None => self.snapshot.narrator.sentence(&self.snapshot.state, at),
         };
         let both = format!("{time} {sentence}");
-        if self.words.0 == both {
+        if self.caption.0 == both {
             return Ok(());
         }
-        let [_, _, width, height] = self.layout.words;
+        let [_, _, width, height] = self.layout.caption;
         let y = height as f32 / 2.0;
         let label = |x: f32, anchor: Anchor, text: String, size: f32, hue: Hue| Mark::Label {
             at: [x, y],
@@ -213,17 +213,17 @@ impl<'a> FilmFrames<'a> {
             label(clock, Anchor::Right, time, 17.0, Hue::Quiet),
             label(clock + 12.0, Anchor::Left, sentence, fits.min(17.0), Hue::Text),
         ];
-        self.words = (both, self.drawn(&marks, [width, height])?);
+        self.caption = (both, self.draw(&marks, [width, height])?);
         Ok(())
     }
 
-    fn drawn(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, ExportError> {
+    fn draw(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, ExportError> {
         let svg = to_svg(marks, [width as f32, height as f32], self.log.header.speeds.len());
         let (size, rgb) = self.raster.draw(&svg, 1.0)?;
         RgbImage::from_raw(size.width(), size.height(), rgb).ok_or(ExportError::TooFewPixels(size))
     }
 }
 
-fn put(image: &mut RgbImage, [x, y, ..]: [u32; 4], piece: &RgbImage) {
+fn paste(image: &mut RgbImage, [x, y, ..]: [u32; 4], piece: &RgbImage) {
     overlay(image, piece, x.into(), y.into());
 }

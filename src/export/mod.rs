@@ -2,12 +2,12 @@
 
 mod animation;
 mod chrome;
-mod colours;
 mod comparison;
 mod csv;
 mod drawing;
 mod error;
 mod film;
+mod frame_palette;
 mod hatch;
 mod pov;
 mod raster;
@@ -22,3 +22,14 @@ pub use film::Film;
 pub use pov::to_pov;
 pub use raster::Raster;
 pub use svg::{to_hatched_svg, to_svg};
+
+use crate::balance::Party;
+use crate::view::node_name;
+
+/// Names a party in files for other programs: `parent`, or a machine's number from 1.
+fn party_name(party: Party) -> String {
+    match party {
+        Party::Parent => "parent".into(),
+        Party::Node(node) => node_name(node).to_string(),
+    }
+}

@@ -11,16 +11,16 @@ use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
 /// Returns a display list for a canvas of `size` as SVG, with the colours of a ring of `nodes`; charts use
 /// [`crate::palette::DISTINCT`] colours.
 pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    written(marks, size, nodes, false)
+    svg_text(marks, size, nodes, false)
 }
 
 /// Like [`to_svg`], but also hatches boxes and larger discs in a node's colour, each node in its own way, to
 /// distinguish them in print without colour.
 pub fn to_hatched_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    written(marks, size, nodes, true)
+    svg_text(marks, size, nodes, true)
 }
 
-fn written(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
+fn svg_text(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
     let [width, height] = size.map(number);
     let mut svg = Svg { text: String::new(), nodes, hatched };
     svg.put(format_args!(
@@ -48,7 +48,7 @@ impl Svg {
         match mark {
             Mark::Disc { centre, radius, ink } => {
                 // A hatch would not be visible on a smaller disc.
-                let fill = if *radius >= hatch::SIDE { self.fill(*ink) } else { self.paint("fill", *ink) };
+                let fill = if *radius >= hatch::TILE_SIDE { self.fill(*ink) } else { self.paint("fill", *ink) };
                 let ([x, y], r) = (centre.map(number), number(*radius));
                 self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"{fill}/>\n"));
             }
@@ -64,9 +64,9 @@ impl Svg {
                 let closed = points.len() > 3 && distance(points[0], points[points.len() - 1]) < 0.05;
                 let shape = if closed { "polygon" } else { "polyline" };
                 let (width, stroke) = (number(*width), self.paint("stroke", *ink));
-                let places = places(&points[..points.len() - usize::from(closed)]);
+                let point_list = point_list(&points[..points.len() - usize::from(closed)]);
                 self.put(format_args!(
-                    "<{shape} points=\"{places}\" fill=\"none\"{stroke} stroke-width=\"{width}\" \
+                    "<{shape} points=\"{point_list}\" fill=\"none\"{stroke} stroke-width=\"{width}\" \
                      stroke-linejoin=\"round\"/>\n"
                 ));
             }
@@ -87,7 +87,7 @@ impl Svg {
         for node in nodes {
             let (colour, pattern) = (self.colour(Hue::Node(node)), hatch::pattern(node));
             let [ground, line] = [colour, text_on(colour)].map(hex);
-            let side = hatch::SIDE;
+            let side = hatch::TILE_SIDE;
             self.put(format_args!(
                 "<pattern id=\"node-{node}\" width=\"{side}\" height=\"{side}\" patternUnits=\"userSpaceOnUse\">\
                  <rect width=\"{side}\" height=\"{side}\" fill=\"{ground}\"/>\
@@ -113,7 +113,7 @@ impl Svg {
             let ([a, b], [c, d]) = (sides(i), sides(i + 1));
             let share = (i as f32 + 0.5) / last as f32;
             let fill = self.paint("fill", Ink { alpha: ink.alpha * share * share, ..ink });
-            self.put(format_args!("<polygon points=\"{}\"{fill}/>\n", places(&[a, b, d, c])));
+            self.put(format_args!("<polygon points=\"{}\"{fill}/>\n", point_list(&[a, b, d, c])));
         }
     }
 
@@ -199,9 +199,9 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn places(points: &[Point]) -> String {
-    let places: Vec<_> = points.iter().map(|&[x, y]| format!("{},{}", number(x), number(y))).collect();
-    places.join(" ")
+fn point_list(points: &[Point]) -> String {
+    let point_list: Vec<_> = points.iter().map(|&[x, y]| format!("{},{}", number(x), number(y))).collect();
+    point_list.join(" ")
 }
 
 fn distance([x, y]: Point, [u, v]: Point) -> f32 {

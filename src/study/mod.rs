@@ -4,6 +4,7 @@ pub mod accuracy;
 mod chaos;
 mod error;
 mod fixture;
+mod format;
 mod markdown;
 mod needs;
 mod paper;
@@ -91,11 +92,6 @@ impl Study {
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
-}
-
-/// Formats an optional number; an en dash stands for `None`.
-fn optional(value: Option<f64>, places: usize) -> String {
-    value.map_or("–".into(), |value| format!("{value:.places$}"))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::markdown::Report;
-use super::preview_time::{PreviewTimes, picture};
+use super::preview_time::{PreviewTimes, trace_timed};
 use super::progress::Progress;
 use super::{ProgressSink, Study, StudyError, median};
 use crate::csg::{Pass, Passes};
@@ -16,7 +16,7 @@ const TURNS: usize = 5;
 
 /// The effect of one pass on a scene's picture.
 #[derive(Debug, Serialize)]
-struct Saving {
+struct PassRow {
     scene: String,
     reduction: String,
     /// CPU time without the pass over that with it: the median of the turns.
@@ -34,11 +34,11 @@ struct Saving {
 pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let size = Size::new(240, 180).map_err(StudyError::size)?;
     let mut progress = Progress::new(scenes.len() * (TURNS + 1), tell);
-    let (mut rows, mut looks) = (Vec::new(), Vec::new());
+    let (mut rows, mut previews) = (Vec::new(), Vec::new());
     for scene in scenes {
         progress.next(&format!("{}, preview", scene.name));
-        looks.push(first_look(scene)?);
-        let tracer = |reductions| Tracer::reduced(&scene.scene, size, Quality::default(), reductions);
+        previews.push(time_preview(scene)?);
+        let tracer = |passes| Tracer::reduced(&scene.scene, size, Quality::default(), passes);
         let all = tracer(Passes::default());
         let without = Pass::ALL.map(|reduction| tracer(Passes::default().without(reduction)));
         let mut ratios = Pass::ALL.map(|_| Vec::new());
@@ -48,7 +48,7 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyEr
             progress.next(&format!("{}, turn {} of {TURNS}", scene.name, turn + 1));
             for (index, without) in without.iter().enumerate() {
                 // Side by side, so that a disturbance of the computer affects both.
-                let [with, without] = [&all, without].map(picture);
+                let [with, without] = [&all, without].map(trace_timed);
                 ratios[index].push(without.cpu.as_secs_f64() / with.cpu.as_secs_f64());
                 seconds.push(with.cpu.as_secs_f64());
                 let pairs = with.frame.pixels().iter().zip(without.frame.pixels());
@@ -57,7 +57,7 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyEr
         }
         let cpu_s = median(&mut seconds);
         for (index, reduction) in Pass::ALL.into_iter().enumerate() {
-            rows.push(Saving {
+            rows.push(PassRow {
                 scene: scene.name.clone(),
                 reduction: format!("{reduction:?}").to_lowercase(),
                 ratio: median(&mut ratios[index]),
@@ -69,28 +69,28 @@ pub fn needs(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyEr
     let mut study = Study::new("needs");
     study.add_rows(&rows)?;
     let mut report = report(scenes, &rows, size);
-    looks_report(&mut report, scenes, &looks);
+    preview_report(&mut report, scenes, &previews);
     study.add_report(report);
     Ok(study)
 }
 
 /// Returns the median turn by total time.
-fn first_look(scene: &Opened) -> Result<PreviewTimes, StudyError> {
+fn time_preview(scene: &Opened) -> Result<PreviewTimes, StudyError> {
     let size = Size::new(640, 480).map_err(StudyError::size)?;
-    let look = |_| PreviewTimes::new(|| Tracer::new(&scene.scene, size, Quality::default()));
-    let mut looks: Vec<PreviewTimes> = (0..TURNS).map(look).collect();
-    looks.sort_by(|a, b| a.exact.total_cmp(&b.exact));
-    Ok(looks[TURNS / 2])
+    let preview = |_| PreviewTimes::new(|| Tracer::new(&scene.scene, size, Quality::default()));
+    let mut previews: Vec<PreviewTimes> = (0..TURNS).map(preview).collect();
+    previews.sort_by(|a, b| a.exact.total_cmp(&b.exact));
+    Ok(previews[TURNS / 2])
 }
 
-fn looks_report(report: &mut Report, scenes: &[Opened], looks: &[PreviewTimes]) {
+fn preview_report(report: &mut Report, scenes: &[Opened], previews: &[PreviewTimes]) {
     report.line(
         "\nA preview traces every 16th pixel of every 16th row; these pixels are not traced again. Times from the \
          parsed scene to the compiled scene, the preview, and the picture of 640 × 480 pixels, in milliseconds on one \
          thread; medians as above:\n\n| scene | compiled | preview | exact picture | without a preview | with / \
          without | same picture |\n|---|---:|---:|---:|---:|---:|---|",
     );
-    for (scene, PreviewTimes { compiled, first, exact, plain, same }) in scenes.iter().zip(looks) {
+    for (scene, PreviewTimes { compiled, first, exact, plain, same }) in scenes.iter().zip(previews) {
         let same = if *same { "yes" } else { "no" };
         let [compiled, first, whole, alone] = [compiled, first, exact, plain].map(|seconds| 1e3 * seconds);
         report.line(format!(
@@ -101,7 +101,7 @@ fn looks_report(report: &mut Report, scenes: &[Opened], looks: &[PreviewTimes]) 
     }
 }
 
-fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> Report {
+fn report(scenes: &[Opened], rows: &[PassRow], size: Size) -> Report {
     let mut report = Report::titled("What scenes need");
     report.line(
         "A scene is compiled to what it needs. The table shows how much of each scene file was kept, and how many \
@@ -145,9 +145,9 @@ fn report(scenes: &[Opened], rows: &[Saving], size: Size) -> Report {
     for (index, reduction) in Pass::ALL.into_iter().enumerate() {
         let of_each = rows.iter().skip(index).step_by(Pass::ALL.len());
         let cells: Vec<_> = of_each
-            .map(|saving| match saving.differing_pixels {
-                0 => format!("{:.3}", saving.ratio),
-                differing => format!("{:.3} ({differing})", saving.ratio),
+            .map(|row| match row.differing_pixels {
+                0 => format!("{:.3}", row.ratio),
+                differing => format!("{:.3} ({differing})", row.ratio),
             })
             .collect();
         report.line(format!("| {} | {} |", reduction.says(), cells.join(" | ")));

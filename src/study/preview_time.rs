@@ -27,14 +27,14 @@ impl PreviewTimes {
         let compiled = begun.elapsed().as_secs_f64();
         tracer.refine();
         let first = begun.elapsed().as_secs_f64();
-        let (with, without) = (picture(&tracer), picture(&compile()));
+        let (with, without) = (trace_timed(&tracer), trace_timed(&compile()));
         let [exact, plain] = [first + with.cpu.as_secs_f64(), compiled + without.cpu.as_secs_f64()];
         Self { compiled, first, exact, plain, same: with.frame.pixels() == without.frame.pixels() }
     }
 }
 
 /// Traces a picture on this thread and measures its CPU time.
-pub(super) fn picture(tracer: &Tracer) -> TimedPicture {
+pub(super) fn trace_timed(tracer: &Tracer) -> TimedPicture {
     // Nothing cancels it.
     TimedPicture::of(tracer, &|| false).expect("a whole picture")
 }

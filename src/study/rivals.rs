@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::fixture::{Fixture, cost_of};
+use super::fixture::{Fixture, estimate_cost};
+use super::format::or_dash;
 use super::markdown::Report;
 use super::progress::Progress;
 use super::{ProgressSink, Study, StudyError, median};
@@ -23,7 +24,7 @@ const RIVALS: [Driver; 3] = [Driver::Threads, Driver::Pairs, Driver::WorkStealin
 
 /// Result of one rival for a scene's picture: medians of its runs.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Needs {
+pub(super) struct RivalRow {
     pub scene: String,
     pub driver: &'static str,
     pub nodes: usize,
@@ -48,8 +49,8 @@ pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyE
     for scene in scenes {
         // Long enough that starting threads has no visible cost.
         let least = Duration::from_millis(500) * cores() as u32;
-        let samples = (1..8).find(|&samples| cost_of(scene, size, samples) >= least).unwrap_or(8);
-        rows.extend(compete(&Fixture::new(scene, size, samples)?, &mut progress)?);
+        let samples = (1..8).find(|&samples| estimate_cost(scene, size, samples) >= least).unwrap_or(8);
+        rows.extend(run_rivals(&Fixture::new(scene, size, samples)?, &mut progress)?);
     }
     let mut study = Study::new("rivals");
     study.add_rows(&rows)?;
@@ -57,29 +58,29 @@ pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyE
     Ok(study)
 }
 
-/// Number of steps that [`compete`] takes.
+/// Number of steps that [`run_rivals`] takes.
 pub(super) const STEPS: usize = TURNS * RIVALS.len();
 
 /// Runs the rivals in turn on the fixture's picture, so that a disturbance of the computer affects all alike.
 ///
 /// # Errors
 /// [`StudyError::Run`], if a run fails.
-pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], StudyError> {
-    let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
+pub(super) fn run_rivals(fixture: &Fixture, progress: &mut Progress<'_>) -> Result<[RivalRow; 3], StudyError> {
+    let header = fixture.header(50, Strategy::Ring, vec![1.0; cores()]);
     let mut turns = Vec::new();
     for _ in 0..TURNS {
-        let mut turn = [Sample::default(); RIVALS.len()];
-        for (driver, sample) in RIVALS.into_iter().zip(&mut turn) {
-            progress.next(&format!("{} at full speed: {}", bench.scene.name, driver.name()));
-            *sample = Sample::take(bench, &Header { driver, ..header.clone() })?;
+        let mut turn = [RivalRun::default(); RIVALS.len()];
+        for (driver, run) in RIVALS.into_iter().zip(&mut turn) {
+            progress.next(&format!("{} at full speed: {}", fixture.scene.name, driver.name()));
+            *run = RivalRun::measure(fixture, &Header { driver, ..header.clone() })?;
         }
         turns.push(turn);
     }
-    let needs = |rival: usize| {
-        let of_turns = |of: &dyn Fn(&[Sample; 3]) -> f64| median(&mut turns.iter().map(of).collect::<Vec<f64>>());
+    let row = |rival: usize| {
+        let of_turns = |of: &dyn Fn(&[RivalRun; 3]) -> f64| median(&mut turns.iter().map(of).collect::<Vec<f64>>());
         let switches = turns.iter().all(|turn| turn[rival].switches.is_some());
-        Needs {
-            scene: bench.scene.name.clone(),
+        RivalRow {
+            scene: fixture.scene.name.clone(),
             driver: RIVALS[rival].name(),
             nodes: header.speeds.len(),
             wall_s: of_turns(&|turn| turn[rival].wall),
@@ -89,22 +90,22 @@ pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[N
             context_switches: switches.then(|| of_turns(&|turn| turn[rival].switches.unwrap_or(0) as f64) as u64),
         }
     };
-    Ok([needs(0), needs(1), needs(2)])
+    Ok([row(0), row(1), row(2)])
 }
 
 /// Measurement of one run.
 #[derive(Clone, Copy, Default)]
-struct Sample {
+struct RivalRun {
     wall: f64,
     makespan: f64,
     switches: Option<u64>,
 }
 
-impl Sample {
+impl RivalRun {
     #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-    fn take(bench: &Fixture, header: &Header) -> Result<Self, StudyError> {
+    fn measure(fixture: &Fixture, header: &Header) -> Result<Self, StudyError> {
         let (begun, before) = (Instant::now(), context_switches());
-        let log = run_to_end(&bench.tracer, header, &[]).map_err(StudyError::run)?;
+        let log = run_to_end(&fixture.tracer, header, &[]).map_err(StudyError::run)?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
         let makespan = Metrics::of(&log).makespan().unwrap_or_default().as_secs_f64();
@@ -126,7 +127,7 @@ fn context_switches() -> Option<u64> {
 }
 
 #[cfg(test)]
-impl Needs {
+impl RivalRow {
     /// Returns an example row.
     pub fn example() -> Self {
         Self {
@@ -142,7 +143,7 @@ impl Needs {
     }
 }
 
-fn report(rows: &[Needs]) -> Report {
+fn report(rows: &[RivalRow]) -> Report {
     let mut report = Report::titled("Overhead at full speed");
     report.line(format!(
         "Each scene's picture of 640 × 480 pixels in atoms of 50 pixels, on {} nodes at full speed, one per core, \
@@ -159,7 +160,6 @@ fn report(rows: &[Needs]) -> Report {
     report.line("|---|---:|---:|---:|---:|---:|---:|---:|");
     for scene in rows.chunks_exact(RIVALS.len()) {
         let [ring, pairs, rayon] = scene else { continue };
-        let switches = |needs: &Needs| needs.context_switches.map_or("–".into(), |count| count.to_string());
         report.line(format!(
             "| {} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {} | {} |",
             ring.scene,
@@ -167,9 +167,9 @@ fn report(rows: &[Needs]) -> Report {
             1.0 / rayon.wall_over_ring,
             1.0 / rayon.makespan_over_ring,
             pairs.wall_over_ring,
-            switches(ring),
-            switches(pairs),
-            switches(rayon)
+            or_dash(ring.context_switches),
+            or_dash(pairs.context_switches),
+            or_dash(rayon.context_switches)
         ));
     }
     report

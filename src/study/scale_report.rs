@@ -2,7 +2,7 @@
 
 use super::fixture::STRATEGIES;
 use super::markdown::Report;
-use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
+use super::scale::{ATOM_COST, ATOMS_PER_NODE, NETWORKS_MS, STRONG_PX, ScaleRow, measure, node_counts};
 use super::{ProgressSink, Study, StudyError};
 use crate::balance::Strategy;
 use crate::scene::Opened;
@@ -19,13 +19,13 @@ pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError
     study.add_rows(&rows)?;
     for weak in [false, true] {
         let kind = if weak { "weak" } else { "strong" };
-        for network in NETWORKS {
+        for network in NETWORKS_MS {
             let chart = efficiency(&rows, weak, network);
-            study.add_chart(&format!("{kind}-{}", file_name(network)), &chart.marks(CHART_SIZE));
+            study.add_chart(&format!("{kind}-{}", network_file_name(network)), &chart.marks(CHART_SIZE));
         }
         study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE));
     }
-    study.add_chart("ring", &decay(&rows).marks(CHART_SIZE));
+    study.add_chart("ring", &ring_chart(&rows).marks(CHART_SIZE));
     study.add_report(report(&rows, &scene.name));
     Ok(study)
 }
@@ -35,17 +35,17 @@ fn nodes_axis() -> Axis {
 }
 
 /// Returns a network's part of a file name.
-fn file_name((latency, handling): (f64, f64)) -> String {
+fn network_file_name((latency, handling): (f64, f64)) -> String {
     if handling > 0.0 { format!("{latency}ms-busy-parent") } else { format!("{latency}ms") }
 }
 
 /// Describes a network.
-fn words((latency, handling): (f64, f64)) -> String {
+fn network_words((latency, handling): (f64, f64)) -> String {
     let busy = if handling > 0.0 { format!(", the parent busy for {handling} ms with each") } else { String::new() };
     format!("{latency} ms a message{busy}")
 }
 
-fn of(
+fn select(
     rows: &[ScaleRow],
     weak: bool,
     network: (f64, f64),
@@ -68,19 +68,19 @@ fn efficiency(rows: &[ScaleRow], weak: bool, network: (f64, f64)) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, network, strategy), |row| row.efficiency),
+        points: points(select(rows, weak, network, strategy), |row| row.efficiency),
         style: Style::Line,
     };
     let mut series: Vec<Series> = STRATEGIES.into_iter().enumerate().map(line).collect();
     series.push(Series {
         name: "W/m + 3.65 log₂W".into(),
         hue: series_hue(STRATEGIES.len()),
-        points: points(of(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
+        points: points(select(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
         style: Style::Dashed,
     });
     LineChart {
         title: if weak { "A picture that grows with the machines" } else { "The same picture" }.into(),
-        note: format!("{}; dashed: work stealing with free messages", words(network)),
+        note: format!("{}; dashed: work stealing with free messages", network_words(network)),
         x: nodes_axis(),
         y: Axis { label: "efficiency: ideal / makespan".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
         series,
@@ -91,12 +91,12 @@ fn messages(rows: &[ScaleRow], weak: bool) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, NETWORKS[1], strategy), |row| row.messages_per_node),
+        points: points(select(rows, weak, NETWORKS_MS[1], strategy), |row| row.messages_per_node),
         style: Style::Line,
     };
     LineChart {
         title: format!("Messages per machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
-        note: words(NETWORKS[1]),
+        note: network_words(NETWORKS_MS[1]),
         x: nodes_axis(),
         y: Axis { label: "messages per machine".into(), scale: Scale::Log10, range: None },
         series: STRATEGIES.into_iter().enumerate().map(line).collect(),
@@ -104,14 +104,14 @@ fn messages(rows: &[ScaleRow], weak: bool) -> LineChart {
 }
 
 /// Charts how the ring's efficiency falls: the baseline for improvements.
-fn decay(rows: &[ScaleRow]) -> LineChart {
+fn ring_chart(rows: &[ScaleRow]) -> LineChart {
     let line = |(i, (weak, network)): (usize, (bool, (f64, f64)))| Series {
         name: format!("{} {} ms", if weak { "grown," } else { "same," }, network.0),
         hue: series_hue(i),
-        points: points(of(rows, weak, network, Strategy::Ring), |row| row.efficiency),
+        points: points(select(rows, weak, network, Strategy::Ring), |row| row.efficiency),
         style: if weak { Style::Dashed } else { Style::Line },
     };
-    let free = NETWORKS.into_iter().filter(|(_, handling)| *handling == 0.0);
+    let free = NETWORKS_MS.into_iter().filter(|(_, handling)| *handling == 0.0);
     let kinds = [false, true].into_iter().flat_map(|weak| free.clone().map(move |network| (weak, network)));
     LineChart {
         title: "How the ring's efficiency falls".into(),
@@ -126,23 +126,23 @@ fn report(rows: &[ScaleRow], scene: &str) -> Report {
     let mut report = Report::titled("From 1 to 1,024 machines");
     report.line(format!(
         "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, in \
-         proportion to its rays. *The same picture* has {} × {} pixels; *the grown picture* has {ATOMS_A_NODE} atoms \
+         proportion to its rays. *The same picture* has {} × {} pixels; *the grown picture* has {ATOMS_PER_NODE} atoms \
          per machine. A machine sends its results when it has no atoms left. Efficiency is ideal / makespan. The \
          bound is W/m + 3.65 log₂W atoms' time, for work stealing on m machines with messages that take no time (M. \
          Tchiboukdjian, N. Gast, D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
         ATOM_COST.as_millis(),
-        SIZE.0,
-        SIZE.1
+        STRONG_PX.0,
+        STRONG_PX.1
     ));
     for weak in [false, true] {
-        for network in NETWORKS {
+        for network in NETWORKS_MS {
             let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
-            report.line(format!("## {kind}, {}\n", words(network)));
+            report.line(format!("## {kind}, {}\n", network_words(network)));
             let names = STRATEGIES.map(Strategy::name).join(" | ");
             report.line(format!("| machines | {names} | bound | ring: messages per machine | idle at the end |"));
             report.line(format!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {
-                let at = |strategy| of(rows, weak, network, strategy).find(|row| row.nodes == nodes);
+                let at = |strategy| select(rows, weak, network, strategy).find(|row| row.nodes == nodes);
                 let cells = STRATEGIES
                     .map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
                 let Some(ring) = at(Strategy::Ring) else { continue };
@@ -154,7 +154,7 @@ fn report(rows: &[ScaleRow], scene: &str) -> Report {
                     ring.tail_idle
                 ));
             }
-            let chart = file_name(network);
+            let chart = network_file_name(network);
             report.line(format!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
         }
     }
@@ -162,16 +162,16 @@ fn report(rows: &[ScaleRow], scene: &str) -> Report {
     report.line("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n");
     report.line("## Why the ring's efficiency falls\n");
     report.line("![](scale-ring.svg)\n");
-    report.line(why(rows));
+    report.line(explanation(rows));
     report
 }
 
 /// Explains why the ring's efficiency falls, with the figures.
-fn why(rows: &[ScaleRow]) -> String {
-    let ring = |weak, network, nodes| of(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
+fn explanation(rows: &[ScaleRow]) -> String {
+    let ring = |weak, network, nodes| select(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
     let most = node_counts().max().unwrap_or(1);
     let (Some(few), Some(many), Some(slow)) =
-        (ring(true, NETWORKS[0], 16), ring(true, NETWORKS[0], most), ring(true, NETWORKS[2], most))
+        (ring(true, NETWORKS_MS[0], 16), ring(true, NETWORKS_MS[0], most), ring(true, NETWORKS_MS[2], most))
     else {
         return String::new();
     };
@@ -190,15 +190,15 @@ fn why(rows: &[ScaleRow]) -> String {
         parcel(few),
         parcel(many),
         many.transfers as f64 / many.nodes as f64,
-        most as f64 * NETWORKS[0].0 * 1e-3,
-        NETWORKS[0].0,
-        most as f64 * NETWORKS[2].0 * 1e-3,
-        NETWORKS[2].0,
+        most as f64 * NETWORKS_MS[0].0 * 1e-3,
+        NETWORKS_MS[0].0,
+        most as f64 * NETWORKS_MS[2].0 * 1e-3,
+        NETWORKS_MS[2].0,
         many.makespan_s * many.efficiency,
         many.efficiency,
-        NETWORKS[0].0,
+        NETWORKS_MS[0].0,
         slow.efficiency,
-        NETWORKS[2].0,
+        NETWORKS_MS[2].0,
         100.0 * many.tail_idle,
         100.0 * slow.tail_idle,
     )

@@ -9,7 +9,7 @@ use super::job_result::{Finding, JobResult, Prepared};
 use super::jobs::Jobs;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::study::accuracy::{MOST, Reference, measure, size_for};
+use crate::study::accuracy::{MAX_SAMPLES_PER_SIDE, Reference, measure, size_for};
 
 impl Session {
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
@@ -61,7 +61,8 @@ fn found(
         begun += 1;
         tell(Finding::Begun(begun));
     };
-    let reference = Reference::trace(scene, size, MOST, &mut begin, is_over).map_err(|error| error.to_string())?;
+    let reference =
+        Reference::trace(scene, size, MAX_SAMPLES_PER_SIDE, &mut begin, is_over).map_err(|error| error.to_string())?;
     let Some(reference) = reference else { return Ok(()) };
     tell(Finding::Reference(reference.clone()));
     let mut known = 0;

@@ -3,13 +3,13 @@
 use super::choice::front as front_of;
 use super::fit::log_correlation;
 use super::knobs::Knob;
-use super::ring::{LATENCIES, RingAccuracy};
-use super::scene::{Found, MeasuredPoint};
-use super::sharing::SharedRun;
+use super::ring::{LATENCIES_MS, RingAccuracy};
+use super::scene::{MeasuredPoint, SceneAccuracy};
+use super::transfers::RingRun;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// Charts CPU seconds against error: each knob alone, the combinations, the Pareto front and the floor.
-pub(super) fn front(found: &Found) -> LineChart {
+pub(super) fn front(found: &SceneAccuracy) -> LineChart {
     let point = |entry: &MeasuredPoint| (entry.point.cpu_s, entry.point.rmse());
     let line = |(i, knob): (usize, Knob)| Series {
         name: knob.name().into(),
@@ -42,7 +42,7 @@ pub(super) fn front(found: &Found) -> LineChart {
 }
 
 /// Charts CPU seconds against the error that each knob alone causes.
-pub(super) fn alone(found: &Found) -> LineChart {
+pub(super) fn alone(found: &SceneAccuracy) -> LineChart {
     let line = |(i, knob): (usize, Knob)| Series {
         name: knob.name().into(),
         hue: series_hue(i),
@@ -67,17 +67,21 @@ fn logarithmic(label: &str) -> Axis {
 }
 
 /// Least number of waiting atoms for which a share is meaningful.
-pub(super) const MANY: u32 = 20;
+pub(super) const MIN_WAITING_ATOMS: u32 = 20;
 
 /// Runs per scene whose transfers are drawn: the transfers of all runs would hide each other.
-const DRAWN: usize = 6;
+const RUNS_DRAWN_PER_SCENE: usize = 6;
 
 /// Charts the estimated share of each transfer against the true share.
 pub(super) fn estimate(ring: &RingAccuracy) -> LineChart {
-    let transfers = ring.shared.iter().flat_map(|runs| runs.iter().take(DRAWN)).flat_map(|shared| &shared.transfers);
-    let large = transfers.filter(|transfer| transfer.waiting >= MANY);
+    let transfers = ring
+        .runs_by_scene
+        .iter()
+        .flat_map(|runs| runs.iter().take(RUNS_DRAWN_PER_SCENE))
+        .flat_map(|run| &run.transfers);
+    let large = transfers.filter(|transfer| transfer.waiting >= MIN_WAITING_ATOMS);
     let points: Vec<(f64, f64)> = large.map(|transfer| (transfer.truth, transfer.estimate)).collect();
-    let note = format!("{} transfers with at least {MANY} waiting atoms", points.len());
+    let note = format!("{} transfers with at least {MIN_WAITING_ATOMS} waiting atoms", points.len());
     let right = vec![(0.0, 0.0), (1.0, 1.0)];
     let side = |label: &str| Axis { label: label.into(), scale: Scale::Linear, range: Some((0.0, 1.0)) };
     LineChart {
@@ -100,8 +104,8 @@ fn rightwards(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 
 /// Charts the lateness of runs against the error of their estimates.
 pub(super) fn lateness(ring: &RingAccuracy) -> LineChart {
-    let series = |(i, runs): (usize, &Vec<SharedRun>)| Series {
-        name: runs.first().map_or_else(String::new, |shared| shared.run.scene.clone()),
+    let series = |(i, runs): (usize, &Vec<RingRun>)| Series {
+        name: runs.first().map_or_else(String::new, |run| run.row.scene.clone()),
         hue: series_hue(i),
         points: rightwards(RingAccuracy::points(runs)),
         style: Style::Dots,
@@ -112,7 +116,7 @@ pub(super) fn lateness(ring: &RingAccuracy) -> LineChart {
         note: format!("A dot is a run of the ring on eight machines of random speeds{related}"),
         x: logarithmic("mean error of the estimated share, weighted by the waiting work"),
         y: logarithmic("makespan / ideal − 1"),
-        series: ring.shared.iter().enumerate().map(series).collect(),
+        series: ring.runs_by_scene.iter().enumerate().map(series).collect(),
     }
 }
 
@@ -122,10 +126,10 @@ pub(super) fn atoms(ring: &RingAccuracy) -> LineChart {
         name: format!("{latency} ms a message"),
         hue: series_hue(i),
         points: ring
-            .grained
+            .atom_sizes
             .iter()
-            .filter(|grain| grain.latency_ms == latency)
-            .map(|grain| (grain.mean(|run| run.messages as f64), grain.mean(|run| run.lateness)))
+            .filter(|group| group.latency_ms == latency)
+            .map(|group| (group.mean(|run| run.messages as f64), group.mean(|run| run.lateness)))
             .collect(),
         style: Style::Line,
     };
@@ -134,6 +138,6 @@ pub(super) fn atoms(ring: &RingAccuracy) -> LineChart {
         note: "From atoms of 5,000 pixels (left) to 5; means over rings of random speeds".into(),
         x: logarithmic("messages per run"),
         y: logarithmic("makespan / ideal − 1"),
-        series: LATENCIES.into_iter().enumerate().map(line).collect(),
+        series: LATENCIES_MS.into_iter().enumerate().map(line).collect(),
     }
 }

@@ -14,10 +14,10 @@ pub(super) enum Knob {
 }
 
 /// Most samples per side of a pixel in measured pictures.
-pub const MOST: u32 = 8;
+pub const MAX_SAMPLES_PER_SIDE: u32 = 8;
 
 /// Samples per side of a pixel while depth or cutoff is turned: enough to make their effect visible.
-const USUAL: u32 = 4;
+const FIXED_SAMPLES_PER_SIDE: u32 = 4;
 
 impl Knob {
     pub const ALL: [Self; 4] = [Self::Samples, Self::Threshold, Self::Depth, Self::Cutoff];
@@ -32,14 +32,14 @@ impl Knob {
     }
 
     /// Returns whether the knob limits samples, not the depth to which rays are followed.
-    pub fn is_of_sampling(self) -> bool {
+    pub fn limits_samples(self) -> bool {
         matches!(self, Self::Samples | Self::Threshold)
     }
 
     /// Returns the knob's values, the best last. The last values of depth and cutoff stand for no limit.
     pub fn values(self) -> &'static [f64] {
         match self {
-            Self::Samples => &[1.0, 2.0, 3.0, 4.0, 6.0, MOST as f64],
+            Self::Samples => &[1.0, 2.0, 3.0, 4.0, 6.0, MAX_SAMPLES_PER_SIDE as f64],
             Self::Threshold => &[0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
             Self::Depth => &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0, 50.0],
             Self::Cutoff => &[0.3, 0.1, 0.03, 0.01, 1.0 / 255.0, 1e-3, 1e-4, 1e-5],
@@ -49,22 +49,23 @@ impl Knob {
     /// Returns the quality with the knob at a value and the others at their defaults; a threshold has many samples to
     /// save.
     pub fn quality(self, value: f64) -> Quality {
-        let usual = Quality { samples: USUAL, ..Quality::default() };
+        let fixed = Quality { samples: FIXED_SAMPLES_PER_SIDE, ..Quality::default() };
         match self {
-            Self::Samples => Quality { samples: value as u32, ..usual },
-            Self::Threshold => Quality { samples: MOST, threshold: value, ..usual },
-            Self::Depth => Quality { max_depth: value as u32, ..usual },
-            Self::Cutoff => Quality { cutoff: value, ..usual },
+            Self::Samples => Quality { samples: value as u32, ..fixed },
+            Self::Threshold => Quality { samples: MAX_SAMPLES_PER_SIDE, threshold: value, ..fixed },
+            Self::Depth => Quality { max_depth: value as u32, ..fixed },
+            Self::Cutoff => Quality { cutoff: value, ..fixed },
         }
     }
 }
 
-/// Returns sensible combinations of all knobs, with at most [`MOST`] × [`MOST`] samples a pixel.
+/// Returns sensible combinations of all knobs, with at most [`MAX_SAMPLES_PER_SIDE`] × [`MAX_SAMPLES_PER_SIDE`] samples a pixel.
 pub fn combinations() -> Vec<Quality> {
     const LIMITS: [(u32, f64); 3] = [(4, 0.03), (10, 1.0 / 255.0), (20, 1e-3)];
     // With this few samples a threshold would only add some.
     let even = [1, 2].map(|samples| (samples, 0.0));
-    let adaptive = [4, MOST].into_iter().flat_map(|samples| [0.03, 0.01, 0.0].map(|error| (samples, error)));
+    let adaptive =
+        [4, MAX_SAMPLES_PER_SIDE].into_iter().flat_map(|samples| [0.03, 0.01, 0.0].map(|error| (samples, error)));
     let samplings = even.into_iter().chain(adaptive);
     let combined = samplings.flat_map(|(samples, threshold)| {
         let quality = Quality { samples, threshold, ..Quality::default() };
@@ -74,7 +75,7 @@ pub fn combinations() -> Vec<Quality> {
 }
 
 /// Most rays of all kinds in a picture of one sample a pixel.
-const RAYS: f64 = 80_000.0;
+const MAX_RAYS: f64 = 80_000.0;
 
 /// Returns the largest size within `most` at which a picture of one sample a pixel takes about 80,000 rays or fewer, so
 /// that scenes with large trees of rays take about as long as others.
@@ -85,7 +86,7 @@ pub fn size_for(scene: &Scene, most: Size) -> Size {
     let (mut scratch, mut pixels) = (Scratch::default(), Vec::new());
     Tracer::new(scene, small, Quality::default()).trace(0..small.pixels(), &mut scratch, &mut pixels);
     let a_pixel = scratch.rays.total() as f64 / f64::from(small.pixels());
-    let part = (RAYS / (a_pixel * f64::from(most.pixels()))).sqrt();
+    let part = (MAX_RAYS / (a_pixel * f64::from(most.pixels()))).sqrt();
     if part >= 1.0 {
         return most;
     }
@@ -106,7 +107,10 @@ mod tests {
             assert!(qualities.iter().all(|quality| quality.check().is_ok()), "{}", knob.name());
             assert!(qualities.windows(2).all(|pair| pair[0] != pair[1]), "{}", knob.name());
             // The default is among the values.
-            assert!(knob == Knob::Threshold || qualities.contains(&Quality { samples: USUAL, ..Quality::default() }));
+            assert!(
+                knob == Knob::Threshold
+                    || qualities.contains(&Quality { samples: FIXED_SAMPLES_PER_SIDE, ..Quality::default() })
+            );
         }
         let combined = combinations();
         for (place, quality) in combined.iter().enumerate() {

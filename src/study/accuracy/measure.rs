@@ -31,7 +31,7 @@ impl Point {
 const TURNS: usize = 3;
 
 /// CPU time in seconds above which noise does not matter and a measurement is not repeated.
-const LONG: f64 = 0.2;
+const LONG_S: f64 = 0.2;
 
 /// Measures the qualities on this thread. They take turns, so that a disturbance of the computer affects all alike.
 /// `each` gets the index of each point with its picture as soon as it is measured, and again when its time is more
@@ -48,7 +48,7 @@ pub fn measure(
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); qualities.len()];
     for turn in 0..TURNS {
         for (place, &quality) in qualities.iter().enumerate() {
-            if times[place].iter().any(|&time| time > LONG) {
+            if times[place].iter().any(|&time| time > LONG_S) {
                 continue;
             }
             let found = TimedPicture::of(&Tracer::new(scene, size, quality), is_over)?;

@@ -15,10 +15,10 @@ mod report;
 mod ring;
 mod ring_report;
 mod scene;
-mod sharing;
+mod transfers;
 
 pub use choice::{best_within, fastest_within, front};
-pub use knobs::{MOST, combinations, size_for};
+pub use knobs::{MAX_SAMPLES_PER_SIDE, combinations, size_for};
 pub use measure::{Point, measure};
 pub use reference::Reference;
 
@@ -31,7 +31,7 @@ use crate::picture::Size;
 use crate::scene::Opened;
 use crate::view::CHART_SIZE;
 use ring::RingAccuracy;
-use scene::{Found, MeasuredPoint};
+use scene::{MeasuredPoint, SceneAccuracy};
 
 /// One quality of one scene.
 #[derive(Clone, Debug, Serialize)]
@@ -60,7 +60,7 @@ struct AccuracyRow {
 const TOGETHER: &str = "together";
 
 impl AccuracyRow {
-    fn new(found: &Found, entry: &MeasuredPoint) -> Self {
+    fn new(found: &SceneAccuracy, entry: &MeasuredPoint) -> Self {
         let MeasuredPoint { knob, value, point, alone } = *entry;
         Self {
             scene: found.scene.clone(),
@@ -90,11 +90,11 @@ impl AccuracyRow {
 pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * (scene::steps() + 1) + ring::STEPS, tell);
     let mut study = Study::new("accuracy");
-    let found: Vec<Found> =
-        scenes.iter().map(|opened| Found::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
+    let found: Vec<SceneAccuracy> =
+        scenes.iter().map(|opened| SceneAccuracy::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
     let ring = RingAccuracy::of(scenes, most, &mut progress)?;
     let rows: Vec<AccuracyRow> =
-        found.iter().flat_map(|found| found.entries.iter().map(|entry| AccuracyRow::new(found, entry))).collect();
+        found.iter().flat_map(|found| found.measured.iter().map(|entry| AccuracyRow::new(found, entry))).collect();
     study.add_rows(&rows)?;
     study.add_table("ring", &ring.rows())?;
     for found in &found {

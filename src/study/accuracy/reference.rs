@@ -49,7 +49,7 @@ impl Reference {
         begin: &mut dyn FnMut(),
         is_over: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, StudyError> {
-        let usual = Quality::default();
+        let default = Quality::default();
         let many = (3 * samples).min(Quality::MOST_SAMPLES);
         // A single sample would be in the middle of its pixel, whatever the pattern.
         let few = (samples / 2).max(2);
@@ -57,14 +57,14 @@ impl Reference {
         for pattern in PATTERNS {
             let mut trace = |samples, max_depth, cutoff| {
                 begin();
-                let quality = Quality { samples, max_depth, cutoff, pattern, ..usual };
+                let quality = Quality { samples, max_depth, cutoff, pattern, ..default };
                 let tracer = Arc::new(Tracer::new(scene, size, quality));
                 let whole = TracedPicture::unless(&tracer, Division::new(size.pixels(), 16), &|_| {}, is_over)
                     .map_err(StudyError::run)?;
                 Ok::<_, StudyError>(whole.map(|whole| whole.pixels))
             };
-            let Some(main) = trace(many, usual.max_depth, usual.cutoff)? else { return Ok(None) };
-            let Some(short) = trace(few, usual.max_depth, usual.cutoff)? else { return Ok(None) };
+            let Some(main) = trace(many, default.max_depth, default.cutoff)? else { return Ok(None) };
+            let Some(short) = trace(few, default.max_depth, default.cutoff)? else { return Ok(None) };
             let Some(far) = trace(few, Self::DEPTH, Self::CUTOFF)? else { return Ok(None) };
             pictures.push(combined(size, &[(1.0, &main), (1.0, &far), (-1.0, &short)]));
             sampled.push(combined(size, &[(1.0, &main)]));

@@ -1,11 +1,12 @@
 //! The chapter on the ring in the report of the study of accuracy.
 
-use super::charts::MANY;
+use super::charts::MIN_WAITING_ATOMS;
 use super::fit::log_correlation;
-use super::ring::{LATENCIES, RingAccuracy};
-use super::sharing::{NODES, WHOLE};
+use super::ring::{LATENCIES_MS, RingAccuracy};
+use super::transfers::{NODES, PICTURE_TIME};
+use crate::study::format::optional;
 use crate::study::markdown::Report;
-use crate::study::{median, optional};
+use crate::study::median;
 
 /// Adds the chapter on the ring.
 pub(super) fn ring(report: &mut Report, ring: &RingAccuracy) {
@@ -14,7 +15,7 @@ pub(super) fn ring(report: &mut Report, ring: &RingAccuracy) {
          virtual time: {NODES} machines of random speeds from 0.1 to 1, and pictures of {} that take the reference \
          machine {} s, with costs in proportion to their rays.\n",
         ring.size,
-        WHOLE.as_secs()
+        PICTURE_TIME.as_secs()
     ));
     estimates(report, ring);
     atoms(report, ring);
@@ -34,14 +35,14 @@ fn estimates(report: &mut Report, ring: &RingAccuracy) {
          of both |",
     );
     report.line("|---|---:|---:|---:|---:|---:|");
-    for runs in &ring.shared {
+    for runs in &ring.runs_by_scene {
         let Some(first) = runs.first() else { continue };
-        let transfers: u64 = runs.iter().map(|shared| shared.run.transfers).sum();
-        let mut errors: Vec<f64> = runs.iter().filter_map(|shared| shared.run.estimate_error).collect();
-        let mut late: Vec<f64> = runs.iter().map(|shared| shared.run.lateness).collect();
+        let transfers: u64 = runs.iter().map(|run| run.row.transfers).sum();
+        let mut errors: Vec<f64> = runs.iter().filter_map(|run| run.row.estimate_error).collect();
+        let mut late: Vec<f64> = runs.iter().map(|run| run.row.lateness).collect();
         report.line(format!(
             "| {} | {} | {:.1} | {:.3} | {:.4} | {} |",
-            first.run.scene,
+            first.row.scene,
             runs.len(),
             transfers as f64 / runs.len() as f64,
             median(&mut errors),
@@ -51,13 +52,14 @@ fn estimates(report: &mut Report, ring: &RingAccuracy) {
     }
     let large: Vec<f64> = ring
         .transfers()
-        .filter(|transfer| transfer.waiting >= MANY)
+        .filter(|transfer| transfer.waiting >= MIN_WAITING_ATOMS)
         .map(|transfer| transfer.estimate - transfer.truth)
         .collect();
     let bias = large.iter().sum::<f64>() / large.len().max(1) as f64;
     report.line(format!(
-        "\nOver all runs the correlation is {}. Where at least {MANY} atoms wait, the estimated share differs from \
-         the true one by {bias:+.3} on average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
+        "\nOver all runs the correlation is {}. Where at least {MIN_WAITING_ATOMS} atoms wait, the estimated share \
+         differs from the true one by {bias:+.3} on \
+         average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
         optional(log_correlation(&ring.all_points()), 2)
     ));
 }
@@ -69,17 +71,22 @@ fn atoms(report: &mut Report, ring: &RingAccuracy) {
          speeds; *late* is makespan / ideal − 1. An atom has no cost of its own here, and a node sends its results \
          when it has no atoms left.\n",
     );
-    report.line(format!("| pixels per atom |{}", LATENCIES.map(|ms| format!(" {ms} ms: messages | late |")).concat()));
-    report.line(format!("|---:|{}", "---:|---:|".repeat(LATENCIES.len())));
-    let sizes: Vec<u32> =
-        ring.grained.iter().filter(|grain| grain.latency_ms == LATENCIES[0]).map(|grain| grain.atom_pixels).collect();
+    report
+        .line(format!("| pixels per atom |{}", LATENCIES_MS.map(|ms| format!(" {ms} ms: messages | late |")).concat()));
+    report.line(format!("|---:|{}", "---:|---:|".repeat(LATENCIES_MS.len())));
+    let sizes: Vec<u32> = ring
+        .atom_sizes
+        .iter()
+        .filter(|group| group.latency_ms == LATENCIES_MS[0])
+        .map(|group| group.atom_pixels)
+        .collect();
     for atom_pixels in sizes {
         let cells: Vec<String> = ring
-            .grained
+            .atom_sizes
             .iter()
-            .filter(|grain| grain.atom_pixels == atom_pixels)
-            .map(|grain| {
-                format!(" {:.0} | {:.4} |", grain.mean(|run| run.messages as f64), grain.mean(|run| run.lateness))
+            .filter(|group| group.atom_pixels == atom_pixels)
+            .map(|group| {
+                format!(" {:.0} | {:.4} |", group.mean(|run| run.messages as f64), group.mean(|run| run.lateness))
             })
             .collect();
         report.line(format!("| {atom_pixels} |{}", cells.concat()));

@@ -1,7 +1,7 @@
 //! Measurements of one scene: every knob alone, combinations, and the automatic choice.
 
-use super::check::{Landing, check};
-use super::knobs::{Knob, MOST, combinations, size_for};
+use super::check::{ChoiceCheck, check};
+use super::knobs::{Knob, MAX_SAMPLES_PER_SIDE, combinations, size_for};
 use super::{Point, Reference, measure};
 use crate::picture::{Difference, Frame, Quality, Size};
 use crate::scene::Opened;
@@ -9,15 +9,15 @@ use crate::study::StudyError;
 use crate::study::progress::Progress;
 
 /// Results for one scene.
-pub(super) struct Found {
+pub(super) struct SceneAccuracy {
     pub scene: String,
     pub size: Size,
     /// Error of the reference itself.
     pub floor: f64,
     /// Difference of the reference from a picture with as many samples at the default depth and cutoff.
     pub beyond_limits: f64,
-    pub entries: Vec<MeasuredPoint>,
-    pub landings: Vec<Landing>,
+    pub measured: Vec<MeasuredPoint>,
+    pub choices: Vec<ChoiceCheck>,
 }
 
 /// A point, and the reason why it was measured.
@@ -32,12 +32,12 @@ pub(super) struct MeasuredPoint {
     pub alone: Option<f64>,
 }
 
-/// Number of steps that [`Found::of`] takes.
+/// Number of steps that [`SceneAccuracy::of`] takes.
 pub(super) fn steps() -> usize {
     Reference::STEPS + Knob::ALL.iter().map(|knob| knob.values().len()).sum::<usize>() + combinations().len() + 1
 }
 
-impl Found {
+impl SceneAccuracy {
     /// Measures a scene, in a picture within `most`.
     ///
     /// # Errors
@@ -46,36 +46,36 @@ impl Found {
         let (name, scene) = (&opened.name, &opened.scene);
         let size = size_for(scene, most);
         let mut begin = || progress.next(&format!("{name}: the reference"));
-        let reference = Reference::trace(scene, size, MOST, &mut begin, &|| false)?;
+        let reference = Reference::trace(scene, size, MAX_SAMPLES_PER_SIDE, &mut begin, &|| false)?;
         let reference = reference.ok_or(StudyError::Cancelled)?;
-        let mut entries = Vec::new();
+        let mut measured = Vec::new();
         for knob in Knob::ALL {
             let qualities: Vec<Quality> = knob.values().iter().map(|&value| knob.quality(value)).collect();
             let (points, frames) = at(opened, &reference, &qualities, knob.name(), progress)?;
-            let without = if knob.is_of_sampling() { &reference.sampled } else { &frames[frames.len() - 1] };
+            let without = if knob.limits_samples() { &reference.sampled } else { &frames[frames.len() - 1] };
             for ((&value, point), frame) in knob.values().iter().zip(points).zip(&frames) {
                 let alone = Difference::of(frame, without).rmse;
                 let alone = (!std::ptr::eq(frame, without)).then_some(alone);
-                entries.push(MeasuredPoint { knob: Some(knob), value: Some(value), point, alone });
+                measured.push(MeasuredPoint { knob: Some(knob), value: Some(value), point, alone });
             }
         }
         let (points, _) = at(opened, &reference, &combinations(), "all together", progress)?;
-        entries.extend(points.into_iter().map(|point| MeasuredPoint { knob: None, value: None, point, alone: None }));
+        measured.extend(points.into_iter().map(|point| MeasuredPoint { knob: None, value: None, point, alone: None }));
         progress.next(&format!("{name}: the choice"));
-        let points: Vec<Point> = entries.iter().map(|entry| entry.point).collect();
-        let landings = check(scene, &reference, &points);
+        let points: Vec<Point> = measured.iter().map(|entry| entry.point).collect();
+        let choices = check(scene, &reference, &points);
         let beyond_limits = Difference::of(&reference.sampled, &reference.picture).rmse;
-        Ok(Self { scene: name.clone(), size, floor: reference.floor, beyond_limits, entries, landings })
+        Ok(Self { scene: name.clone(), size, floor: reference.floor, beyond_limits, measured, choices })
     }
 
     /// Returns all measured points.
     pub fn points(&self) -> Vec<Point> {
-        self.entries.iter().map(|entry| entry.point).collect()
+        self.measured.iter().map(|entry| entry.point).collect()
     }
 
     /// Returns the measurements of one knob alone, the best last; of the combinations, if `None`.
     pub fn of_knob(&self, knob: Option<Knob>) -> impl Iterator<Item = &MeasuredPoint> {
-        self.entries.iter().filter(move |entry| entry.knob == knob)
+        self.measured.iter().filter(move |entry| entry.knob == knob)
     }
 }
 

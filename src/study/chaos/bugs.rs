@@ -28,10 +28,10 @@ impl Bug {
 
     /// Returns the function that injects the bug into a run.
     pub fn tamper(self) -> Tamper {
-        let mut seen = 0;
+        let mut totals = 0;
         let mut is_second = move || {
-            seen += 1;
-            seen == 2
+            totals += 1;
+            totals == 2
         };
         Box::new(move |party, action| {
             let Action::Send { message, .. } = action else { return 1 };

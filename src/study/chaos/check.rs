@@ -14,10 +14,10 @@ use crate::sim::Sim;
 use crate::time::Time;
 
 /// A run with more records counts as endless.
-const MOST_RECORDS: u64 = 1_000_000;
+const MAX_RECORDS: u64 = 1_000_000;
 
 /// A run that lasts longer counts as endless.
-const LONGEST: Time = Time(100_000 * 1_000_000_000);
+const MAX_TIME: Time = Time(100_000 * 1_000_000_000);
 
 /// Changes a party's actions: returns how often an action is carried out.
 pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
@@ -52,7 +52,7 @@ pub(super) struct RunTotals {
     /// Atoms that the parent handed out again.
     pub again: u64,
     /// Messages over the bound of [`Check::bound`].
-    pub of_bound: f64,
+    pub over_bound: f64,
 }
 
 /// Runs a plan in virtual time and checks every record.
@@ -71,7 +71,7 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
         if let Some(violation) = check.violation.take() {
             return Err(violation);
         }
-        if check.outcome.records > MOST_RECORDS || next > LONGEST {
+        if check.totals.records > MAX_RECORDS || next > MAX_TIME {
             return Err(Violation::Endless);
         }
     }
@@ -81,7 +81,7 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
 /// State of the checks of a run.
 struct Check<'a> {
     plan: &'a ChaosPlan,
-    outcome: RunTotals,
+    totals: RunTotals,
     violation: Option<Violation>,
     /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
@@ -103,7 +103,7 @@ impl<'a> Check<'a> {
         let nodes = plan.header.speeds.len();
         Self {
             plan,
-            outcome: RunTotals::default(),
+            totals: RunTotals::default(),
             violation: None,
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
@@ -118,7 +118,7 @@ impl<'a> Check<'a> {
     }
 
     fn record(&mut self, record: &Record) {
-        self.outcome.records += 1;
+        self.totals.records += 1;
         self.last = record.at;
         match &record.what {
             RecordKind::Sent { id, from, message, .. } => self.sent(*id, *from, message),
@@ -158,8 +158,8 @@ impl<'a> Check<'a> {
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
-                self.outcome.again += u64::from(atoms_in(ranges));
-                if self.plan.calm {
+                self.totals.again += u64::from(atoms_in(ranges));
+                if self.plan.faultless {
                     self.fail(Violation::AgainWithoutLoss(ranges.clone()));
                 }
             }
@@ -176,11 +176,11 @@ impl<'a> Check<'a> {
         if let Some(atom) = self.placed.iter().position(|&times| times == 0) {
             return Err(Violation::EndedWithoutAtom(atom));
         }
-        self.outcome.of_bound = self.messages as f64 / self.bound();
-        if self.outcome.of_bound > 1.0 {
+        self.totals.over_bound = self.messages as f64 / self.bound();
+        if self.totals.over_bound > 1.0 {
             return Err(Violation::TooManyMessages { messages: self.messages, bound: self.bound() });
         }
-        Ok(self.outcome)
+        Ok(self.totals)
     }
 
     /// The most messages that the run may need (see `src/balance/adaptive/README.md`).

@@ -21,11 +21,11 @@ use check::{RunTotals, Violation};
 use plan::ChaosPlan;
 
 /// Number of failing seeds whose runs are kept.
-const KEPT: usize = 5;
+const MAX_KEPT_RUNS: usize = 5;
 /// Seeds tried for each injected bug.
-const TRIED: u64 = 10_000;
+const SEEDS_PER_BUG: u64 = 10_000;
 /// Seeds per progress step.
-const STEP: u64 = 250;
+const SEEDS_PER_STEP: u64 = 250;
 
 /// Runs every seed and reports the seeds that fail. Keeps the runs of the first failing seeds, or of a single seed, as
 /// run files with the picture of `scene`.
@@ -33,27 +33,31 @@ const STEP: u64 = 250;
 /// # Errors
 /// [`StudyError::File`], if a run file cannot be made.
 pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
-    let mut seen = Seen::default();
+    let mut totals = ChaosTotals::default();
     let mut failures: Vec<(u64, Violation)> = Vec::new();
     let count = seeds.end.saturating_sub(seeds.start);
     for seed in seeds.clone() {
-        if (seed - seeds.start).is_multiple_of(STEP) {
+        if (seed - seeds.start).is_multiple_of(SEEDS_PER_STEP) {
             let found = if failures.is_empty() { String::new() } else { format!(", {} have failed", failures.len()) };
             tell((seed - seeds.start) as usize, count as usize, &format!("seed {seed}{found}"));
         }
         let plan = ChaosPlan::new(seed);
         match try_run(&plan, None) {
-            Ok(outcome) => seen.add(&plan, outcome),
+            Ok(run) => totals.add(&plan, run),
             Err(why) => failures.push((seed, why)),
         }
     }
-    let bugs: Vec<_> = if count > 1 { Bug::ALL.map(|bug| (bug, find(bug, seeds.start))).into() } else { Vec::new() };
+    let bugs: Vec<_> =
+        if count > 1 { Bug::ALL.map(|bug| (bug, find_bug(bug, seeds.start))).into() } else { Vec::new() };
     let mut study = Study::new("chaos");
-    let kept: Vec<u64> =
-        if count == 1 { seeds.clone().collect() } else { failures.iter().map(|(seed, _)| *seed).take(KEPT).collect() };
+    let kept: Vec<u64> = if count == 1 {
+        seeds.clone().collect()
+    } else {
+        failures.iter().map(|(seed, _)| *seed).take(MAX_KEPT_RUNS).collect()
+    };
     for seed in kept {
         let (file, mut bytes) = (format!("chaos-{seed}.anel"), Vec::new());
-        record(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| StudyError::file(&*file, error))?;
+        record_run(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| StudyError::file(&*file, error))?;
         study.files.push((file, bytes));
     }
     let failing: Vec<u64> = failures.iter().map(|(seed, _)| *seed).collect();
@@ -61,7 +65,7 @@ pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Resul
         .map(|(name, value)| (name.to_owned(), value))
         .into_iter()
         .collect();
-    study.add_report(report(&seeds, &seen, &failures, &bugs));
+    study.add_report(report(&seeds, &totals, &failures, &bugs));
     Ok(study)
 }
 
@@ -75,17 +79,18 @@ fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, Violation> {
 }
 
 /// Finds the first seed from `first` on with which a bug is detected, and the violation that reveals it.
-fn find(bug: Bug, first: u64) -> Option<(u64, Violation)> {
-    (first..first + TRIED).find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
+fn find_bug(bug: Bug, first: u64) -> Option<(u64, Violation)> {
+    (first..first + SEEDS_PER_BUG)
+        .find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
 }
 
 /// Returns all records of a plan's run; of a run that does not end, the first million.
-fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
-    const MOST: usize = 1_000_000;
+fn record_run(plan: &ChaosPlan, scene: &Opened) -> RunLog {
+    const MAX_RECORDS: usize = 1_000_000;
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
     let mut records = Vec::new();
-    while let Some(next) = sim.next().filter(|_| records.len() < MOST) {
+    while let Some(next) = sim.next().filter(|_| records.len() < MAX_RECORDS) {
         sim.advance(next, &mut |record| records.push(record));
     }
     let header = Header { scene: scene.name.clone(), scene_text: scene.text.clone(), ..plan.header.clone() };
@@ -96,24 +101,24 @@ fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
 
 /// Totals over the runs that passed.
 #[derive(Default)]
-struct Seen {
+struct ChaosTotals {
     runs: u64,
-    calm: u64,
+    faultless: u64,
     records: u64,
     again: u64,
-    of_bound: f64,
+    over_bound: f64,
     /// Commands in all scripts: machines off, hung and cut off; links cut; messages delayed; speeds and latencies
     /// changed.
-    befell: [u64; 7],
+    commands: [u64; 7],
 }
 
-impl Seen {
-    fn add(&mut self, plan: &ChaosPlan, outcome: RunTotals) {
+impl ChaosTotals {
+    fn add(&mut self, plan: &ChaosPlan, run: RunTotals) {
         self.runs += 1;
-        self.calm += u64::from(plan.calm);
-        self.records += outcome.records;
-        self.again += outcome.again;
-        self.of_bound = self.of_bound.max(outcome.of_bound);
+        self.faultless += u64::from(plan.faultless);
+        self.records += run.records;
+        self.again += run.again;
+        self.over_bound = self.over_bound.max(run.over_bound);
         for (_, command) in &plan.script {
             let kind = match command {
                 Command::Condition { condition: Condition::Off, .. } => 0,
@@ -125,14 +130,14 @@ impl Seen {
                 Command::Latency(_) => 6,
                 _ => continue,
             };
-            self.befell[kind] += 1;
+            self.commands[kind] += 1;
         }
     }
 }
 
 fn report(
     seeds: &Range<u64>,
-    seen: &Seen,
+    totals: &ChaosTotals,
     failures: &[(u64, Violation)],
     bugs: &[(Bug, Option<(u64, Violation)>)],
 ) -> Report {
@@ -149,15 +154,18 @@ fn report(
         seeds.start,
         seeds.end.saturating_sub(1)
     ));
-    let [off, hung, cut_off, links, delays, speeds, latencies] = seen.befell;
-    report.line(format!("- runs that passed: {}, of which {} had no failures and no changes", seen.runs, seen.calm));
+    let [off, hung, cut_off, links, delays, speeds, latencies] = totals.commands;
+    report.line(format!(
+        "- runs that passed: {}, of which {} had no failures and no changes",
+        totals.runs, totals.faultless
+    ));
     report.line(format!("- runs that failed: {}", failures.len()));
     report.line(format!(
         "- injected: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} delays, \
          {speeds} changes of speed, {latencies} changes of latency"
     ));
-    report.line(format!("- records: {}; atoms handed out again by the parent: {}", seen.records, seen.again));
-    report.line(format!("- most messages / bound: {:.2}\n", seen.of_bound));
+    report.line(format!("- records: {}; atoms handed out again by the parent: {}", totals.records, totals.again));
+    report.line(format!("- most messages / bound: {:.2}\n", totals.over_bound));
     for (seed, why) in failures {
         report.line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` runs it again and keeps its run)"));
     }
@@ -166,7 +174,7 @@ fn report(
         for (bug, found) in bugs {
             match found {
                 Some((seed, why)) => report.line(format!("- {}: found with seed {seed}: {why}", bug.name())),
-                None => report.line(format!("- {}: NOT FOUND in {TRIED} seeds", bug.name())),
+                None => report.line(format!("- {}: NOT FOUND in {SEEDS_PER_BUG} seeds", bug.name())),
             }
         }
     }
@@ -189,14 +197,14 @@ mod tests {
     #[test]
     fn injected_bugs_are_found() {
         for bug in Bug::ALL {
-            assert!(find(bug, 0).is_some(), "{bug:?}");
+            assert!(find_bug(bug, 0).is_some(), "{bug:?}");
         }
     }
 
     #[test]
     fn seed_determines_run() {
         let scene = Opened::new("csg-primer").expect("a built-in scene");
-        assert_eq!(record(&ChaosPlan::new(77), &scene), record(&ChaosPlan::new(77), &scene));
+        assert_eq!(record_run(&ChaosPlan::new(77), &scene), record_run(&ChaosPlan::new(77), &scene));
         let study = chaos(77..78, &scene, &mut |_, _, _| {}).expect("a study");
         assert!(study.files.iter().any(|(name, _)| name == "chaos-77.anel"));
         assert_eq!(study.summary["failures"], 0);

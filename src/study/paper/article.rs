@@ -6,17 +6,17 @@ use crate::balance::{Rules, Strategy};
 use crate::runlog::{Header, LinkSettings, Metrics};
 
 /// Time of one machine for the picture (Figure 6).
-pub(super) const SERIAL: Duration = Duration::from_secs(580);
+pub(super) const SERIAL_TIME: Duration = Duration::from_secs(580);
 
 /// Time of the slow fifth machine for the picture (Figure 7).
-pub(super) const SLOW_SERIAL: Duration = Duration::from_secs(6099);
+pub(super) const SLOW_SERIAL_TIME: Duration = Duration::from_secs(6099);
 
 /// Pixels in an atom (§9).
-pub(super) const ATOM: u32 = 50;
+pub(super) const ATOM_PX: u32 = 50;
 
 /// Machines, whether one of them is slow, and the seconds of farm ("dinâmica"), static bands and ring (Figures 6 and
 /// 7).
-const SECONDS: [(usize, bool, [f64; 3]); 4] = [
+const FIGURE_SECONDS: [(usize, bool, [f64; 3]); 4] = [
     (2, false, [369.0, 346.0, 300.0]),
     (3, false, [275.0, 230.0, 220.0]),
     (4, false, [229.0, 191.0, 164.0]),
@@ -29,7 +29,7 @@ pub(super) const PACKETS: [(f64, f64, f64); 5] =
 
 /// Returns the slow machine's speed.
 pub(super) fn slow_speed() -> f64 {
-    SERIAL.div_duration_f64(SLOW_SERIAL)
+    SERIAL_TIME.div_duration_f64(SLOW_SERIAL_TIME)
 }
 
 /// Returns the article's makespan / ideal for a number of machines, of which the last may be slow; `None` where the
@@ -41,16 +41,16 @@ pub fn over_ideal(strategy: Strategy, nodes: usize, slow: bool) -> Option<f64> {
         Strategy::Ring => 2,
         Strategy::Serial | Strategy::StaticEstimate | Strategy::FarmBySpeed | Strategy::Adaptive => return None,
     };
-    let (.., seconds) = SECONDS.iter().find(|(count, with_slow, _)| (*count, *with_slow) == (nodes, slow))?;
+    let (.., seconds) = FIGURE_SECONDS.iter().find(|(count, with_slow, _)| (*count, *with_slow) == (nodes, slow))?;
     let speed = if slow { (nodes - 1) as f64 + slow_speed() } else { nodes as f64 };
-    Some(seconds[column] * speed / SERIAL.as_secs_f64())
+    Some(seconds[column] * speed / SERIAL_TIME.as_secs_f64())
 }
 
 /// The modelled network: a shared Ethernet of 10 Mbit/s, of which 1 MB/s is left for payload; 2 ms a message; and a
 /// parent that is busy for 15 ms with each message, PVM's daemons included.
 pub(super) const NETWORK: Network = Network { latency: 2e-3, bandwidth: 1e6, handling: 15e-3 };
 
-/// Costs of messages in seconds and bytes per second, on the scale on which one machine needs [`SERIAL`] for the
+/// Costs of messages in seconds and bytes per second, on the scale on which one machine needs [`SERIAL_TIME`] for the
 /// picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Network {
@@ -83,8 +83,8 @@ impl Network {
 }
 
 /// Makespan / ideal; NaN for a run that did not end.
-pub(super) fn times_ideal(tally: &Metrics) -> f64 {
-    tally.efficiency().map_or(f64::NAN, |efficiency| 1.0 / efficiency)
+pub(super) fn makespan_over_ideal(metrics: &Metrics) -> f64 {
+    metrics.efficiency().map_or(f64::NAN, |efficiency| 1.0 / efficiency)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Charts of the study: the article's own, run again, and others.
 
-use super::article::{self, PACKETS, SERIAL};
+use super::article::{self, PACKETS, SERIAL_TIME};
 use super::rows::PaperRow;
 use crate::balance::Strategy;
 use crate::study::fixture::STRATEGIES;
@@ -26,17 +26,17 @@ pub(super) fn all(rows: &[PaperRow], handling: &[(f64, [f64; 4])]) -> Vec<(&'sta
         ("figure5-sim-network", "sim", "modelled", "In virtual time, on the modelled network"),
     ];
     for (name, driver, network, title) in figures {
-        charts.push((name, times(rows, driver, network, title).marks(CHART_SIZE)));
+        charts.push((name, makespans(rows, driver, network, title).marks(CHART_SIZE)));
     }
     charts.push(("atoms", sizes(rows, "atom").marks(CHART_SIZE)));
     charts.push(("parts", sizes(rows, "part").marks(CHART_SIZE)));
     charts.push(("figure9", packets(rows).marks(CHART_SIZE)));
-    charts.push(("handling", choked(handling).marks(CHART_SIZE)));
+    charts.push(("handling", handling_chart(handling).marks(CHART_SIZE)));
     charts
 }
 
 /// Charts Figures 5 to 7: makespan / ideal, with the article's values.
-fn times(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChart {
+fn makespans(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChart {
     let group = |nodes: usize, slow: bool| {
         let figure = if slow { "7" } else { "6" };
         let ours = select(rows, figure, network, driver).filter(move |row| row.nodes == nodes);
@@ -95,7 +95,7 @@ fn sizes(rows: &[PaperRow], figure: &str) -> LineChart {
 
 /// Charts Figure 9: makespan / ideal by mean size of a packet.
 fn packets(rows: &[PaperRow]) -> LineChart {
-    let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
+    let ratio = |seconds: f64| seconds * 4.0 / SERIAL_TIME.as_secs_f64();
     let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
     let ours = |strategy: Strategy, network| {
         let is_one = move |row: &&PaperRow| row.strategy == strategy.name() && !row.slow && row.transfers > 0;
@@ -119,12 +119,12 @@ fn packets(rows: &[PaperRow]) -> LineChart {
 }
 
 /// Charts how handling time chokes a farm's parent.
-fn choked(handling: &[(f64, [f64; 4])]) -> LineChart {
+fn handling_chart(handling: &[(f64, [f64; 4])]) -> LineChart {
     let names = ["farm, parts of 1 atom", "farm, 16 parts a machine", "ring", "static"];
     let line = |(i, name): (usize, &str)| Series {
         name: name.into(),
         hue: series_hue(i),
-        points: handling.iter().map(|(ms, times)| (*ms, times[i])).collect(),
+        points: handling.iter().map(|(ms, makespans)| (*ms, makespans[i])).collect(),
         style: Style::Line,
     };
     LineChart {

@@ -5,10 +5,10 @@ use crate::space::{Deal, Traffic, traffic};
 use crate::tracer::Tracer;
 
 /// Numbers of machines among which the space is divided.
-const OWNERS: [u32; 3] = [2, 4, 16];
+const OWNER_COUNTS: [u32; 3] = [2, 4, 16];
 
-/// One pixel in seven is traced: few enough to be quick; a prime, so that columns do not repeat.
-const EVERY: u32 = 7;
+/// One pixel in seven is traced: few enough to be quick, and a prime.
+const PIXEL_STRIDE: u32 = 7;
 
 /// Traffic of a division of space.
 pub(super) struct SpaceDivision {
@@ -19,8 +19,9 @@ pub(super) struct SpaceDivision {
 
 /// Counts the traffic for each number of owners and each way to deal cells.
 pub(super) fn count(tracer: &Tracer) -> Vec<SpaceDivision> {
-    let of = |owners, how| SpaceDivision { traffic: traffic(tracer, owners, how, EVERY), runs: how == Deal::Runs };
-    OWNERS.into_iter().flat_map(|owners| [of(owners, Deal::Runs), of(owners, Deal::RoundRobin)]).collect()
+    let of =
+        |owners, how| SpaceDivision { traffic: traffic(tracer, owners, how, PIXEL_STRIDE), runs: how == Deal::Runs };
+    OWNER_COUNTS.into_iter().flat_map(|owners| [of(owners, Deal::Runs), of(owners, Deal::RoundRobin)]).collect()
 }
 
 impl SpaceDivision {

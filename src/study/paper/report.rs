@@ -1,8 +1,8 @@
 //! The report of the study of the article.
 
-use super::super::rivals::Needs;
-use super::Found;
-use super::article::{self, ATOM, NETWORK, Network, SERIAL, SLOW_SERIAL};
+use super::super::rivals::RivalRow;
+use super::PaperFindings;
+use super::article::{self, ATOM_PX, NETWORK, Network, SERIAL_TIME, SLOW_SERIAL_TIME};
 use super::charts::select;
 use super::claims;
 use super::division::SpaceDivision;
@@ -10,12 +10,13 @@ use super::measure::RUNS;
 use super::rows::PaperRow;
 use crate::balance::Strategy;
 use crate::study::fixture::STRATEGIES;
+use crate::study::format::optional;
 use crate::study::markdown::Report;
 use std::collections::BTreeSet;
 
 /// Writes the report.
-pub(super) fn report(found: &Found<'_>) -> Report {
-    let Found { rows, competing, divisions, handling, .. } = found;
+pub(super) fn report(found: &PaperFindings<'_>) -> Report {
+    let PaperFindings { rows, competing, divisions, handling, .. } = found;
     let mut report = Report::titled("The article's comparison, run anew");
     head(&mut report, found);
     verdicts(&mut report, rows, competing);
@@ -51,20 +52,20 @@ fn packets(report: &mut Report, rows: &[PaperRow]) {
     }
 }
 
-fn head(report: &mut Report, Found { bench, pace, .. }: &Found<'_>) {
+fn head(report: &mut Report, PaperFindings { fixture, pace, .. }: &PaperFindings<'_>) {
     report.line(format!(
-        "The scene is {}, {} pixels in atoms of {ATOM}. *Threads*: real runs of emulated machines with {} samples a \
+        "The scene is {}, {} pixels in atoms of {ATOM_PX}. *Threads*: real runs of emulated machines with {} samples a \
          pixel (n × n), each machine at {:.0} % of a core of this computer; the median of {RUNS} runs. *Virtual \
          time*: the same protocol in a simulator, with machines as fast as the article's ({} s for the picture on one \
          machine, {} s on the slow one) and costs of atoms in proportion to their rays. As in the article, a machine \
          sends its results when it has no atoms left. The figure is makespan / ideal, where the ideal is the work \
          divided by the sum of speeds.\n",
-        bench.scene.name,
-        bench.size,
-        bench.samples,
+        fixture.scene.name,
+        fixture.size,
+        fixture.samples,
         100.0 * pace,
-        SERIAL.as_secs(),
-        SLOW_SERIAL.as_secs()
+        SERIAL_TIME.as_secs(),
+        SLOW_SERIAL_TIME.as_secs()
     ));
     report.line(format!(
         "*The modelled network* is one wire shared by all, of {} MB/s, with {} ms a message, and a parent that is \
@@ -79,10 +80,11 @@ fn head(report: &mut Report, Found { bench, pace, .. }: &Found<'_>) {
     ));
 }
 
-fn verdicts(report: &mut Report, rows: &[PaperRow], competing: &[Needs; 3]) {
+fn verdicts(report: &mut Report, rows: &[PaperRow], competing: &[RivalRow; 3]) {
     report.line("## Verdicts\n");
-    for claim in claims::all(rows, competing) {
-        report.line(format!("- **{}** ({}): **{}**. {}", claim.says, claim.place, claim.verdict, claim.why));
+    for verdict in claims::judge_all(rows, competing) {
+        report
+            .line(format!("- **{}** ({}): **{}**. {}", verdict.claim, verdict.place, verdict.verdict, verdict.figures));
     }
 }
 
@@ -102,7 +104,7 @@ fn figures(report: &mut Report, rows: &[PaperRow]) {
             let cell = |strategy: &str, driver: &str, article: Option<f64>| {
                 let row =
                     select(rows, figure, network, driver).find(|row| row.nodes == nodes && row.strategy == strategy);
-                let ours = row.map_or("–".into(), |row| format!("{:.3}", row.over_ideal));
+                let ours = optional(row.map(|row| row.over_ideal), 3);
                 article.map_or(ours.clone(), |article| format!("{ours} ({article:.3})"))
             };
             let cells = STRATEGIES
@@ -195,7 +197,7 @@ fn space(report: &mut Report, divisions: &[SpaceDivision]) {
          nothing, and solids without bounds are everywhere. *Wire* is the time for which the modelled network's wire \
          would be busy with the messages; *travel* is the time of all messages one after the other. One machine needs \
          {} s for the picture itself.\n",
-        SERIAL.as_secs()
+        SERIAL_TIME.as_secs()
     ));
     report.line(
         "| owners | cells dealt | rays | rays sent on | messages | results sent back | wire, s | travel, s | busiest \
@@ -236,7 +238,7 @@ fn swings(report: &mut Report, rows: &[PaperRow]) {
         ("threads", "threads", &[steady, "an atom", "a tenth of the run", "the run"]),
     ] {
         for (of, row) in of.iter().zip(select(rows, "swing", "modelled", driver)) {
-            let period = row.period_s.map_or("–".into(), |period| format!("{period:.4}"));
+            let period = optional(row.period_s, 4);
             report.line(format!(
                 "| {name}: {of} | {period} | {:.4} | {} | {} |",
                 row.over_ideal, row.atoms_moved, row.transfers

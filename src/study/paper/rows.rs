@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::article::{self, times_ideal};
+use super::article::{self, makespan_over_ideal};
 use crate::runlog::{Driver, Header, Metrics};
 
 /// A run, or the median of several runs of the same kind.
@@ -58,16 +58,16 @@ impl RowSubject {
 
 impl PaperRow {
     /// Makes the row of a run, and of its twin in virtual time if it has one.
-    pub fn new(about: RowSubject, header: &Header, tally: &Metrics, twin: Option<&Metrics>) -> Self {
-        let messages = tally.messages();
-        let seconds = |tally: &Metrics| tally.makespan().unwrap_or_default().as_secs_f64();
+    pub fn new(subject: RowSubject, header: &Header, metrics: &Metrics, twin: Option<&Metrics>) -> Self {
+        let messages = metrics.messages();
+        let seconds = |metrics: &Metrics| metrics.makespan().unwrap_or_default().as_secs_f64();
         let place = header.speeds.iter().position(|&speed| speed < 1.0);
         let nodes = header.speeds.len();
         let is_last = place.is_none_or(|place| place + 1 == nodes);
         let article = article::over_ideal(header.rules.strategy, nodes, place.is_some());
         Self {
-            figure: about.figure,
-            network: if about.modelled { "modelled" } else { "none" },
+            figure: subject.figure,
+            network: if subject.modelled { "modelled" } else { "none" },
             strategy: header.strategy_name(),
             driver: header.driver.name(),
             nodes,
@@ -75,24 +75,24 @@ impl PaperRow {
             place: place.map(|place| place + 1),
             atom: header.division.atom_pixels(),
             part: header.rules.part,
-            makespan_s: seconds(tally),
-            ideal_s: tally.ideal().unwrap_or_default().as_secs_f64(),
-            over_ideal: times_ideal(tally),
+            makespan_s: seconds(metrics),
+            ideal_s: metrics.ideal().unwrap_or_default().as_secs_f64(),
+            over_ideal: makespan_over_ideal(metrics),
             article_over_ideal: article.filter(|_| is_last && header.driver != Driver::WorkStealing),
             twin_s: twin.map(seconds),
-            finish_spread_s: tally.finish_spread().as_secs_f64(),
+            finish_spread_s: metrics.finish_spread().as_secs_f64(),
             messages: messages.total,
             bytes: messages.bytes,
             transfers: messages.transfers,
             atoms_moved: messages.atoms_moved,
-            period_s: about.period.map(|period| period.as_secs_f64()),
+            period_s: subject.period.map(|period| period.as_secs_f64()),
         }
     }
 }
 
 /// Returns the median row by makespan / ideal.
-pub(super) fn middle(mut rows: Vec<PaperRow>) -> Option<PaperRow> {
+pub(super) fn median_row(mut rows: Vec<PaperRow>) -> Option<PaperRow> {
     rows.sort_by(|a, b| a.over_ideal.total_cmp(&b.over_ideal));
-    let middle = rows.len() / 2;
-    rows.into_iter().nth(middle)
+    let median_row = rows.len() / 2;
+    rows.into_iter().nth(median_row)
 }

@@ -22,8 +22,8 @@ const SCENE: &str = r#"Scene(
         ]),
     ],
 )"#;
-const DEGREES: DVec3 = DVec3::new(3.0, 11.0, 5.0);
-const RADIUS: f64 = 0.7;
+const ROTATION_DEGREES: DVec3 = DVec3::new(3.0, 11.0, 5.0);
+const BORE_RADIUS: f64 = 0.7;
 
 /// Parses the scene, which has no file.
 ///
@@ -43,14 +43,14 @@ impl Bore {
     /// Finds the pixels in the scene of [`scene`]: a ray passes if it crosses the planes of both ends within the bore.
     pub fn of(scene: &Scene, size: Size) -> Self {
         let tracer = Tracer::new(scene, size, Quality::default());
-        let own_from_scene = rotation(DEGREES).transpose();
+        let own_from_scene = rotation(ROTATION_DEGREES).transpose();
         let mut through = Vec::new();
         tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
             if path.kind == RayKind::Primary {
                 let (origin, direction) = (own_from_scene * path.ray.origin, own_from_scene * path.ray.direction);
                 through.push([-1.0, 1.0].into_iter().all(|end| {
                     let crossing = origin + direction * ((end - origin.z) / direction.z);
-                    crossing.truncate().length() < RADIUS
+                    crossing.truncate().length() < BORE_RADIUS
                 }));
             }
         });

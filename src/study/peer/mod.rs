@@ -60,7 +60,7 @@ pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Stu
         let (mut scene, mut quality) = (opened.scene.clone(), Quality::default());
         let mut started = Vec::new();
         for step in Step::ALL {
-            step.take(&mut scene, &mut quality);
+            step.apply(&mut scene, &mut quality);
             // All at once, since POV-Ray takes longer to start than to render.
             started.push((step, scene.clone(), quality, povray.start(&scene, size, &quality)?));
         }
@@ -69,7 +69,7 @@ pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Stu
             let ours = trace(&scene, size, quality);
             let pictures = Pictures { size, ours, theirs: theirs.finish()? };
             if step == Step::AsItIs {
-                pictures.keep(&mut study, &opened.name)?;
+                pictures.add_files(&mut study, &opened.name)?;
             }
             // After later steps the ends no longer coincide, and the bore is rightly closed.
             let looks_through = std::ptr::eq(opened, &bored) && step == Step::AsItIs;
@@ -117,7 +117,7 @@ impl Pictures {
     }
 
     /// Adds both pictures and their difference to the study's files.
-    fn keep(&self, study: &mut Study, scene: &str) -> Result<(), StudyError> {
+    fn add_files(&self, study: &mut Study, scene: &str) -> Result<(), StudyError> {
         let where_they_differ = self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
             if difference > Difference::SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
         });

@@ -4,6 +4,7 @@ use super::povray::PovRay;
 use super::step::Step;
 use super::{DIFFERENCE, OURS, PeerRow, THEIRS, picture_name};
 use crate::picture::{Difference, Size};
+use crate::study::format::or_dash;
 use crate::study::markdown::Report;
 
 /// Writes the report. `rows` are ordered by scene, then by step; the last scene is the bored cylinder.
@@ -71,16 +72,15 @@ fn causes(report: &mut Report) {
 }
 
 fn through_the_bore(report: &mut Report, povray: &PovRay, bored: &PeerRow) {
-    let count = |pixels: Option<u32>| pixels.map_or("–".into(), |pixels| pixels.to_string());
     report.line(format!(
         "\n## A cylinder whose ends coincide with those of its bore\n\nThe bore is open, so the background is visible \
          through it. Of {} pixels whose rays touch nothing, anel gets {} wrong and {} {}: there the bore keeps a skin \
          at its ends. POV-Ray's manual describes this, and advises to make the cutter longer than the solid that it \
          cuts.",
-        count(bored.through_bore),
-        count(bored.anel_wrong),
+        or_dash(bored.through_bore),
+        or_dash(bored.anel_wrong),
         povray.version,
-        count(bored.povray_wrong)
+        or_dash(bored.povray_wrong)
     ));
     pictures(report, bored);
 }

@@ -23,10 +23,10 @@ pub(super) enum Step {
 }
 
 /// Greatest move of a primitive, as a fraction of the distance from the eye to the point it looks at.
-const MOVE: f64 = 1e-5;
+const MAX_MOVE: f64 = 1e-5;
 
 /// Distance from the eye to the point it looks at in the large scene, about. Beyond it POV-Ray's tori become inexact.
-const LARGE: f64 = 4096.0;
+const LARGE_DISTANCE: f64 = 4096.0;
 
 impl Step {
     pub const ALL: [Self; 5] = [Self::AsItIs, Self::Apart, Self::Large, Self::Lossless, Self::NoCutoff];
@@ -76,18 +76,18 @@ impl Step {
         })
     }
 
-    pub fn take(self, scene: &mut Scene, quality: &mut Quality) {
+    pub fn apply(self, scene: &mut Scene, quality: &mut Quality) {
         let distance = scene.camera.eye.distance(scene.camera.look_at);
         match self {
             Self::AsItIs => {}
             Self::Apart => {
                 let mut chance = Rng::with_seed(1);
-                let mut component = || (2.0 * chance.f64() - 1.0) * MOVE * distance;
+                let mut component = || (2.0 * chance.f64() - 1.0) * MAX_MOVE * distance;
                 move_primitives(&mut scene.solids, &mut |map| {
                     map.translation += DVec3::new(component(), component(), component());
                 });
             }
-            Self::Large => enlarge(scene, (LARGE / distance).log2().round().exp2()),
+            Self::Large => enlarge(scene, (LARGE_DISTANCE / distance).log2().round().exp2()),
             Self::Lossless => {
                 for material in scene.materials.iter_mut().filter(|material| material.kt > 0.0) {
                     material.ks = 1.0 - material.kt;

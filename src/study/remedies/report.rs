@@ -2,17 +2,17 @@
 
 use super::super::markdown::Report;
 use super::cases::cases;
-use super::measure::{LATENCIES, RemedyRow};
+use super::measure::{LATENCIES_MS, RemedyRow};
 use crate::balance::Remedy;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// Where a run that never ends is drawn, as makespan / bound.
-const ENDLESS: f64 = 10.0;
+const ENDLESS_RATIO: f64 = 10.0;
 
 /// Returns a chart for each remedy: makespan / bound by case, with all remedies and without this one.
 pub(super) fn charts(rows: &[RemedyRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
-    for latency in LATENCIES {
+    for latency in LATENCIES_MS {
         let name = |what: &str| format!("{what}-{latency}ms");
         let title = format!("The article's ring and the adaptive ring, {latency} ms a message");
         charts.push((name("ring"), chart(rows, latency, title, &["ring", "adaptive"])));
@@ -31,7 +31,7 @@ fn chart(rows: &[RemedyRow], latency: f64, title: String, rivals: &[&str]) -> Li
         let point = |(number, case): (usize, &super::cases::RemedyCase)| {
             let row = find(rows, &case.name, "sim", latency, rival)?;
             // A logarithmic axis has no zero.
-            Some((number as f64 + 1.0, row.over_bound.unwrap_or(ENDLESS).min(ENDLESS) - 1.0 + 1e-4))
+            Some((number as f64 + 1.0, row.over_bound.unwrap_or(ENDLESS_RATIO).min(ENDLESS_RATIO) - 1.0 + 1e-4))
         };
         cases.iter().enumerate().filter_map(point).collect::<Vec<_>>()
     };
@@ -75,8 +75,8 @@ pub(super) fn report(rows: &[RemedyRow]) -> Report {
                 }
             })
         };
-        let simulated =
-            LATENCIES.map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
+        let simulated = LATENCIES_MS
+            .map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
         let threads = [cell("threads", 0.0, "ring"), cell("threads", 0.0, "adaptive")].join(" | ");
         report.line(format!(
             "| {} | {} | {:.2} | {} | {threads} |",
@@ -98,7 +98,7 @@ pub(super) fn report(rows: &[RemedyRow]) -> Report {
     report.line("| remedy | greatest, 0 ms | mean | greatest, 1 ms | mean | greatest, 10 ms | mean |");
     report.line("|---|--:|--:|--:|--:|--:|--:|");
     for remedy in Remedy::ALL {
-        let cells = LATENCIES.map(|latency| gain(rows, remedy, latency));
+        let cells = LATENCIES_MS.map(|latency| gain(rows, remedy, latency));
         report.line(format!("| {remedy} | {} |", cells.join(" | ")));
     }
     let throttled = |rival| find(rows, "unequal, throttled", "threads", 0.0, rival).and_then(|row| row.over_bound);

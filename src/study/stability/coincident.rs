@@ -3,8 +3,8 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::super::random::{aside, between, turn, unit};
-use super::{Count, StabilityCase, Verdicts, tens};
+use super::super::random::{perpendicular, random_rotation, uniform, unit_vector};
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::{Primitive, Solid, Stack, Tree};
 use crate::geometry::{Ray, rotation};
 use crate::view::Scale;
@@ -21,11 +21,11 @@ pub(super) fn cases() -> [StabilityCase; 2] {
                     groups distances that differ by less than 10⁻¹² of the values they were computed from. Truth: by \
                     construction.",
             parameter: "distance from the origin",
-            values: tens(0, 9),
+            values: powers_of_10(0, 9),
             required: 1e3,
             scale: Scale::Log10,
             methods: &["plain merge", "equal distances", "ours"],
-            measures: None,
+            measured_figure: None,
             tries: 5000,
             attempt: bore,
         },
@@ -38,11 +38,11 @@ pub(super) fn cases() -> [StabilityCase; 2] {
                     their distance differs from the length of the ray's path through the plate by more than a \
                     thousandth. Truth: by construction.",
             parameter: "thickness",
-            values: tens(0, -13),
+            values: powers_of_10(0, -13),
             required: 1e-7,
             scale: Scale::Log10,
             methods: &["within 0.0005", "ours"],
-            measures: None,
+            measured_figure: None,
             tries: 3000,
             attempt: plate,
         },
@@ -50,7 +50,7 @@ pub(super) fn cases() -> [StabilityCase; 2] {
 }
 
 /// Returns the distances at which the ray enters and leaves the solid, in turn.
-fn events(solid: &Solid, ray: &Ray) -> Vec<f64> {
+fn crossing_distances(solid: &Solid, ray: &Ray) -> Vec<f64> {
     let mut tree = Tree::default();
     let mut places = Vec::new();
     if let Some((root, _)) = tree.add(solid) {
@@ -62,11 +62,11 @@ fn events(solid: &Solid, ray: &Ray) -> Vec<f64> {
     places
 }
 
-fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
-    let mut count = Count::<3>::new();
+fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
+    let mut count = ResultCounter::<3>::new();
     for index in 0..tries {
-        let turned = if index % 4 == 0 { rotation(DVec3::new(3.0, 11.0, 5.0)) } else { turn(rng) };
-        let place = DAffine3 { matrix3: turned, translation: unit(rng) * distance };
+        let turned = if index % 4 == 0 { rotation(DVec3::new(3.0, 11.0, 5.0)) } else { random_rotation(rng) };
+        let place = DAffine3 { matrix3: turned, translation: unit_vector(rng) * distance };
         let body = place * DAffine3::from_scale(DVec3::new(1.0, 1.5, 1.0));
         // The same height by a longer sequence: moved, scaled, moved back.
         let up = DAffine3::from_translation(DVec3::Y * 0.75) * DAffine3::from_scale(DVec3::new(0.4, 0.75, 0.4));
@@ -74,10 +74,10 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         let cutter = place * DAffine3::from_translation(DVec3::Y * -1.5) * lengthened;
         // Slightly tilted, so that a ray passes both caps but no wall.
         let axis = turned * DVec3::Y;
-        let direction = (axis + aside(rng, axis) * between(rng, 0.0, 0.02)).normalize();
-        let through = place.translation + aside(rng, axis) * between(rng, 0.0, 0.3);
+        let direction = (axis + perpendicular(rng, axis) * uniform(rng, 0.0, 0.02)).normalize();
+        let through = place.translation + perpendicular(rng, axis) * uniform(rng, 0.0, 0.3);
         let ray = Ray::new(through - direction * 8.0, direction);
-        let [body_caps, cutter_caps] = [body, cutter].map(|map| caps(&map, &ray));
+        let [body_caps, cutter_caps] = [body, cutter].map(|map| cap_distances(&map, &ray));
         let cylinder = |scene_from_own, tag| Solid::Placed { primitive: Primitive::Cylinder, scene_from_own, tag };
         let bored = Solid::Difference(vec![cylinder(body, 0), cylinder(cutter, 1)]);
         // The remains of the body before and after the cutter.
@@ -85,25 +85,25 @@ fn bore(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
         count.add([
             skins.iter().any(|&skin| skin >= 0.0),
             skins.iter().any(|&skin| skin > 0.0),
-            !events(&bored, &ray).is_empty(),
+            !crossing_distances(&bored, &ray).is_empty(),
         ]);
     }
-    count.outcomes()
+    count.results()
 }
 
 /// Returns the distances at which the ray crosses the caps of a cylinder.
-fn caps(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
+fn cap_distances(scene_from_own: &DAffine3, ray: &Ray) -> [f64; 2] {
     let own_from_scene = scene_from_own.inverse();
     let o = own_from_scene.transform_point3(ray.origin);
     let d = own_from_scene.transform_vector3(ray.direction);
     [(-1.0 - o.y) / d.y, (1.0 - o.y) / d.y]
 }
 
-fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
-    const FUSED: f64 = 0.0005;
-    let mut count = Count::<2>::new();
+fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
+    const FUSE_DISTANCE: f64 = 0.0005;
+    let mut count = ResultCounter::<2>::new();
     for index in 0..tries {
-        let turned = turn(rng);
+        let turned = random_rotation(rng);
         let placed = |primitive, size: DVec3, at: DVec3| Solid::Placed {
             primitive,
             scene_from_own: DAffine3 { matrix3: turned * DMat3::from_diagonal(size), translation: turned * at },
@@ -118,24 +118,24 @@ fn plate(thickness: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
             let plate = placed(Primitive::Cube, DVec3::new(2.0, half, 2.0), DVec3::ZERO);
             Solid::Union(vec![plate, placed(Primitive::Sphere, DVec3::ONE, DVec3::Y * -5.0)])
         };
-        let target = aside(rng, DVec3::Y) * rng.f64();
-        let tilted = (DVec3::NEG_Y + aside(rng, DVec3::Y) * between(rng, 0.0, 0.05)).normalize();
+        let target = perpendicular(rng, DVec3::Y) * rng.f64();
+        let tilted = (DVec3::NEG_Y + perpendicular(rng, DVec3::Y) * uniform(rng, 0.0, 0.05)).normalize();
         let ray = Ray::new(turned * (target - tilted * 10.0), turned * tilted);
         let expected = thickness / -tilted.y;
         let is_wrong = |places: &[f64]| match places {
             [enter, leave, ..] => ((leave - enter) / expected - 1.0).abs() > 1e-3,
             _ => true,
         };
-        let ours = events(&solid, &ray);
+        let ours = crossing_distances(&solid, &ray);
         let map = DAffine3::from_mat3(turned * DMat3::from_diagonal(DVec3::new(2.0, half, 2.0)));
-        let mut naive = caps(&map, &ray).to_vec();
+        let mut naive = cap_distances(&map, &ray).to_vec();
         naive.sort_by(f64::total_cmp);
-        if naive[1] - naive[0] < FUSED {
+        if naive[1] - naive[0] < FUSE_DISTANCE {
             naive.clear();
         }
         count.add([is_wrong(&naive), is_wrong(&ours)]);
     }
-    count.outcomes()
+    count.results()
 }
 
 #[cfg(test)]

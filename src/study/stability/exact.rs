@@ -36,7 +36,7 @@ impl Exact {
     }
 
     /// Returns the nearest f64 or a neighbour of it; 0 or infinity out of range.
-    pub fn rounded(&self) -> f64 {
+    pub fn to_f64(&self) -> f64 {
         let more = self.mantissa.bits().saturating_sub(100);
         let leading = i128::try_from(&self.mantissa >> more).unwrap_or_else(|_| unreachable!("100 bits fit"));
         // In two steps, since the power alone may be out of range.
@@ -111,7 +111,7 @@ mod tests {
         #[test]
         fn conversion_is_exact(number in any::<f64>()) {
             prop_assume!(number.is_finite());
-            prop_assert_eq!(Exact::from(number).rounded(), number);
+            prop_assert_eq!(Exact::from(number).to_f64(), number);
         }
 
         /// (a + b)(a − b) = a² − b², which no rounded arithmetic satisfies.
@@ -131,6 +131,6 @@ mod tests {
         assert!((more - one).is_positive());
         let across = cross(&vector(DVec3::new(1.0, 1e-30, 0.0)), &vector(DVec3::X));
         assert!(across[2].is_negative());
-        assert_eq!(dot(&vector(DVec3::new(1e20, 1.0, -1e20)), &vector(DVec3::ONE)).rounded(), 1.0);
+        assert_eq!(dot(&vector(DVec3::new(1e20, 1.0, -1e20)), &vector(DVec3::ONE)).to_f64(), 1.0);
     }
 }

@@ -7,12 +7,12 @@ mod exact;
 mod far;
 mod graze;
 mod normals;
+mod placed_primitive;
 mod protocol;
 mod refraction;
 mod report;
 mod scaled;
 mod starts;
-mod subject;
 mod torus;
 
 use fastrand::Rng;
@@ -39,17 +39,17 @@ pub(super) struct StabilityCase {
     scale: Scale,
     /// Methods; this program's is the last. Of the protocol, it is the ring.
     methods: &'static [&'static str],
-    /// Meaning of [`Verdicts::measured`], if it is charted instead of the share of wrong answers.
-    measures: Option<&'static str>,
+    /// Meaning of [`MethodResult::measured`], if it is charted instead of the share of wrong answers.
+    measured_figure: Option<&'static str>,
     /// Number of tries for each value.
     tries: u32,
     /// Tries one value a number of times; returns the results by method.
-    attempt: fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
+    attempt: fn(f64, u32, &mut Rng) -> Vec<MethodResult>,
 }
 
 /// Result of a method's tries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Verdicts {
+pub(super) struct MethodResult {
     tried: u64,
     wrong: u64,
     /// Another measured figure; `None` if it is infinite, or if there is none.
@@ -116,16 +116,16 @@ impl StabilityCase {
         let mut rows = Vec::new();
         let hardest = self.values.iter().position(|&value| value == self.required);
         for (place, &value) in self.values.iter().enumerate() {
-            let outcomes = (self.attempt)(value, tries, &mut Rng::with_seed(place as u64));
-            rows.extend(self.methods.iter().zip(outcomes).map(|(&method, outcome)| StabilityRow {
+            let results = (self.attempt)(value, tries, &mut Rng::with_seed(place as u64));
+            rows.extend(self.methods.iter().zip(results).map(|(&method, result)| StabilityRow {
                 case: self.name,
                 parameter: self.parameter,
                 value,
                 required: hardest.is_some_and(|hardest| place <= hardest),
                 method,
-                tried: outcome.tried,
-                wrong: outcome.wrong,
-                measured: outcome.measured,
+                tried: result.tried,
+                wrong: result.wrong,
+                measured: result.measured,
             }));
         }
         rows
@@ -138,46 +138,46 @@ impl StabilityCase {
 }
 
 /// Returns powers of ten, from one exponent to another, which may be smaller.
-fn tens(from: i32, to: i32) -> Vec<f64> {
-    powers(from, to).map(|power| 10f64.powi(power)).collect()
+fn powers_of_10(from: i32, to: i32) -> Vec<f64> {
+    exponents(from, to).map(|power| 10f64.powi(power)).collect()
 }
 
 /// Returns powers of two, from one exponent to another, which may be smaller.
-fn twos(from: i32, to: i32) -> Vec<f64> {
-    powers(from, to).map(|power| 2f64.powi(power)).collect()
+fn powers_of_2(from: i32, to: i32) -> Vec<f64> {
+    exponents(from, to).map(|power| 2f64.powi(power)).collect()
 }
 
-fn powers(from: i32, to: i32) -> impl Iterator<Item = i32> {
+fn exponents(from: i32, to: i32) -> impl Iterator<Item = i32> {
     let step = (to - from).signum();
     (0..=(to - from).abs()).map(move |i| from + step * i)
 }
 
 /// Counts wrong answers of several methods on the same tries.
-struct Count<const N: usize>([Verdicts; N]);
+struct ResultCounter<const N: usize>([MethodResult; N]);
 
-impl<const N: usize> Count<N> {
+impl<const N: usize> ResultCounter<N> {
     /// Starts without tries.
     fn new() -> Self {
-        Self([Verdicts::default(); N])
+        Self([MethodResult::default(); N])
     }
 
     /// Adds a try; `wrong` tells by method whether its answer is wrong.
     fn add(&mut self, wrong: [bool; N]) {
-        for (outcome, wrong) in self.0.iter_mut().zip(wrong) {
-            outcome.tried += 1;
-            outcome.wrong += u64::from(wrong);
+        for (result, wrong) in self.0.iter_mut().zip(wrong) {
+            result.tried += 1;
+            result.wrong += u64::from(wrong);
         }
     }
 
     /// Adds a try with errors, of which none may exceed `most`; NaN counts as wrong, but not as the greatest error.
     fn add_errors(&mut self, errors: [f64; N], most: f64) {
         self.add(errors.map(|error| error.is_nan() || error > most));
-        for (outcome, error) in self.0.iter_mut().zip(errors) {
-            outcome.measured = Some(outcome.measured.unwrap_or(0.0).max(error));
+        for (result, error) in self.0.iter_mut().zip(errors) {
+            result.measured = Some(result.measured.unwrap_or(0.0).max(error));
         }
     }
 
-    fn outcomes(self) -> Vec<Verdicts> {
+    fn results(self) -> Vec<MethodResult> {
         self.0.to_vec()
     }
 }

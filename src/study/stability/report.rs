@@ -1,11 +1,12 @@
 //! The report of the study of stability.
 
 use super::{StabilityCase, StabilityRow, protocol};
+use crate::study::format::{or_dash, significant};
 use crate::study::markdown::Report;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
 /// Writes the report.
-pub(super) fn report(found: &[Found<'_>]) -> Report {
+pub(super) fn report(found: &[CaseRows<'_>]) -> Report {
     let mut report = Report::titled("Where methods fail");
     report.line(
         "Cases of growing difficulty for this program's method (*ours*) and for naive methods. In geometry, the truth \
@@ -24,10 +25,10 @@ pub(super) fn report(found: &[Found<'_>]) -> Report {
     report
 }
 
-type Found<'a> = (&'a StabilityCase, &'a [StabilityRow]);
+type CaseRows<'a> = (&'a StabilityCase, &'a [StabilityRow]);
 
 /// Adds the table of the geometric methods: where each holds, and where it first fails.
-fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
+fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a CaseRows<'a>>) {
     report.line("| case | parameter | required up to | ours holds | ours first fails | others first fail |");
     report.line("|---|---|---:|---:|---:|---|");
     for (case, rows) in found {
@@ -39,8 +40,8 @@ fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) 
             case.title,
             case.name,
             case.parameter,
-            number(case.required),
-            held(rows, ours),
+            four_digits(case.required),
+            held_range(rows, ours),
             first_wrong(rows, ours),
             first.join("; ")
         ));
@@ -48,7 +49,7 @@ fn methods<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) 
 }
 
 /// Adds the table of the strategies: their worst makespan / ideal, and where the ring traces every atom once.
-fn strategies<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>>) {
+fn strategies<'a>(report: &mut Report, found: impl Iterator<Item = &'a CaseRows<'a>>) {
     let names = protocol::METHODS.join(" | ");
     report.line(
         "\nThe protocol in virtual time under extreme machines, costs or networks: each strategy's worst makespan / \
@@ -60,14 +61,14 @@ fn strategies<'a>(report: &mut Report, found: impl Iterator<Item = &'a Found<'a>
         let worst = protocol::METHODS.iter().map(|method| {
             let measured = of(rows, method).map(|row| (row.measured.unwrap_or(f64::INFINITY), row.value));
             let worst = measured.max_by(|(this, _), (other, _)| this.total_cmp(other));
-            worst.map_or("–".into(), |(measured, value)| format!("{} at {}", number(measured), number(value)))
+            or_dash(worst.map(|(measured, value)| format!("{} at {}", four_digits(measured), four_digits(value))))
         });
         report.line(format!(
             "| [{}](#{}) | {} | {} | {} |",
             case.title,
             case.name,
             case.parameter,
-            held(rows, case.ours()),
+            held_range(rows, case.ours()),
             worst.collect::<Vec<_>>().join(" | ")
         ));
     }
@@ -78,17 +79,17 @@ fn of<'a>(rows: &'a [StabilityRow], method: &str) -> impl Iterator<Item = &'a St
 }
 
 /// Returns the range of values over which a method is never wrong.
-fn held(rows: &[StabilityRow], method: &str) -> String {
-    let held: Vec<&StabilityRow> = of(rows, method).take_while(|row| row.wrong == 0).collect();
-    match held[..] {
+fn held_range(rows: &[StabilityRow], method: &str) -> String {
+    let held_range: Vec<&StabilityRow> = of(rows, method).take_while(|row| row.wrong == 0).collect();
+    match held_range[..] {
         [] => "nowhere".into(),
-        [only] => number(only.value),
-        [first, .., last] => format!("{} … {}", number(first.value), number(last.value)),
+        [only] => four_digits(only.value),
+        [first, .., last] => format!("{} … {}", four_digits(first.value), four_digits(last.value)),
     }
 }
 
 fn first_wrong(rows: &[StabilityRow], method: &str) -> String {
-    of(rows, method).find(|row| row.wrong > 0).map_or("nowhere".into(), |row| number(row.value))
+    of(rows, method).find(|row| row.wrong > 0).map_or("nowhere".into(), |row| four_digits(row.value))
 }
 
 fn table(report: &mut Report, case: &StabilityCase, rows: &[StabilityRow]) {
@@ -98,22 +99,22 @@ fn table(report: &mut Report, case: &StabilityCase, rows: &[StabilityRow]) {
         let Some(first) = rows.first() else { continue };
         let cells: Vec<String> = rows.iter().map(|row| cell(case, row)).collect();
         let bold = if first.value == case.required { "**" } else { "" };
-        report.line(format!("| {bold}{}{bold} | {} | {} |", number(first.value), first.tried, cells.join(" | ")));
+        report.line(format!("| {bold}{}{bold} | {} | {} |", four_digits(first.value), first.tried, cells.join(" | ")));
     }
 }
 
 fn cell(case: &StabilityCase, row: &StabilityRow) -> String {
-    match (case.measures, row.measured) {
-        (Some(_), Some(measured)) if row.wrong == 0 => number(measured),
-        (Some(_), Some(measured)) => format!("{} ({} wrong)", number(measured), row.wrong),
+    match (case.measured_figure, row.measured) {
+        (Some(_), Some(measured)) if row.wrong == 0 => four_digits(measured),
+        (Some(_), Some(measured)) => format!("{} ({} wrong)", four_digits(measured), row.wrong),
         (None, Some(broken)) if broken > 0.0 => format!("{} ({broken} odd)", row.wrong),
         _ => row.wrong.to_string(),
     }
 }
 
 /// Formats a number with four significant digits, or a whole number in full.
-fn number(value: f64) -> String {
-    let short: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+fn four_digits(value: f64) -> String {
+    let short = significant(value, 4);
     match value.abs() {
         size if size < 1e7 && value.fract() == 0.0 => value.to_string(),
         size if (1e-3..1e4).contains(&size) => short.to_string(),
@@ -122,14 +123,14 @@ fn number(value: f64) -> String {
 }
 
 /// Colour of the required limit; no case has this many methods.
-const REQUIRED: usize = 3;
+const REQUIRED_HUE: usize = 3;
 
 /// Charts the share of wrong answers, or the measured figure, by the case's parameter.
 pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
     let tried = rows.iter().map(|row| row.tried).max().unwrap_or(1).max(1);
     // 0 has no place on a logarithmic axis: it is drawn on the lowest line.
-    let floor = if case.measures.is_some() { 1e-17 } else { 10f64.powf((0.1 / tried as f64).log10().floor()) };
-    let y = |row: &StabilityRow| match case.measures {
+    let floor = if case.measured_figure.is_some() { 1e-17 } else { 10f64.powf((0.1 / tried as f64).log10().floor()) };
+    let y = |row: &StabilityRow| match case.measured_figure {
         Some(_) => row.measured.map(|measured| measured.max(floor)),
         None => Some((row.wrong as f64 / row.tried.max(1) as f64).max(floor)),
     };
@@ -143,16 +144,16 @@ pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
         style: Style::Line,
     };
     let mut series: Vec<Series> = case.methods.iter().enumerate().map(line).collect();
-    if case.measures.is_none() {
+    if case.measured_figure.is_none() {
         series.push(Series {
             name: "required".into(),
-            hue: series_hue(REQUIRED),
+            hue: series_hue(REQUIRED_HUE),
             points: [floor, 1.0].map(|share| (x(case.required), share)).to_vec(),
             style: Style::Dashed,
         });
     }
     let at_0 = if case.values.contains(&0.0) { "; leftmost: exactly 0" } else { "" };
-    let note = match case.measures {
+    let note = match case.measured_figure {
         None => format!("On the lowest line: none of {tried} answers per point wrong"),
         Some(_) if rows.iter().any(|row| row.measured.is_some_and(|measured| measured < floor)) => {
             format!("Values below {floor:e} are drawn there")
@@ -164,9 +165,9 @@ pub(super) fn chart(case: &StabilityCase, rows: &[StabilityRow]) -> LineChart {
         note,
         x: Axis { label: format!("{}{at_0}", case.parameter), scale: case.scale, range: None },
         y: Axis {
-            label: case.measures.unwrap_or("share of wrong answers").into(),
+            label: case.measured_figure.unwrap_or("share of wrong answers").into(),
             scale: Scale::Log10,
-            range: case.measures.is_none().then_some((floor, 1.0)),
+            range: case.measured_figure.is_none().then_some((floor, 1.0)),
         },
         series,
     }

@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
-use super::{Count, StabilityCase, Verdicts, twos};
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_2};
 use crate::csg::Solid;
 use crate::geometry::Ray;
 use crate::picture::{Colour, Quality, Size};
@@ -21,24 +21,24 @@ pub(super) fn scenes() -> StabilityCase {
                 lamp, by rays that ignore crossings nearer than 10⁻⁴, an offset that does not scale with the scene; \
                 it counts once for each scene. Truth: the picture at k = 0. The count is of pixels.",
         parameter: "scale 2ᵏ, and its inverse",
-        values: twos(0, 20),
+        values: powers_of_2(0, 20),
         required: f64::from(1 << 20),
         scale: Scale::Log2,
         methods: &["beyond 1e-4", "ours"],
-        measures: None,
+        measured_figure: None,
         // A scene's pixels.
         tries: 48 * 36,
         attempt,
     }
 }
 
-fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Verdicts> {
+fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<MethodResult> {
     let height = (f64::from(tries) * 0.75).sqrt().max(1.0) as u32;
     let Ok(size) = Size::new(height * 4 / 3 + 1, height) else { return Vec::new() };
-    let mut count = Count::<2>::new();
+    let mut count = ResultCounter::<2>::new();
     for factor in [scale, scale.recip()] {
         let naive: Vec<bool> =
-            (0..size.pixels()).map(|at| is_dark(at, size, factor) != is_dark(at, size, 1.0)).collect();
+            (0..size.pixels()).map(|at| is_in_shadow(at, size, factor) != is_in_shadow(at, size, 1.0)).collect();
         for (_, text) in BUILT_IN {
             // They parse, as tests check.
             let Ok(scene) = Scene::parse(text) else { continue };
@@ -48,7 +48,7 @@ fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Verdicts> {
             }
         }
     }
-    count.outcomes()
+    count.results()
 }
 
 fn picture(scene: &Scene, size: Size) -> Vec<Colour> {
@@ -81,7 +81,7 @@ fn scale_solid(solid: &mut Solid, map: &DAffine3) {
 }
 
 /// Returns whether a naive tracer finds the pixel's point in shadow.
-fn is_dark(pixel: u32, size: Size, factor: f64) -> bool {
+fn is_in_shadow(pixel: u32, size: Size, factor: f64) -> bool {
     const EPSILON: f64 = 1e-4;
     let (ball, radius) = (DVec3::Y * factor, factor);
     let nearest = |ray: &Ray| {
@@ -97,8 +97,8 @@ fn is_dark(pixel: u32, size: Size, factor: f64) -> bool {
     let ray = Ray::new(eye, DVec3::new(across, 0.75 * up - 0.25, -1.0).normalize());
     let t = nearest(&ray);
     let point = ray.at(t);
-    let way = lamp - point;
-    t.is_finite() && nearest(&Ray::new(point, way.normalize())) < way.length()
+    let to_lamp = lamp - point;
+    t.is_finite() && nearest(&Ray::new(point, to_lamp.normalize())) < to_lamp.length()
 }
 
 #[cfg(test)]

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
-use super::super::random::{aside, between, unit};
+use super::super::random::{perpendicular, uniform, unit_vector};
 use super::exact::{Exact, dot, vector};
-use super::subject::Subject;
-use super::{Count, StabilityCase, Verdicts, tens};
+use super::placed_primitive::PlacedPrimitive;
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
@@ -23,7 +23,7 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         required,
         scale: Scale::Log10,
         methods: &["closed form", "ours"],
-        measures: None,
+        measured_figure: None,
         tries: 5000,
         attempt,
     };
@@ -36,9 +36,9 @@ pub(super) fn cases() -> [StabilityCase; 2] {
              distance. Ours starts from the line's closest point, and finds the roots between those of the \
              derivatives (Yuksel 2022). Truth: the changes of sign in Sturm's chain, without rounding.",
             "distance, radii",
-            tens(0, 10),
+            powers_of_10(0, 10),
             1e8,
-            far as fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
+            far as fn(f64, u32, &mut Rng) -> Vec<MethodResult>,
         ),
         torus(
             "thin-torus",
@@ -47,41 +47,41 @@ pub(super) fn cases() -> [StabilityCase; 2] {
              tube within two of its radii; otherwise as for the far torus. There the quartic is a difference of \
              nearly equal numbers; ours takes its sign from the factor that changes sign.",
             "radius of the tube",
-            tens(-1, -9),
+            powers_of_10(-1, -9),
             1e-6,
             thin,
         ),
     ]
 }
 
-fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     count(tries, rng, |rng| {
-        let (way, target) = (unit(rng), unit(rng) * between(rng, 0.0, 1.5));
+        let (outward, target) = (unit_vector(rng), unit_vector(rng) * uniform(rng, 0.0, 1.5));
         // All of the torus lies in front of the origin.
-        (0.25, target + way * (3.0 + distance), target)
+        (0.25, target + outward * (3.0 + distance), target)
     })
 }
 
-fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     count(tries, rng, |rng| {
-        let (sine, cosine) = between(rng, 0.0, TAU).sin_cos();
-        let way = unit(rng);
-        let target = DVec3::new(cosine, 0.0, sine) + aside(rng, way) * between(rng, 0.0, 2.0 * tube);
-        (tube, target + way * 10.0, target)
+        let (sine, cosine) = uniform(rng, 0.0, TAU).sin_cos();
+        let outward = unit_vector(rng);
+        let target = DVec3::new(cosine, 0.0, sine) + perpendicular(rng, outward) * uniform(rng, 0.0, 2.0 * tube);
+        (tube, target + outward * 10.0, target)
     })
 }
 
 /// Tries lines; `line` returns the tube's radius, the origin and the target.
-fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<Verdicts> {
-    let mut count = Count::<2>::new();
+fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<MethodResult> {
+    let mut count = ResultCounter::<2>::new();
     for _ in 0..tries {
         let (tube, origin, target) = line(rng);
-        let torus = Subject::new(Primitive::Torus { tube }, DAffine3::IDENTITY);
+        let torus = PlacedPrimitive::new(Primitive::Torus { tube }, DAffine3::IDENTITY);
         let ray = Ray::new(origin, (target - origin).normalize());
         let truth = distinct_roots(&quartic(tube, &ray));
         count.add([closed_form(tube, &ray) != truth, torus.ours(&ray).len() != truth]);
     }
-    count.outcomes()
+    count.results()
 }
 
 /// Returns the torus's quartic along a ray, the highest power first: (|p|² + 1 − tube²)² − 4 (x² + z²).
@@ -103,9 +103,9 @@ fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
 /// Counts the distinct real roots of a polynomial (Sturm 1829).
 fn distinct_roots(polynomial: &[Exact]) -> usize {
     let degree = polynomial.len() - 1;
-    let powers = (1..=degree).rev().map(|power| Exact::from(power as f64));
+    let exponents = (1..=degree).rev().map(|power| Exact::from(power as f64));
     let derivative: Vec<Exact> =
-        polynomial.iter().zip(powers).map(|(coefficient, power)| coefficient * power).collect();
+        polynomial.iter().zip(exponents).map(|(coefficient, power)| coefficient * power).collect();
     let mut chain = vec![polynomial.to_vec(), derivative];
     while let [.., a, b] = &chain[..]
         && let Some(next) = negative_remainder(a, b)
@@ -114,8 +114,9 @@ fn distinct_roots(polynomial: &[Exact]) -> usize {
     }
     // At −∞ odd powers have the opposite sign.
     let changes = |odd: bool| {
-        let sign = |polynomial: &Vec<Exact>| polynomial[0].is_positive() != (odd && polynomial.len().is_multiple_of(2));
-        chain.windows(2).filter(|two| sign(&two[0]) != sign(&two[1])).count()
+        let random_sign =
+            |polynomial: &Vec<Exact>| polynomial[0].is_positive() != (odd && polynomial.len().is_multiple_of(2));
+        chain.windows(2).filter(|two| random_sign(&two[0]) != random_sign(&two[1])).count()
     };
     changes(true) - changes(false)
 }
@@ -199,7 +200,7 @@ mod tests {
     #[test]
     fn closed_form_is_right_close_to_the_torus() {
         let rng = &mut Rng::with_seed(3);
-        let wrong = count(1000, rng, |rng| (0.5, unit(rng) * 2.0, unit(rng) * 0.5))[0].wrong;
+        let wrong = count(1000, rng, |rng| (0.5, unit_vector(rng) * 2.0, unit_vector(rng) * 0.5))[0].wrong;
         assert!(wrong < 20, "{wrong}");
     }
 }

@@ -8,7 +8,7 @@ use crate::csg::{Hit, Primitive, RayStart, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 
 /// A sphere, cylinder, cone or torus at its place.
-pub(super) struct Subject {
+pub(super) struct PlacedPrimitive {
     pub primitive: Primitive,
     pub scene_from_own: DAffine3,
     pub own_from_scene: DAffine3,
@@ -25,7 +25,7 @@ pub(super) struct Truth {
     a: Exact,
     pub b: Exact,
     c: Exact,
-    caps: Option<Caps>,
+    cap_distances: Option<Caps>,
 }
 
 /// The caps, where y + speed t is ± `height`.
@@ -35,7 +35,7 @@ struct Caps {
     height: Exact,
 }
 
-impl Subject {
+impl PlacedPrimitive {
     /// Places the primitive; the map must not mirror.
     pub fn new(primitive: Primitive, scene_from_own: DAffine3) -> Self {
         let mut tree = Tree::default();
@@ -100,7 +100,7 @@ impl Subject {
         places
     }
 
-    /// Returns a point's own coordinates times [`Subject::determinant`].
+    /// Returns a point's own coordinates times [`PlacedPrimitive::determinant`].
     fn own(&self, point: DVec3) -> Vector {
         let (p, at) = (vector(point), vector(self.scene_from_own.translation));
         let from_centre: Vector = [0, 1, 2].map(|axis| &p[axis] - &at[axis]);
@@ -116,7 +116,7 @@ impl Subject {
         let (o, d) = (self.own(ray.origin), self.own_vector(&vector(ray.direction)));
         let one = &self.determinant;
         if self.primitive == Primitive::Sphere {
-            return Truth { a: dot(&d, &d), b: dot(&o, &d), c: dot(&o, &o) - one * one, caps: None };
+            return Truth { a: dot(&d, &d), b: dot(&o, &d), c: dot(&o, &o) - one * one, cap_distances: None };
         }
         let (middle, slope) = radius(self.primitive);
         let (middle, slope) = (Exact::from(middle), Exact::from(slope));
@@ -126,7 +126,7 @@ impl Subject {
             a: round(&d, &d) - &rise * &rise,
             b: round(&o, &d) - &r * &rise,
             c: round(&o, &o) - &r * &r,
-            caps: Some(Caps { y: o[1].clone(), speed: d[1].clone(), height: one.clone() }),
+            cap_distances: Some(Caps { y: o[1].clone(), speed: d[1].clone(), height: one.clone() }),
         }
     }
 
@@ -146,10 +146,10 @@ impl Subject {
 
 impl Truth {
     /// Returns whether part of the line is inside.
-    pub fn meets(&self) -> bool {
-        let Self { a, b, c, caps } = self;
+    pub fn intersects(&self) -> bool {
+        let Self { a, b, c, cap_distances } = self;
         let dips = a.is_positive() && (b * b - a * c).is_positive();
-        let Some(Caps { y, speed, height }) = caps else { return dips };
+        let Some(Caps { y, speed, height }) = cap_distances else { return dips };
         if speed.sign().is_eq() {
             // No line along a cap is wholly inside a cylinder or cone.
             return dips && (y - height).is_negative() && (y + height).is_positive();
@@ -169,7 +169,7 @@ impl Truth {
         let t = Exact::from(t);
         let is_round = ((&self.a * &t + &self.b * Exact::from(2.0)) * &t + &self.c).is_negative();
         is_round
-            && self.caps.as_ref().is_none_or(|Caps { y, speed, height }| {
+            && self.cap_distances.as_ref().is_none_or(|Caps { y, speed, height }| {
                 let y = y + speed * t;
                 (&y - height).is_negative() && (y + height).is_positive()
             })
@@ -177,22 +177,22 @@ impl Truth {
 
     /// Returns whether a method's distances are wrong: no entry and exit where part of the line is inside, or any
     /// distance where none is.
-    pub fn is_missed_by(&self, places: &[f64]) -> bool {
-        is_broken(places) || places.is_empty() == self.meets()
+    pub fn contradicts(&self, places: &[f64]) -> bool {
+        is_impossible(places) || places.is_empty() == self.intersects()
     }
 
     /// Returns whether a method's distances are further than `tolerance` from the crossings of the line.
-    pub fn is_missed_within(&self, places: &[f64], tolerance: f64) -> bool {
+    pub fn contradicts_within(&self, places: &[f64], tolerance: f64) -> bool {
         let is_wrong = |(index, t): (usize, &f64)| {
             let enters = index % 2 == 0;
             self.contains(t - tolerance) == enters || self.contains(t + tolerance) != enters
         };
-        self.is_missed_by(places) || places.iter().enumerate().any(is_wrong)
+        self.contradicts(places) || places.iter().enumerate().any(is_wrong)
     }
 }
 
 /// Returns whether the distances are impossible for a convex solid: an odd number, more than two, or not finite.
-pub(super) fn is_broken(places: &[f64]) -> bool {
+pub(super) fn is_impossible(places: &[f64]) -> bool {
     !matches!(places.len(), 0 | 2) || places.iter().any(|t| !t.is_finite())
 }
 
@@ -206,7 +206,7 @@ fn radius(primitive: Primitive) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::random::{between, placing, unit};
+    use super::super::super::random::{random_placement, uniform, unit_vector};
     use super::*;
 
     /// On lines without difficulty all three methods agree.
@@ -216,15 +216,16 @@ mod tests {
         let (mut hits, mut all) = (0, 0);
         for primitive in [Primitive::Sphere, Primitive::Cylinder, Primitive::Cone { bottom: 1.0, top: 0.25 }] {
             for _ in 0..2000 {
-                let subject = Subject::new(primitive, placing(rng, DVec3::new(1.0, 0.7, 0.5)));
-                let target = subject.scene_from_own.translation + unit(rng) * between(rng, 0.0, 1.5);
-                let direction = unit(rng);
+                let placed_primitive =
+                    PlacedPrimitive::new(primitive, random_placement(rng, DVec3::new(1.0, 0.7, 0.5)));
+                let target = placed_primitive.scene_from_own.translation + unit_vector(rng) * uniform(rng, 0.0, 1.5);
+                let direction = unit_vector(rng);
                 let ray = Ray::new(target - direction * 5.0, direction);
-                let truth = subject.truth(&ray);
-                let (ours, textbook) = (subject.ours(&ray), subject.textbook(&ray));
-                assert!(!truth.is_missed_within(&ours, 1e-12) && !truth.is_missed_within(&textbook, 1e-12));
+                let truth = placed_primitive.truth(&ray);
+                let (ours, textbook) = (placed_primitive.ours(&ray), placed_primitive.textbook(&ray));
+                assert!(!truth.contradicts_within(&ours, 1e-12) && !truth.contradicts_within(&textbook, 1e-12));
                 all += 1;
-                hits += u32::from(truth.meets());
+                hits += u32::from(truth.intersects());
             }
         }
         assert!(hits > all / 4 && hits < all * 3 / 4, "{hits} of {all}");

@@ -18,20 +18,20 @@ use crate::time::Time;
 pub(super) const NODES: usize = 8;
 
 /// Time of the reference machine for the whole picture.
-pub(super) const WHOLE: Duration = Duration::from_secs(3);
+pub(super) const PICTURE_TIME: Duration = Duration::from_secs(3);
 
 /// Latency of a message.
 const LATENCY: Duration = Duration::from_millis(1);
 
 /// A run and its transfers.
-pub(super) struct SharedRun {
-    pub run: WatchedRun,
+pub(super) struct RingRun {
+    pub row: RingRow,
     pub transfers: Vec<Transfer>,
 }
 
 /// The row of a run.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct WatchedRun {
+pub(super) struct RingRow {
     pub scene: String,
     /// Seed of the random speeds.
     pub seed: u64,
@@ -65,32 +65,32 @@ pub(super) fn random_speeds(seed: u64) -> Vec<f64> {
 }
 
 /// Simulates the ring with atoms of the default size.
-pub(super) fn usual(bench: &Fixture, seed: u64) -> SharedRun {
-    run(bench, 50, LATENCY, seed)
+pub(super) fn run_default(fixture: &Fixture, seed: u64) -> RingRun {
+    run_ring(fixture, 50, LATENCY, seed)
 }
 
 /// Simulates the ring on machines of random speeds.
-pub(super) fn run(bench: &Fixture, atom_pixels: u32, latency: Duration, seed: u64) -> SharedRun {
-    let plain = bench.header(atom_pixels, Strategy::Ring, random_speeds(seed));
+pub(super) fn run_ring(fixture: &Fixture, atom_pixels: u32, latency: Duration, seed: u64) -> RingRun {
+    let plain = fixture.header(atom_pixels, Strategy::Ring, random_speeds(seed));
     let header = Header { driver: Driver::Sim, link: LinkSettings { latency, ..plain.link }, ..plain };
-    let costs = bench.costs(atom_pixels, WHOLE);
-    let (mut tally, mut watcher) = (Metrics::new(&header), Watcher::new(&header, costs.clone()));
+    let costs = fixture.costs(atom_pixels, PICTURE_TIME);
+    let (mut metrics, mut observer) = (Metrics::new(&header), TransferObserver::new(&header, costs.clone()));
     Sim::new(&header, &[], move |atom| costs[atom as usize]).run(&mut |record| {
-        tally.add(&record);
-        watcher.see(&record);
+        metrics.add(&record);
+        observer.observe(&record);
     });
-    let messages = tally.messages();
-    let run = WatchedRun {
+    let messages = metrics.messages();
+    let row = RingRow {
         scene: header.scene.clone(),
         seed,
         atom_pixels,
         latency_s: latency.as_secs_f64(),
         messages: messages.total,
         transfers: messages.transfers,
-        estimate_error: mean_error(&watcher.transfers),
-        lateness: tally.efficiency().map_or(f64::INFINITY, |efficiency| 1.0 / efficiency - 1.0),
+        estimate_error: mean_error(&observer.transfers),
+        lateness: metrics.efficiency().map_or(f64::INFINITY, |efficiency| 1.0 / efficiency - 1.0),
     };
-    SharedRun { run, transfers: watcher.transfers }
+    RingRun { row, transfers: observer.transfers }
 }
 
 /// Returns the mean distance of estimate and truth, weighted by the waiting work; `None` without transfers.
@@ -103,7 +103,7 @@ fn mean_error(transfers: &[Transfer]) -> Option<f64> {
 }
 
 /// Follows the owners of atoms through the records.
-struct Watcher {
+struct TransferObserver {
     nodes: Vec<NodeAtoms>,
     costs: AtomCosts,
     latency: Duration,
@@ -127,7 +127,7 @@ struct NodeAtoms {
 /// Atoms that have left the queue for the worker.
 const PIPE: usize = 2;
 
-impl Watcher {
+impl TransferObserver {
     fn new(header: &Header, costs: AtomCosts) -> Self {
         let node = |&speed: &f64| NodeAtoms { speed, atoms: VecDeque::new(), begun: None, traced: 0, offered: 0 };
         let nodes = header.speeds.iter().map(node).collect();
@@ -138,7 +138,7 @@ impl Watcher {
         &mut self.nodes[usize::from(id)]
     }
 
-    fn see(&mut self, record: &Record) {
+    fn observe(&mut self, record: &Record) {
         match &record.what {
             RecordKind::Sent { id, message: Message::Band(atoms), .. } => {
                 self.under_way.insert(*id, atoms.clone().collect());
@@ -189,7 +189,7 @@ impl Watcher {
             waiting: waiting.len() as u32,
             work: Duration::from_secs_f64(waiting.iter().sum()),
             estimate: f64::from(offerer.offered) / counted,
-            truth: even_share(
+            truth: balanced_share(
                 &waiting,
                 in_hand.max(0.0) / owner.speed,
                 self.latency.as_secs_f64(),
@@ -201,7 +201,7 @@ impl Watcher {
 
 /// Returns the share of the `waiting` work, from its end, with which offerer and owner finish together, 0 to 1. The
 /// owner cannot start it before `owner_from`, the offerer not before `offerer_from`; all in seconds.
-fn even_share(waiting: &[f64], owner_from: f64, offerer_from: f64, [owner, offerer]: [f64; 2]) -> f64 {
+fn balanced_share(waiting: &[f64], owner_from: f64, offerer_from: f64, [owner, offerer]: [f64; 2]) -> f64 {
     let mut owner_ends = owner_from + waiting.iter().sum::<f64>() / owner;
     let mut offerer_ends = offerer_from;
     for (given, work) in waiting.iter().rev().enumerate() {
@@ -231,7 +231,7 @@ mod tests {
             waiting in prop::collection::vec(0.01..1.0_f64, 1..30), owner in 0.1..1.0_f64, offerer in 0.1..1.0_f64,
             owner_from in 0.0..2.0_f64, offerer_from in 0.0..2.0_f64,
         ) {
-            let share = even_share(&waiting, owner_from, offerer_from, [owner, offerer]);
+            let share = balanced_share(&waiting, owner_from, offerer_from, [owner, offerer]);
             prop_assert!((0.0..=1.0).contains(&share));
             let given = share * waiting.len() as f64;
             let part = |place: usize| (given - (waiting.len() - 1 - place) as f64).clamp(0.0, 1.0);
@@ -246,25 +246,25 @@ mod tests {
 
     #[test]
     fn equal_machines_share_evenly_and_atoms_in_hand_count() {
-        assert_eq!(even_share(&[1.0; 8], 0.0, 0.0, [1.0, 1.0]), 0.5);
-        assert_eq!(even_share(&[1.0; 8], 2.0, 0.0, [0.5, 0.5]), 0.5 + 1.0 / 16.0);
-        assert_eq!(even_share(&[1.0; 8], 0.0, 0.0, [0.25, 0.75]), 0.75);
-        assert_eq!(even_share(&[1.0; 2], 0.0, 9.0, [1.0, 1.0]), 0.0);
+        assert_eq!(balanced_share(&[1.0; 8], 0.0, 0.0, [1.0, 1.0]), 0.5);
+        assert_eq!(balanced_share(&[1.0; 8], 2.0, 0.0, [0.5, 0.5]), 0.5 + 1.0 / 16.0);
+        assert_eq!(balanced_share(&[1.0; 8], 0.0, 0.0, [0.25, 0.75]), 0.75);
+        assert_eq!(balanced_share(&[1.0; 2], 0.0, 9.0, [1.0, 1.0]), 0.0);
     }
 
     #[test]
     fn every_transfer_is_observed_with_its_owners_atoms() {
         let scene = Opened::new("ten-objects").unwrap();
-        let bench = Fixture::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
+        let fixture = Fixture::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
         for seed in 0..5 {
-            let SharedRun { run, transfers } = usual(&bench, seed);
+            let RingRun { row, transfers } = run_default(&fixture, seed);
             // Without counts there is no estimate; that happens only at the beginning.
-            assert!(transfers.len() as u64 <= run.transfers && transfers.len() as u64 + 3 > run.transfers);
-            assert!(run.lateness > 0.0 && run.lateness < 1.0 && !transfers.is_empty());
+            assert!(transfers.len() as u64 <= row.transfers && transfers.len() as u64 + 3 > row.transfers);
+            assert!(row.lateness > 0.0 && row.lateness < 1.0 && !transfers.is_empty());
             let is_share = |share| (0.0..=1.0).contains(&share);
             assert!(transfers.iter().all(|transfer| is_share(transfer.estimate) && is_share(transfer.truth)));
             // The estimate is the protocol's, except for rounding.
-            assert!(run.estimate_error.is_some_and(|error| error < 0.5));
+            assert!(row.estimate_error.is_some_and(|error| error < 0.5));
         }
     }
 }
