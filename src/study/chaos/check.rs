@@ -85,9 +85,12 @@ struct Check<'a> {
     violation: Option<Violation>,
     /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
+    /// By node: whether it has received its shutdown.
     stopped: Vec<bool>,
     /// By atom: how often its result has reached the parent.
     placed: Vec<u32>,
+    /// Shutdowns in flight.
+    shutdowns: BTreeSet<u64>,
     /// Results in flight to the parent, by message.
     results: BTreeMap<u64, Vec<Range<Atom>>>,
     /// Offers by offerer and time, with the stops left when last sent.
@@ -108,6 +111,7 @@ impl<'a> Check<'a> {
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
+            shutdowns: BTreeSet::new(),
             results: BTreeMap::new(),
             offers: BTreeMap::new(),
             messages: 0,
@@ -127,7 +131,9 @@ impl<'a> Check<'a> {
                     self.placed[atom as usize] += 1;
                 }
             }
-            RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
+            RecordKind::Received { id, by: Party::Node(node) } if self.shutdowns.remove(id) => {
+                self.stopped[usize::from(*node)] = true;
+            }
             RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
                 self.fail(Violation::StartedAfterShutdown { node: *node, atom: *atom });
             }
@@ -135,7 +141,11 @@ impl<'a> Check<'a> {
                 self.atoms_done += 1;
                 self.traced[usize::from(*node)].insert(*atom);
             }
-            RecordKind::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
+            // A machine that restarts has forgotten its atoms and its shutdown.
+            RecordKind::Condition { node, condition: Condition::Off } => {
+                self.traced[usize::from(*node)].clear();
+                self.stopped[usize::from(*node)] = false;
+            }
             _ => {}
         }
     }
@@ -163,6 +173,7 @@ impl<'a> Check<'a> {
                     self.fail(Violation::AgainWithoutLoss(ranges.clone()));
                 }
             }
+            (Party::Parent, Message::Shutdown) => _ = self.shutdowns.insert(id),
             (Party::Parent, Message::Gone(_)) => self.gone += 1,
             _ => {}
         }
