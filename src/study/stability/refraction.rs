@@ -30,7 +30,7 @@ pub(super) fn cases() -> [StabilityCase; 3] {
             values: powers_of_10(-1, -16),
             required: 1e-12,
             scale: Scale::Log10,
-            methods: &["unchecked sign", "no look at the sign", "ours"],
+            methods: &["f32", "unchecked sign", "ours"],
             measured_figure: None,
             tries: 2000,
             attempt: critical,
