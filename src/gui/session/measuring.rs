@@ -9,7 +9,7 @@ use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::language::Language;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::study::accuracy::{MOST, Reference, measure, size_for};
+use crate::study::accuracy::{MAX_SAMPLES_PER_SIDE, Reference, measure, size_for};
 
 impl Session {
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
@@ -57,13 +57,15 @@ fn found(
     cancel: &CancelToken,
     tell: &dyn Fn(Finding),
 ) -> Result<(), String> {
-    let size = size_for(scene, small(whole)?)?;
+    let size = size_for(scene, small(whole)?);
     let mut begun = 0;
     let mut begin = || {
         begun += 1;
         tell(Finding::Begun(begun));
     };
-    let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, cancel)? else { return Ok(()) };
+    let reference =
+        Reference::trace(scene, size, MAX_SAMPLES_PER_SIDE, &mut begin, cancel).map_err(|error| error.to_string())?;
+    let Some(reference) = reference else { return Ok(()) };
     tell(Finding::Reference(reference.clone()));
     let mut known = 0;
     measure(scene, &reference, qualities, cancel, &mut |place, point, frame| {

@@ -1,4 +1,4 @@
-//! What pictures of several qualities cost, and how far they are from the reference.
+//! Measures the cost of qualities and the error of their pictures.
 
 use super::Reference;
 use crate::cancel::CancelToken;
@@ -8,35 +8,35 @@ use crate::scene::Scene;
 use crate::study::median;
 use crate::tracer::Tracer;
 
-/// What a quality costs, and how good it is.
+/// A quality with its cost and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// The knobs.
     pub quality: Quality,
-    /// CPU time on one thread, in seconds: the median of its turns so far.
+    /// CPU time on one thread in seconds: the median of the turns so far.
     pub cpu_s: f64,
     /// Rays of all kinds.
     pub rays: u64,
-    /// How far its picture is from the reference.
+    /// Difference of its picture from the reference.
     pub difference: Difference,
 }
 
 impl Point {
-    /// Its error: [`Difference::rmse`].
+    /// Returns the error: [`Difference::rmse`].
     pub fn rmse(&self) -> f64 {
         self.difference.rmse
     }
 }
 
-/// How often what does not take long is measured.
+/// How often a short measurement is repeated.
 const TURNS: usize = 3;
 
-/// Noise does not matter in what takes longer than this, in seconds.
-const LONG: f64 = 0.2;
+/// CPU time in seconds above which noise does not matter and a measurement is not repeated.
+const LONG_S: f64 = 0.2;
 
-/// Measures these qualities on this thread: all of them in turn, so that what disturbs the computer disturbs all alike.
-/// `each` is told the place of each point and its picture as soon as it is measured, and again when its time is known
-/// better. `None` if cancelled before the end.
+/// Measures the qualities on this thread. They take turns, so that a disturbance of the computer affects all alike.
+/// `each` gets the index of each point with its picture as soon as it is measured, and again when its time is more
+/// exact. `None` if `is_over` before the end.
 pub fn measure(
     scene: &Scene,
     reference: &Reference,
@@ -49,7 +49,7 @@ pub fn measure(
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); qualities.len()];
     for turn in 0..TURNS {
         for (place, &quality) in qualities.iter().enumerate() {
-            if times[place].iter().any(|&time| time > LONG) {
+            if times[place].iter().any(|&time| time > LONG_S) {
                 continue;
             }
             let found = TimedPicture::of(&Tracer::new(scene, size, quality), cancel)?;
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_told_as_they_come_and_in_turn() {
+    fn points_are_reported_in_turns() {
         let (scene, reference) = subject();
         let qualities = [1, 2, 4].map(|samples| Quality { samples, ..Quality::default() });
         let mut told = Vec::new();
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn cancelled_measurement_ends_without_a_result() {
+    fn measurement_stops_when_cancelled() {
         let (scene, reference) = subject();
         let (mut told, cancel) = (0, CancelToken::default());
         let qualities = [Quality::default(); 3];

@@ -1,4 +1,4 @@
-//! How wrong the ring's estimate of speeds is at each transfer (§7), and how late its run ends.
+//! Error of the ring's speed estimate at each transfer (§7), and lateness of its runs.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
@@ -14,86 +14,86 @@ use crate::sim::Sim;
 use crate::study::fixture::{AtomCosts, Fixture};
 use crate::time::Time;
 
-/// Machines of a ring.
+/// Machines in a ring.
 pub(super) const NODES: usize = 8;
 
-/// What the whole picture takes the reference machine.
-pub(super) const WHOLE: Duration = Duration::from_secs(3);
+/// Time of the reference machine for the whole picture.
+pub(super) const PICTURE_TIME: Duration = Duration::from_secs(3);
 
-/// A message's.
+/// Latency of a message.
 const LATENCY: Duration = Duration::from_millis(1);
 
-/// One run, and its transfers.
-pub(super) struct SharedRun {
-    pub run: WatchedRun,
+/// A run and its transfers.
+pub(super) struct RingRun {
+    pub row: RingRow,
     pub transfers: Vec<Transfer>,
 }
 
-/// What came of one run.
+/// The row of a run.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct WatchedRun {
+pub(super) struct RingRow {
     pub scene: String,
-    /// Of its random speeds.
+    /// Seed of the random speeds.
     pub seed: u64,
     pub atom_pixels: u32,
     pub latency_s: f64,
     pub messages: u64,
     pub transfers: u64,
-    /// The mean distance of the estimated share from the true one, by the work that waits.
+    /// Mean distance of the estimated share from the true one, weighted by the waiting work.
     pub estimate_error: Option<f64>,
-    /// The makespan over the ideal one, less 1.
+    /// Makespan / ideal − 1.
     pub lateness: f64,
 }
 
-/// Atoms that are given away.
+/// A transfer of atoms from their owner to an offerer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Transfer {
-    /// The owner's atoms that wait.
+    /// Number of atoms that wait with the owner.
     pub waiting: u32,
-    /// What all of these cost the reference machine.
+    /// Cost of the waiting atoms on the reference machine.
     pub work: Duration,
-    /// The part of them that counts of traced atoms say goes to the offerer, 0 to 1.
+    /// Share of the waiting atoms for the offerer by counts of traced atoms, 0 to 1.
     pub estimate: f64,
-    /// The part with which both would end together, by true speeds and costs, 0 to 1.
+    /// Share with which both finish together, by true speeds and costs, 0 to 1.
     pub truth: f64,
 }
 
-/// Speeds from a tenth to 1, the same for the same number.
+/// Returns random speeds from 0.1 to 1, the same for the same seed.
 pub(super) fn random_speeds(seed: u64) -> Vec<f64> {
     let mut rng = Rng::with_seed(seed);
     (0..NODES).map(|_| 0.1 + 0.9 * rng.f64()).collect()
 }
 
-/// A run of the ring with the usual atoms.
-pub(super) fn usual(bench: &Fixture, seed: u64) -> SharedRun {
-    run(bench, 50, LATENCY, seed)
+/// Simulates the ring with atoms of the default size.
+pub(super) fn run_default(fixture: &Fixture, seed: u64) -> RingRun {
+    run_ring(fixture, 50, LATENCY, seed)
 }
 
-/// A run of the ring in virtual time, on machines of random speeds.
-pub(super) fn run(bench: &Fixture, atom_pixels: u32, latency: Duration, seed: u64) -> SharedRun {
-    let plain = bench.header(atom_pixels, Strategy::Ring, random_speeds(seed));
+/// Simulates the ring on machines of random speeds.
+pub(super) fn run_ring(fixture: &Fixture, atom_pixels: u32, latency: Duration, seed: u64) -> RingRun {
+    let plain = fixture.header(atom_pixels, Strategy::Ring, random_speeds(seed));
     let header = Header { driver: Driver::Sim, link: LinkSettings { latency, ..plain.link }, ..plain };
-    let costs = bench.costs(atom_pixels, WHOLE);
-    let (mut tally, mut watcher) = (Metrics::new(&header), Watcher::new(&header, costs.clone()));
+    let costs = fixture.costs(atom_pixels, PICTURE_TIME);
+    let (mut metrics, mut observer) = (Metrics::new(&header), TransferObserver::new(&header, costs.clone()));
     Sim::new(&header, &[], move |atom| costs[atom as usize]).run(&mut |record| {
-        tally.add(&record);
-        watcher.see(&record);
+        metrics.add(&record);
+        observer.observe(&record);
     });
-    let messages = tally.messages();
-    let run = WatchedRun {
+    let messages = metrics.messages();
+    let row = RingRow {
         scene: header.scene.clone(),
         seed,
         atom_pixels,
         latency_s: latency.as_secs_f64(),
         messages: messages.total,
         transfers: messages.transfers,
-        estimate_error: mean_error(&watcher.transfers),
-        lateness: tally.efficiency().map_or(f64::INFINITY, |efficiency| 1.0 / efficiency - 1.0),
+        estimate_error: mean_error(&observer.transfers),
+        lateness: metrics.efficiency().map_or(f64::INFINITY, |efficiency| 1.0 / efficiency - 1.0),
     };
-    SharedRun { run, transfers: watcher.transfers }
+    RingRun { row, transfers: observer.transfers }
 }
 
-/// The mean distance of estimate and truth, by the work that waits; `None` of no transfers.
+/// Returns the mean distance of estimate and truth, weighted by the waiting work; `None` without transfers.
 fn mean_error(transfers: &[Transfer]) -> Option<f64> {
     let sum = |of: &dyn Fn(&Transfer) -> f64| {
         transfers.iter().map(|transfer| of(transfer) * transfer.work.as_secs_f64()).sum::<f64>()
@@ -102,29 +102,29 @@ fn mean_error(transfers: &[Transfer]) -> Option<f64> {
     (all > 0.0).then(|| sum(&|transfer| (transfer.estimate - transfer.truth).abs()) / all)
 }
 
-/// Follows who has which atoms.
-struct Watcher {
+/// Follows the owners of atoms through the records.
+struct TransferObserver {
     nodes: Vec<NodeAtoms>,
     costs: AtomCosts,
     latency: Duration,
-    /// Bands and transfers under way, by the number of their message.
+    /// Bands and transfers in flight, by message.
     under_way: BTreeMap<u64, Vec<Atom>>,
     transfers: Vec<Transfer>,
 }
 
-/// What one node has.
+/// The atoms of one node.
 struct NodeAtoms {
     speed: f64,
-    /// Atoms that it has still to trace, in its order.
+    /// Atoms still to be traced, in order.
     atoms: VecDeque<Atom>,
-    /// When the first of them was begun.
+    /// When the first of them was started.
     begun: Option<Time>,
     traced: u32,
-    /// What its last offer said it has traced.
+    /// Count of traced atoms in the node's last offer.
     offered: u32,
 }
 
-impl Watcher {
+impl TransferObserver {
     fn new(header: &Header, costs: AtomCosts) -> Self {
         let node = |&speed: &f64| NodeAtoms { speed, atoms: VecDeque::new(), begun: None, traced: 0, offered: 0 };
         let nodes = header.speeds.iter().map(node).collect();
@@ -135,7 +135,7 @@ impl Watcher {
         &mut self.nodes[usize::from(id)]
     }
 
-    fn see(&mut self, record: &Record) {
+    fn observe(&mut self, record: &Record) {
         match &record.what {
             RecordKind::Sent { id, message: Message::Band(atoms), .. } => {
                 self.under_way.insert(*id, atoms.clone().collect());
@@ -172,8 +172,8 @@ impl Watcher {
         }
     }
 
-    /// What is estimated and what is true when `from` gives atoms away; `None` if neither has traced any, since there is
-    /// no estimate then.
+    /// Returns the estimate and the truth when `from` gives atoms away; `None` if neither node has traced an atom,
+    /// since there is no estimate then.
     fn transfer(&self, from: NodeId, to: NodeId, now: Time) -> Option<Transfer> {
         let (owner, offerer) = (&self.nodes[usize::from(from)], &self.nodes[usize::from(to)]);
         let counted = f64::from(owner.traced) + f64::from(offerer.offered);
@@ -186,7 +186,7 @@ impl Watcher {
             waiting: waiting.len() as u32,
             work: Duration::from_secs_f64(waiting.iter().sum()),
             estimate: f64::from(offerer.offered) / counted,
-            truth: even_share(
+            truth: balanced_share(
                 &waiting,
                 in_hand.max(0.0) / owner.speed,
                 self.latency.as_secs_f64(),
@@ -196,14 +196,14 @@ impl Watcher {
     }
 }
 
-/// The part of `waiting` work, from its end, with which offerer and owner end together, 0 to 1: the owner cannot begin with it
-/// before `owner_from`, the offerer not before `offerer_from`; all in seconds.
-fn even_share(waiting: &[f64], owner_from: f64, offerer_from: f64, [owner, offerer]: [f64; 2]) -> f64 {
+/// Returns the share of the `waiting` work, from its end, with which offerer and owner finish together, 0 to 1. The
+/// owner cannot start it before `owner_from`, the offerer not before `offerer_from`; all in seconds.
+fn balanced_share(waiting: &[f64], owner_from: f64, offerer_from: f64, [owner, offerer]: [f64; 2]) -> f64 {
     let mut owner_ends = owner_from + waiting.iter().sum::<f64>() / owner;
     let mut offerer_ends = offerer_from;
     for (given, work) in waiting.iter().rev().enumerate() {
         let ahead = owner_ends - offerer_ends;
-        // What a whole atom changes of that.
+        // The change of that by a whole atom.
         let an_atom = work / owner + work / offerer;
         if ahead < an_atom {
             return (given as f64 + (ahead / an_atom).max(0.0)) / waiting.len() as f64;
@@ -224,11 +224,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn with_the_true_share_both_end_together(
+        fn balanced_share_makes_both_finish_together(
             waiting in prop::collection::vec(0.01..1.0_f64, 1..30), owner in 0.1..1.0_f64, offerer in 0.1..1.0_f64,
             owner_from in 0.0..2.0_f64, offerer_from in 0.0..2.0_f64,
         ) {
-            let share = even_share(&waiting, owner_from, offerer_from, [owner, offerer]);
+            let share = balanced_share(&waiting, owner_from, offerer_from, [owner, offerer]);
             prop_assert!((0.0..=1.0).contains(&share));
             let given = share * waiting.len() as f64;
             let part = |place: usize| (given - (waiting.len() - 1 - place) as f64).clamp(0.0, 1.0);
@@ -236,32 +236,32 @@ mod tests {
             let owner_ends = owner_from + (waiting.iter().sum::<f64>() - work) / owner;
             let offerer_ends = offerer_from + work / offerer;
             let apart = owner_ends - offerer_ends;
-            // All or nothing is the best where even that is not enough.
+            // All or nothing is best where even that is not enough.
             prop_assert!(apart.abs() < 1e-9 || (share == 0.0 && apart < 0.0) || (share == 1.0 && apart > 0.0));
         }
     }
 
     #[test]
-    fn equals_share_evenly_and_what_is_in_hand_counts() {
-        assert_eq!(even_share(&[1.0; 8], 0.0, 0.0, [1.0, 1.0]), 0.5);
-        assert_eq!(even_share(&[1.0; 8], 2.0, 0.0, [0.5, 0.5]), 0.5 + 1.0 / 16.0);
-        assert_eq!(even_share(&[1.0; 8], 0.0, 0.0, [0.25, 0.75]), 0.75);
-        assert_eq!(even_share(&[1.0; 2], 0.0, 9.0, [1.0, 1.0]), 0.0);
+    fn equal_machines_share_evenly_and_atoms_in_hand_count() {
+        assert_eq!(balanced_share(&[1.0; 8], 0.0, 0.0, [1.0, 1.0]), 0.5);
+        assert_eq!(balanced_share(&[1.0; 8], 2.0, 0.0, [0.5, 0.5]), 0.5 + 1.0 / 16.0);
+        assert_eq!(balanced_share(&[1.0; 8], 0.0, 0.0, [0.25, 0.75]), 0.75);
+        assert_eq!(balanced_share(&[1.0; 2], 0.0, 9.0, [1.0, 1.0]), 0.0);
     }
 
     #[test]
-    fn every_transfer_is_seen_with_what_its_owner_had() {
+    fn every_transfer_is_observed_with_its_owners_atoms() {
         let scene = Opened::new("ten-objects").unwrap();
-        let bench = Fixture::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
+        let fixture = Fixture::new(&scene, Size::new(160, 120).unwrap(), 1).unwrap();
         for seed in 0..5 {
-            let SharedRun { run, transfers } = usual(&bench, seed);
-            // Without counts there is no estimate, which happens only at the beginning.
-            assert!(transfers.len() as u64 <= run.transfers && transfers.len() as u64 + 3 > run.transfers);
-            assert!(run.lateness > 0.0 && run.lateness < 1.0 && !transfers.is_empty());
+            let RingRun { row, transfers } = run_default(&fixture, seed);
+            // Without counts there is no estimate; that happens only at the beginning.
+            assert!(transfers.len() as u64 <= row.transfers && transfers.len() as u64 + 3 > row.transfers);
+            assert!(row.lateness > 0.0 && row.lateness < 1.0 && !transfers.is_empty());
             let is_share = |share| (0.0..=1.0).contains(&share);
             assert!(transfers.iter().all(|transfer| is_share(transfer.estimate) && is_share(transfer.truth)));
-            // The estimate is what the protocol gives, but for rounding.
-            assert!(run.estimate_error.is_some_and(|error| error < 0.5));
+            // The estimate is the protocol's, except for rounding.
+            assert!(row.estimate_error.is_some_and(|error| error < 0.5));
         }
     }
 }
