@@ -7,3 +7,4 @@ mod bad_input;
 mod chrome_trace;
 mod exports;
 mod fuzz;
+mod old_runs;
