@@ -1,26 +1,26 @@
 //! The window: paints the drawings of `view` and sends the user's commands to the run.
 //!
-//! The modules stand in the order of their imports: each one imports only from those before it.
+//! The modules in the order of their layers: a module imports only from lower layers (`tests/tidy` checks this).
 
-/// The user's settings, their history, and the header of a run made from them.
+// Layer 0: the settings, their history, and the header of a run made from them.
 mod settings;
 
-/// The run on the stage and the background jobs; the only module with threads and clocks.
+// Layer 1: the run on the stage and the background jobs; the only module with threads and clocks.
 mod session;
 
-/// Buttons, sliders, fonts, colours, and the painter of display lists; they know no run.
+// Layer 2: buttons, sliders, fonts, colours, and the painter of display lists.
 mod widgets;
 
-/// Keys, context menus and the selection.
+// Layer 3: keys, context menus, selection.
 mod input;
 
-/// The parts of the main page: picture, ring, machines, timeline, bars.
+// Layer 4: the parts of the main page: picture, ring, machines, timeline, bars.
 mod panels;
 
-/// The pages that replace the main page: scenes, lessons, comparison, accuracy, keys.
+// Layer 5: the pages that replace the main page.
 mod pages;
 
-/// Puts all of it into one window and keeps the settings between two windows.
+// Layer 6: the arrangement of panels and pages, and the state kept between two windows.
 mod app;
 
 use std::panic::{self, AssertUnwindSafe};

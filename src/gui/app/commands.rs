@@ -60,7 +60,11 @@ impl App {
             }
             UserCommand::Copy => {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
-                session.note(word!(language, "The picture is copied to the clipboard", "A imagem foi copiada para a área de transferência"));
+                session.note(word!(
+                    language,
+                    "The picture is copied to the clipboard",
+                    "A imagem foi copiada para a área de transferência"
+                ));
             }
             UserCommand::Save => self.save_bar.toggle(session),
             UserCommand::SaveRun => self.save_bar.open_for_run(session),

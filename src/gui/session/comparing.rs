@@ -1,13 +1,14 @@
 //! The jobs of the Compare page: they run trials in virtual time.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
 use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnce};
 use super::jobs::Jobs;
 use crate::balance::Strategy;
+use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
 use crate::language::Language;
 use crate::palette::Rgb;
@@ -50,7 +51,7 @@ impl ComparisonSubject {
 #[derive(Default)]
 pub struct TracingProgress {
     done: AtomicU32,
-    is_cancelled: AtomicBool,
+    cancel: CancelToken,
 }
 
 impl TracingProgress {
@@ -61,7 +62,7 @@ impl TracingProgress {
 
     /// Cancels the tracing.
     pub fn cancel(&self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
+        self.cancel.cancel();
     }
 }
 
@@ -116,42 +117,32 @@ impl Jobs {
     ) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::Compared(number, CompareResult::Failed(why));
-        self.start_many(
-            "compare",
-            failed,
-            move |send| {
-                let send = |result| send(JobResult::Compared(number, result));
-                let picture = match picture {
-                    PictureSource::Traced(picture) => picture,
-                    PictureSource::Untraced(progress) => match trace_once(&subject.tracer, &progress) {
-                        Ok(None) => return,
-                        Ok(Some(picture)) => picture,
-                        Err(why) => return send(CompareResult::Failed(why)),
-                    },
-                };
-                send(CompareResult::Picture(Arc::clone(&picture)));
-                for (id, name, trial) in trials {
-                    let log = Arc::new(subject.paced(trial, &picture.costs).run(&picture.costs));
-                    send(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &picture.pixels, ground))));
-                }
-            },
-            language,
-        );
+        self.start_many(language, "compare", failed, move |send| {
+            let send = |result| send(JobResult::Compared(number, result));
+            let picture = match picture {
+                PictureSource::Traced(picture) => picture,
+                PictureSource::Untraced(progress) => match trace_once(&subject.tracer, &progress) {
+                    Ok(None) => return,
+                    Ok(Some(picture)) => picture,
+                    Err(why) => return send(CompareResult::Failed(why)),
+                },
+            };
+            send(CompareResult::Picture(Arc::clone(&picture)));
+            for (id, name, trial) in trials {
+                let log = Arc::new(subject.paced(trial, &picture.costs).run(&picture.costs));
+                send(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &picture.pixels, ground))));
+            }
+        });
         number
     }
 
     fn grow(&mut self, subject: ComparisonSubject, picture: Arc<TracedOnce>, language: Language) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::Compared(number, CompareResult::Failed(why));
-        self.start_many(
-            "grow",
-            failed,
-            move |send| {
-                let trial = subject.paced(subject.trial.clone(), &picture.costs);
-                send(JobResult::Compared(number, CompareResult::Growth(growth_of(&trial, &picture.costs))));
-            },
-            language,
-        );
+        self.start_many(language, "grow", failed, move |send| {
+            let trial = subject.paced(subject.trial.clone(), &picture.costs);
+            send(JobResult::Compared(number, CompareResult::Growth(growth_of(&trial, &picture.costs))));
+        });
         number
     }
 }
@@ -159,8 +150,7 @@ impl Jobs {
 /// Traces the picture on all cores; `None` if that is cancelled.
 fn trace_once(tracer: &Arc<Tracer>, progress: &TracingProgress) -> Result<Option<Arc<TracedOnce>>, String> {
     let done = |more| _ = progress.done.fetch_add(more, Ordering::Relaxed);
-    let is_over = || progress.is_cancelled.load(Ordering::Relaxed);
-    let traced = TracedPicture::by_pixel(tracer, &done, &is_over)?;
+    let traced = TracedPicture::by_pixel(tracer, &done, &progress.cancel).map_err(|error| error.to_string())?;
     Ok(traced.map(|(pixels, costs)| Arc::new(TracedOnce { pixels, costs })))
 }
 

@@ -6,11 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crossbeam_channel::{Sender, TryRecvError, bounded};
-
 use super::Session;
 use super::job_result::JobResult;
 use super::jobs::save_message;
+use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::say;
@@ -48,7 +47,7 @@ pub(super) struct ExportJob {
     /// Share that is done, 0 to 1.
     share: f64,
     /// Dropping it cancels the job.
-    _stop: Sender<()>,
+    _cancel: CancelOnDrop,
 }
 
 /// Error of a cancelled job. The session ignores its result, so nobody reads it.
@@ -61,8 +60,13 @@ struct ExportSource {
     frame: Option<Frame>,
 }
 
-/// Takes the share that is done; returns whether to continue.
-type ProgressSink<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+/// Progress and cancellation of an export.
+#[derive(Clone, Copy)]
+struct ExportContext<'a> {
+    /// Takes the share that is done, 0 to 1.
+    progress: &'a (dyn Fn(f64) + Sync),
+    cancel: &'a CancelToken,
+}
 
 impl Session {
     /// Starts the job that makes the file `path`.
@@ -79,29 +83,24 @@ impl Session {
         // The picture of a recorded run may still be being traced.
         let has_picture = !self.is_recorded() || self.stage.performer.has_ended();
         let source = ExportSource { log: self.stage.log.clone(), frame: has_picture.then(|| self.stage.frame.clone()) };
-        let (job, (stop, stopped)) = (self.jobs.number(), bounded::<()>(0));
+        let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
+        let cancel = owner.token();
         // An older notice would hide the progress.
         self.notice = None;
-        self.export_job = Some(ExportJob { job, name, started: self.clock, share: 0.0, _stop: stop });
+        self.export_job = Some(ExportJob { job, name, started: self.clock, share: 0.0, _cancel: owner });
         let failed = move |why| JobResult::Exported(job, Err(why));
-        self.jobs.start_many(
-            "export",
-            failed,
-            move |send| {
-                let percent = AtomicU32::new(0);
-                let progress = |share: f64| {
-                    let now = (100.0 * share) as u32;
-                    // One message for each percent is enough for the window.
-                    if percent.fetch_max(now, Ordering::Relaxed) < now {
-                        send(JobResult::Progress(job, share));
-                    }
-                    stopped.try_recv() != Err(TryRecvError::Disconnected)
-                };
-                let result = source.write(&path, export, &progress);
-                send(JobResult::Exported(job, save_message(&path, result, language)));
-            },
-            language,
-        );
+        self.jobs.start_many(language, "export", failed, move |send| {
+            let percent = AtomicU32::new(0);
+            let progress = |share: f64| {
+                let now = (100.0 * share) as u32;
+                // One message for each percent is enough for the window.
+                if percent.fetch_max(now, Ordering::Relaxed) < now {
+                    send(JobResult::Progress(job, share));
+                }
+            };
+            let result = source.write(&path, export, ExportContext { progress: &progress, cancel: &cancel });
+            send(JobResult::Exported(job, save_message(&path, result, language)));
+        });
     }
 
     /// Returns the name of the file that is being exported, the elapsed seconds, and the share that is done (0 to 1).
@@ -139,14 +138,15 @@ impl ExportSource {
     ///
     /// # Errors
     /// A sentence, if the picture cannot be traced or the file cannot be written.
-    fn write(&self, path: &Path, export: Export, progress: ProgressSink<'_>) -> Result<(), String> {
+    fn write(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<(), String> {
+        let ExportContext { progress, cancel } = context;
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
         let written = match export {
             Export::Picture(size, quality) => {
                 let tracer = self.tracer(size, quality)?;
-                let rgb = trace_strips(&tracer, &|share| _ = progress(share), &|| !progress(0.0))?;
+                let rgb = trace_strips(&tracer, progress, cancel).map_err(|error| error.to_string())?;
                 write_png(path, size, &rgb.ok_or(CANCELLED)?)
             }
             Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
@@ -155,9 +155,14 @@ impl ExportSource {
             Export::Film(film) => {
                 let frame = match &self.frame {
                     Some(frame) => frame.clone(),
-                    None => self.trace(progress)?,
+                    None => self.trace(cancel)?,
                 };
-                write(&|file| film.write(file, log, &frame, &mut |share| progress(share)))
+                write(&|file| {
+                    film.write(file, log, &frame, &mut |share| {
+                        progress(share);
+                        !cancel.is_cancelled()
+                    })
+                })
             }
             Export::Table => write(&|file| write_csv(file, log)),
             Export::Chrome => write(&|file| write_chrome(file, log)),
@@ -171,10 +176,11 @@ impl ExportSource {
         Ok(Arc::new(Tracer::new(&scene, size, quality)))
     }
 
-    fn trace(&self, progress: ProgressSink<'_>) -> Result<Frame, String> {
+    fn trace(&self, cancel: &CancelToken) -> Result<Frame, String> {
         let header = &self.log.header;
         let tracer = self.tracer(header.size, header.quality)?;
-        let traced = TracedPicture::unless(&tracer, header.division, &|_| {}, &|| !progress(0.0))?.ok_or(CANCELLED)?;
-        Ok(Frame::of(header.size, &traced.pixels))
+        let traced = TracedPicture::unless_cancelled(&tracer, header.division, &|_| {}, cancel);
+        let picture = traced.map_err(|error| error.to_string())?.ok_or(CANCELLED)?;
+        Ok(Frame::of(header.size, &picture.pixels))
     }
 }

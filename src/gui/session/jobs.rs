@@ -9,6 +9,7 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
+use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
 use crate::picture::{Size, write_png};
 use crate::runlog::RunLog;
@@ -24,7 +25,7 @@ pub struct Jobs {
     /// Dropping it ends the watch of the open file.
     watch: Option<Sender<()>>,
     /// Dropping it cancels the measurement.
-    pub(super) measuring: Option<Sender<()>>,
+    pub(super) measuring: Option<CancelOnDrop>,
 }
 
 impl Jobs {
@@ -47,44 +48,39 @@ impl Jobs {
         pixels: impl FnOnce() -> Vec<u8> + Send + 'static,
         language: Language,
     ) {
-        self.start(
-            "save",
-            move || JobResult::Saved(save_message(&path, write_png(&path, size, &pixels()), language)),
-            language,
-        );
+        self.start(language, "save", move || {
+            JobResult::Saved(save_message(&path, write_png(&path, size, &pixels()), language))
+        });
     }
 
     /// Writes a run file.
     pub fn save_run(&self, path: PathBuf, log: RunLog, language: Language) {
-        self.start("save", move || JobResult::Saved(save_message(&path, log.save(&path), language)), language);
+        self.start(language, "save", move || JobResult::Saved(save_message(&path, log.save(&path), language)));
     }
 
     /// Shows the system's file dialog. If there is none, the result is the same as after cancelling.
     pub fn choose_file(&self, purpose: Purpose, at: PathBuf, language: Language) {
         let [scenes, lessons, all] =
             word!(language, ["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
-        self.start(
-            "file dialog",
-            move || {
-                let mut dialog = rfd::FileDialog::new();
-                if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
-                    dialog = dialog.set_directory(directory);
-                }
-                let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-                let chosen = match purpose {
-                    Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
-                    Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
-                    Purpose::Save => dialog.set_file_name(name).save_file(),
-                };
-                JobResult::Chosen(purpose, chosen)
-            },
-            language,
-        );
+        self.start(language, "file dialog", move || {
+            let mut dialog = rfd::FileDialog::new();
+            if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
+                dialog = dialog.set_directory(directory);
+            }
+            let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let chosen = match purpose {
+                Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
+                Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
+                Purpose::Save => dialog.set_file_name(name).save_file(),
+            };
+            JobResult::Chosen(purpose, chosen)
+        });
     }
 
     /// Traces thumbnails of these scenes, one after the other.
     pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
         self.start_many(
+            language,
             "thumbnails",
             |why| JobResult::Saved(Err(why)),
             move |send| {
@@ -94,13 +90,12 @@ impl Jobs {
                     send(JobResult::Thumbnail(scene, picture));
                 }
             },
-            language,
         );
     }
 
     /// Traces a pixel for the inspector.
     pub fn inspect(&self, trace: impl FnOnce() -> Option<Inspected> + Send + 'static, language: Language) {
-        self.start("inspect", move || JobResult::Inspected(trace().map(Box::new)), language);
+        self.start(language, "inspect", move || JobResult::Inspected(trace().map(Box::new)));
     }
 
     /// Watches this file instead of the last one.
@@ -110,6 +105,7 @@ impl Jobs {
         let (stop, stopped) = bounded(0);
         self.watch = Some(stop);
         self.start_many(
+            language,
             "watch",
             |why| JobResult::Saved(Err(why)),
             move |send| {
@@ -123,7 +119,6 @@ impl Jobs {
                     }
                 }
             },
-            language,
         );
     }
 
@@ -134,17 +129,17 @@ impl Jobs {
     }
 
     /// Starts a job that has one result.
-    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> JobResult + Send + 'static, language: Language) {
-        self.start_many(name, |why| JobResult::Saved(Err(why)), move |send| send(job()), language);
+    pub(super) fn start(&self, language: Language, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
+        self.start_many(language, name, |why| JobResult::Saved(Err(why)), move |send| send(job()));
     }
 
     /// Starts a job that sends several results. `failed` makes the result if its thread cannot be started.
     pub(super) fn start_many(
         &self,
+        language: Language,
         name: &str,
         failed: impl FnOnce(String) -> JobResult,
         job: impl FnOnce(&(dyn Fn(JobResult) + Sync)) + Send + 'static,
-        language: Language,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let send = move |result| {

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use crossbeam_channel::{TryRecvError, bounded};
-
 use super::Session;
 use super::job_result::{Finding, JobResult, Prepared};
 use super::jobs::Jobs;
+use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::language::Language;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::study::accuracy::{MOST, Reference, measure, size_for};
+use crate::study::accuracy::{MAX_SAMPLES_PER_SIDE, Reference, measure, size_for};
 
 impl Session {
     /// Starts the measurement of these qualities; it replaces the present one. Returns the job's number.
@@ -31,21 +30,17 @@ impl Jobs {
     /// number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>, language: Language) -> u64 {
         let number = self.number();
-        let (stop, stopped) = bounded::<()>(0);
-        self.measuring = Some(stop);
+        // Replacing the owner cancels the earlier measurement.
+        let owner = CancelOnDrop::default();
+        let cancel = owner.token();
+        self.measuring = Some(owner);
         let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
         let failed = move |why| JobResult::Found(number, Finding::Over(Err(why)));
-        self.start_many(
-            "measure",
-            failed,
-            move |send| {
-                let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
-                let send = |finding| send(JobResult::Found(number, finding));
-                send(Finding::Needs(tracer.compiled(), tracer.levels()));
-                send(Finding::Over(measure_all(&opened.scene, whole, &qualities, &is_over, &send)));
-            },
-            language,
-        );
+        self.start_many(language, "measure", failed, move |send| {
+            let send = |finding| send(JobResult::Found(number, finding));
+            send(Finding::Needs(tracer.scene_stats(), tracer.levels()));
+            send(Finding::Over(measure_all(&opened.scene, whole, &qualities, &cancel, &send)));
+        });
         number
     }
 
@@ -55,24 +50,26 @@ impl Jobs {
     }
 }
 
-/// Measures all qualities, unless it `is_over` before, and sends each result.
+/// Measures all qualities, unless cancelled, and sends each result.
 fn measure_all(
     scene: &Scene,
     whole: Size,
     qualities: &[Quality],
-    is_over: &(dyn Fn() -> bool + Sync),
+    cancel: &CancelToken,
     send: &dyn Fn(Finding),
 ) -> Result<(), String> {
-    let size = size_for(scene, shrink(whole)?)?;
+    let size = size_for(scene, shrink(whole)?);
     let mut begun = 0;
     let mut begin = || {
         begun += 1;
         send(Finding::Begun(begun));
     };
-    let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, is_over)? else { return Ok(()) };
+    let reference =
+        Reference::trace(scene, size, MAX_SAMPLES_PER_SIDE, &mut begin, cancel).map_err(|error| error.to_string())?;
+    let Some(reference) = reference else { return Ok(()) };
     send(Finding::Reference(reference.clone()));
     let mut measured = 0;
-    measure(scene, &reference, qualities, is_over, &mut |index, point, frame| {
+    measure(scene, &reference, qualities, cancel, &mut |index, point, frame| {
         // First measurements come in the order of the qualities.
         let is_first = index == measured;
         measured += usize::from(is_first);
@@ -86,7 +83,7 @@ fn shrink(whole: Size) -> Result<Size, String> {
     const MAX_PIXELS: f64 = 160.0 * 120.0;
     let scale = (MAX_PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
     let side = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
-    Size::new(side(whole.width()), side(whole.height()))
+    Ok(Size::new(side(whole.width()), side(whole.height()))?)
 }
 
 #[cfg(test)]

@@ -94,7 +94,7 @@ impl Session {
         }
         moving.is_settled = true;
         let camera = moving.camera;
-        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.seen_by(camera));
+        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.with_camera(camera));
         match opened {
             Some(opened) => {
                 self.show(Opening::Scene(Arc::new(opened)));
@@ -151,7 +151,7 @@ impl Session {
 impl Jobs {
     /// Traces a coarse preview of the scene, as fine as the time limit allows.
     fn preview(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
-        self.start("camera", move || JobResult::CameraPreview(preview(&scene, size, quality)), language);
+        self.start(language, "camera", move || JobResult::CameraPreview(preview(&scene, size, quality)));
     }
 }
 

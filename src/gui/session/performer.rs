@@ -1,11 +1,8 @@
 //! Source of the records and pixels on the stage: the threads of a live run, or a recorded run whose picture is traced
 //! again.
 
-use std::time::Duration;
-
 use crossbeam_channel::Receiver;
 
-use crate::balance::{Condition, NodeId, Party};
 use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
@@ -56,31 +53,10 @@ impl RunSource {
         }
     }
 
-    /// Sets a machine's speed in a live run.
-    pub fn set_speed(&self, node: NodeId, speed: f64) {
+    /// Executes a command on a live run; a recorded run ignores it.
+    pub fn command(&self, command: Command) {
         if let Self::Live(run) = self {
-            run.set_speed(node, speed);
-        }
-    }
-
-    /// Pauses or resumes a machine in a live run.
-    pub fn set_node_paused(&self, node: NodeId, paused: bool) {
-        if let Self::Live(run) = self {
-            run.set_paused(node, paused);
-        }
-    }
-
-    /// Sets a machine's condition in a live run.
-    pub fn set_condition(&self, node: NodeId, condition: Condition) {
-        if let Self::Live(run) = self {
-            run.command(Command::Condition { node, condition });
-        }
-    }
-
-    /// Delays the messages that are on their way between two parties of a live run.
-    pub fn delay(&self, from: Party, to: Party, by: Duration) {
-        if let Self::Live(run) = self {
-            run.command(Command::Delay { from, to, by });
+            run.command(command);
         }
     }
 
@@ -88,13 +64,6 @@ impl RunSource {
     pub fn set_rate(&self, rate: f64) {
         if let Self::Live(run) = self {
             run.set_rate(rate);
-        }
-    }
-
-    /// Sets the latency of a live run.
-    pub fn set_latency(&self, latency: Duration) {
-        if let Self::Live(run) = self {
-            run.set_latency(latency);
         }
     }
 }

@@ -8,7 +8,7 @@ use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
 use super::opening::{Opening, unreadable_scene};
 use super::preview::{PREVIEW_STEP, PREVIEW_TIME, preview_pixels, with_preview};
-use crate::driver::{RAY, probe};
+use crate::driver::{RAY_COST, probe};
 use crate::language::{Language, say};
 use crate::picture::Size;
 use crate::scene::Opened;
@@ -25,35 +25,31 @@ impl Jobs {
     ) -> u64 {
         let number = self.number();
         let (size, quality, division) = (settings.size, settings.quality, settings.division());
-        self.start(
-            "prepare",
-            move || {
-                let ready = read().and_then(|opening| match opening {
-                    Opening::Scene(opened) => {
-                        let tracer = Tracer::new(&opened.scene, size, quality);
-                        let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
-                        let estimate = probe(&tracer, division, PROBE_TIME);
-                        let cpu = estimate.whole_with_rests(&tracer, division);
-                        let virtual_time = RAY.mul_f64(estimate.rays as f64);
-                        let preview = preview_pixels(&tracer);
-                        Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
-                    }
-                    Opening::Run(log) => {
-                        check_size(log.header.size, language)?;
-                        let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                        let opened = opened.map_err(|error| unreadable_scene(&error, language))?;
-                        let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                        let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
-                        let view = Arc::new(RunView::of(&log));
-                        let preview = preview_pixels(&tracer);
-                        Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, view }))
-                    }
-                    Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
-                });
-                JobResult::Ready(number, ready)
-            },
-            language,
-        );
+        self.start(language, "prepare", move || {
+            let ready = read().and_then(|opening| match opening {
+                Opening::Scene(opened) => {
+                    let tracer = Tracer::new(&opened.scene, size, quality);
+                    let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
+                    let estimate = probe(&tracer, division, PROBE_TIME);
+                    let cpu = estimate.whole_with_rests(&tracer, division);
+                    let virtual_time = RAY_COST.mul_f64(estimate.rays as f64);
+                    let preview = preview_pixels(&tracer);
+                    Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
+                }
+                Opening::Run(log) => {
+                    check_size(log.header.size, language)?;
+                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
+                    let opened = opened.map_err(|error| unreadable_scene(&error, language))?;
+                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
+                    let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
+                    let view = Arc::new(RunView::of(&log));
+                    let preview = preview_pixels(&tracer);
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, view }))
+                }
+                Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
+            });
+            JobResult::Ready(number, ready)
+        });
         number
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn preview_pixels(tracer: &Tracer) -> Arc<[Rgb]> {
     let (width, height) = (tracer.size().width(), tracer.size().height());
     let Some(preview) = tracer.preview() else { return Arc::default() };
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    pixels.map(|(x, y)| srgb8(preview.guess(x, y))).collect()
+    pixels.map(|(x, y)| srgb8(preview.interpolate(x, y))).collect()
 }
 
 /// Traces the thumbnail of a scene for the Scenes page.

@@ -7,6 +7,7 @@ use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::preview_pixels;
+use crate::cancel::CancelToken;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
 use crate::view::RunView;
@@ -72,34 +73,30 @@ impl Session {
 impl Jobs {
     fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>, language: Language) -> u64 {
         let number = self.number();
-        self.start(
-            "lesson",
-            move || {
-                let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
-                // The pictures of a lesson are small, so the job cannot be cancelled.
-                let performed = lesson.perform(&done, &|| false);
-                let prepared = performed.and_then(|performed| {
-                    let performed = performed.unwrap_or_default();
-                    lesson.has_moments(&performed)?;
-                    let values = lesson.values(&performed);
-                    let recorded = performed.into_iter().map(|(name, run)| {
-                        let view = Arc::new(RunView::of(&run.log));
-                        let preview = preview_pixels(&run.tracer);
-                        (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, view })
-                    });
-                    Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
+        self.start(language, "lesson", move || {
+            let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
+            // The pictures of a lesson are small, so the job cannot be cancelled.
+            let performed = lesson.perform(&done, &CancelToken::default());
+            let prepared = performed.and_then(|performed| {
+                let performed = performed.unwrap_or_default();
+                lesson.has_moments(&performed)?;
+                let values = lesson.values(&performed);
+                let recorded = performed.into_iter().map(|(name, run)| {
+                    let view = Arc::new(RunView::of(&run.log));
+                    let preview = preview_pixels(&run.tracer);
+                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, view })
                 });
-                let error = |why| {
-                    say!(
-                        language,
-                        "The lesson cannot be shown. Correct its file: {why}",
-                        "A lição não pode ser mostrada. Corrija seu arquivo: {why}"
-                    )
-                };
-                JobResult::LessonPrepared(number, prepared.map_err(error))
-            },
-            language,
-        );
+                Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
+            });
+            let error = |why| {
+                say!(
+                    language,
+                    "The lesson cannot be shown. Correct its file: {why}",
+                    "A lição não pode ser mostrada. Corrija seu arquivo: {why}"
+                )
+            };
+            JobResult::LessonPrepared(number, prepared.map_err(error))
+        });
         number
     }
 }

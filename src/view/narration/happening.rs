@@ -5,8 +5,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use super::status::PIPE;
-use crate::balance::{NodeId, Remedy};
+use crate::balance::{NodeId, PIPE_ATOMS, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::view::state::node_state::NodeState;
@@ -247,7 +246,7 @@ impl Happening {
             0 if !state.sharing.is_ring() && state.sharing != Sharing::Stealing => PauseEffect::None,
             _ if state.sharing.is_farm() => PauseEffect::KeepsPart,
             _ if state.sharing.is_fixed() => PauseEffect::NobodyHelps,
-            1..=PIPE if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
+            1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
             left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => PauseEffect::OthersHelp,
             _ => PauseEffect::None,
         };

@@ -215,7 +215,7 @@ pub const MAX_SIDE_PX: u32 = 16_384;
 /// # Errors
 /// A sentence, if a side is 0 or there are too many pixels.
 pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
-    Size::new(width.min(MAX_SIDE_PX), height.min(MAX_SIDE_PX))
+    Ok(Size::new(width.min(MAX_SIDE_PX), height.min(MAX_SIDE_PX))?)
 }
 
 #[cfg(test)]

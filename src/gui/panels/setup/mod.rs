@@ -224,7 +224,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
     labelled_row(ui, word!(language, "Tree of rays", "Árvore de raios"), look, |ui| {
         let (suffix, name) =
             word!(language, (" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
-        number_field(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, suffix, VALUE_WIDTH_PT, name);
+        number_field(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE_WIDTH_PT, name);
     });
     let cutoff_text = |cutoff: f64| {
         let max = decimal(language, 100.0 * cutoff, 2);

@@ -6,7 +6,7 @@ pub mod incomplete;
 mod stopped;
 mod without_ring;
 
-use crate::balance::NodeId;
+use crate::balance::{NodeId, PIPE_ATOMS};
 use crate::language::{Language, say, word};
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
@@ -15,9 +15,6 @@ use adaptive_ring::standing_adaptive;
 use deadlock::{hangs, why as amiss};
 use stopped::{all_left, all_still, in_queues, remedy, why};
 use without_ring::without_ring;
-
-/// What a machine's pipe holds at most: more than that lies in its queue. What is in a pipe is never given away.
-pub(crate) const PIPE: u32 = 2;
 
 /// A node and what is known of it.
 pub(crate) type Machine<'a> = (NodeId, &'a NodeState);
@@ -96,7 +93,7 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
             "Only {name} still computes its last atom: what is in a pipe is not given away",
             "Só {name} ainda calcula seu último átomo: o que está num pipe não se cede"
         ),
-        2..=PIPE => say!(
+        2..=PIPE_ATOMS => say!(
             language,
             "Only {name} still computes: its last {left} are in its pipe, and what is in a pipe is not given away",
             "Só {name} ainda calcula: seus últimos {left} estão no pipe, e o que está num pipe não se cede"
@@ -127,7 +124,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
     let retired = retired(state);
     if !still.is_empty() {
         format!("{compute}; {}", waiting(still, language))
-    } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE {
+    } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE_ATOMS {
         let who = names(&retired, language);
         match &*retired {
             [_] => say!(

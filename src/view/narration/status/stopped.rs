@@ -1,7 +1,7 @@
 //! Machines that stand still: why they do, with how many atoms, and what makes them go on.
 
-use super::{Machine, PIPE};
-use crate::balance::Condition;
+use super::Machine;
+use crate::balance::{Condition, PIPE_ATOMS};
 use crate::language::{Language, say, word};
 use crate::view::state::node_state::NodeState;
 
@@ -60,5 +60,5 @@ pub(crate) fn all_left(machines: &[Machine<'_>]) -> u32 {
 
 /// How many of their atoms could be given away.
 pub(crate) fn in_queues(machines: &[Machine<'_>]) -> u32 {
-    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE)).sum()
+    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE_ATOMS)).sum()
 }
