@@ -51,6 +51,11 @@ pub struct Launch {
 /// The smallest window in which everything has its place, in points.
 const LEAST: [f32; 2] = [800.0, 500.0];
 
+/// Decodes the window's icon; an icon without pixels, which windowing systems ignore, if it is not PNG.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
+}
+
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
@@ -59,6 +64,7 @@ pub fn open(launch: Launch) -> Result<(), String> {
     let viewport = egui::ViewportBuilder::default()
         .with_title("anel")
         .with_app_id("anel")
+        .with_icon(icon())
         .with_inner_size([1280.0, 800.0])
         .with_min_inner_size(LEAST);
     let window_builder: Option<eframe::WindowBuilderHook> = Some(Box::new(not_too_small));
@@ -130,6 +136,11 @@ const RENDERER: eframe::Renderer = eframe::Renderer::Wgpu;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn window_has_icon() {
+        assert_eq!((icon().width, icon().height), (256, 256));
+    }
 
     #[test]
     fn an_absurd_size_does_not_come_back() {
