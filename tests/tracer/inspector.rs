@@ -57,8 +57,7 @@ fn tree_has_all_rays_with_the_weights_of_the_equation() {
             assert_eq!(sample.rays_left_out > 0, sample.left_out > 1e-12, "{name}: {}", sample.left_out);
             for ray in &sample.rays {
                 let Some(from) = ray.path.from.map(|from| &sample.rays[from as usize]) else { continue };
-                let material =
-                    &scene.materials[from.met.expect("it starts on a surface").tag as usize];
+                let material = &scene.materials[from.met.expect("it starts on a surface").tag as usize];
                 let part = ray.path.weight / from.path.weight;
                 let possible = match ray.path.kind {
                     RayKind::Refracted => vec![material.kt],
