@@ -14,6 +14,24 @@ pub type Window = Harness<'static, App>;
 
 pub const SIZE: [f32; 2] = [1280.0, 800.0];
 
+/// The text that a window has stored.
+#[derive(Clone, Default)]
+pub struct Storage(pub Option<String>);
+
+impl eframe::Storage for Storage {
+    fn get_string(&self, _key: &str) -> Option<String> {
+        self.0.clone()
+    }
+
+    fn set_string(&mut self, _key: &str, value: String) {
+        self.0 = Some(value);
+    }
+
+    fn remove_string(&mut self, _key: &str) {}
+
+    fn flush(&mut self) {}
+}
+
 /// Opens a window of this size with the demonstration and waits until its run has started.
 pub fn open(size: [f32; 2]) -> Window {
     open_with(size, "ten-objects")
@@ -22,7 +40,12 @@ pub fn open(size: [f32; 2]) -> Window {
 /// Opens a window with a scene or a run file and waits until its run has started.
 pub fn open_with(size: [f32; 2], argument: &str) -> Window {
     let launch = Launch { opening: Some(Opening::read(argument).expect("it can be read")), ..Launch::default() };
-    let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
+    launch_with(size, &Storage::default(), launch)
+}
+
+/// Opens a window that restores this storage and waits until its run has started.
+pub fn launch_with(size: [f32; 2], storage: &Storage, launch: Launch) -> Window {
+    let build = |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, Some(storage), launch);
     let mut window = Harness::builder().with_size(size).build_eframe(build);
     until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
     window

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use anel::gui::{App, Launch, Opening, Phase};
+use anel::gui::{Launch, Opening, Phase};
 use anel::language::Language;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::driving::*;
@@ -157,12 +156,13 @@ fn assert_hints(window: &mut Window, page: &str) -> usize {
 }
 
 fn open_portuguese(size: [f32; 2]) -> Window {
+    restore_portuguese(size, &Storage::default())
+}
+
+/// Opens a Portuguese window with the demonstration's scene and these settings.
+fn restore_portuguese(size: [f32; 2], storage: &Storage) -> Window {
     let opening = Some(Opening::read("ten-objects").expect("a built-in scene"));
-    let launch = Launch { opening, language: Language::Portuguese, ..Launch::default() };
-    let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
-    let mut window = Harness::builder().with_size(size).build_eframe(build);
-    until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
-    window
+    launch_with(size, storage, Launch { opening, language: Language::Portuguese, ..Launch::default() })
 }
 
 fn shift_l(window: &mut Window) {
@@ -247,7 +247,9 @@ fn lists_and_changes_are_portuguese() {
 
 #[test]
 fn inspector_and_accuracy_are_portuguese() {
-    let mut window = open_portuguese(SIZE);
+    // A small picture is quickly measured.
+    let settings = "(settings: (size: (width: 24, height: 18), atom: 1))";
+    let mut window = restore_portuguese(SIZE, &Storage(Some(settings.into())));
     let middle = window.get_by_label("Imagem").rect().center();
     window.hover_at(middle);
     window.run_steps(4);

@@ -1,39 +1,15 @@
 //! Settings and scenes that one window stores and the next one restores.
 
-use anel::gui::{App, Launch};
+use anel::gui::Launch;
 use eframe::App as _;
 use egui::Key;
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-/// The text that a window has stored.
-#[derive(Clone, Default)]
-struct Storage(Option<String>);
-
-impl eframe::Storage for Storage {
-    fn get_string(&self, _key: &str) -> Option<String> {
-        self.0.clone()
-    }
-
-    fn set_string(&mut self, _key: &str, value: String) {
-        self.0 = Some(value);
-    }
-
-    fn remove_string(&mut self, _key: &str) {}
-
-    fn flush(&mut self) {}
-}
-
 /// Opens a window without arguments that restores this storage.
 fn reopen(storage: &Storage) -> Window {
-    let build = |creation: &mut eframe::CreationContext<'static>| {
-        App::new(&creation.egui_ctx, Some(storage), Launch::default())
-    };
-    let mut window = Harness::builder().with_size(SIZE).build_eframe(build);
-    until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
-    window
+    launch_with(SIZE, storage, Launch::default())
 }
 
 fn store(window: &mut Window) -> Storage {
