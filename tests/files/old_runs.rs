@@ -33,7 +33,12 @@ fn old_run_files_can_be_shown_and_measured() {
     for file in old_runs() {
         let log = RunLog::load(&file).expect("an old run");
         let view = RunView::of(&log);
-        assert_eq!(view.latest.state.finished().is_some(), Metrics::of(&log).makespan().is_some(), "{}", file.display());
+        assert_eq!(
+            view.latest.state.finished().is_some(),
+            Metrics::of(&log).makespan().is_some(),
+            "{}",
+            file.display()
+        );
         assert!(view.latest.state.finished().is_some(), "{} is a whole run", file.display());
     }
 }
