@@ -5,7 +5,6 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use super::status::PIPE;
 use crate::balance::{NodeId, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
@@ -247,7 +246,7 @@ impl Happening {
             0 if !state.sharing.is_ring() && state.sharing != Sharing::Stealing => PauseEffect::None,
             _ if state.sharing.is_farm() => PauseEffect::KeepsPart,
             _ if state.sharing.is_fixed() => PauseEffect::NobodyHelps,
-            1..=PIPE if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
+            1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
             left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => PauseEffect::OthersHelp,
             _ => PauseEffect::None,
         };
@@ -264,6 +263,9 @@ impl Happening {
         Self::Latency { latency, is_hop: state.sharing.is_ring() }
     }
 }
+
+/// Atoms that a machine's pipe holds at most. The others wait in its queue; only these can be given away.
+pub(crate) const PIPE_ATOMS: u32 = 2;
 
 /// Whether a machine is so slow that the others notice.
 pub(crate) fn is_slow(node: &NodeState) -> bool {

@@ -1,7 +1,6 @@
 //! What a record says in a sentence, and why it came so: for whoever goes through a run event by event.
 
-use super::happening::Happening;
-use super::status::PIPE;
+use super::happening::{Happening, PIPE_ATOMS};
 use crate::balance::{NodeId, Party, Remedy};
 use crate::language::{Language, say, word};
 use crate::record::{Record, RecordKind};
@@ -155,7 +154,7 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, langu
 
 /// How many of a node's atoms nobody has begun: what is in its pipe stays there.
 fn waiting(left: u32) -> u32 {
-    left.saturating_sub(PIPE)
+    left.saturating_sub(PIPE_ATOMS)
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! How things stand in the ring that adapts: who computes, who sleeps, who is not there.
 
 use super::deadlock::hangs;
+use super::phrases::{Machine, computing, only, only_one, under_way, waiting_for_the_parent};
 use super::stopped::{all_still, why};
-use super::{Machine, computing, only, under_way};
 use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::Happening;
@@ -17,7 +17,7 @@ pub(crate) fn standing_adaptive(state: &RunState, language: Language) -> String 
     let busy: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.computes()).collect();
     let told = match *busy {
         [] => return nobody_computes(state, &there, language),
-        [last] if there.len() == 1 => super::only_one(last.1, language),
+        [last] if there.len() == 1 => only_one(last.1, language),
         [last] => only(last, language),
         _ => computing(busy.len(), there.len(), word!(language, "machines", "máquinas"), language),
     };
@@ -98,7 +98,7 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
     let still: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.left() > 0).collect();
     match *still {
         [] if state.has_atoms_under_way() => under_way(language),
-        [] => super::waiting_for_the_parent(language),
+        [] => waiting_for_the_parent(language),
         [..] if still.len() == there.len() => all_still(&still, language),
         [(node, machine), ..] if !state.has(Remedy::Wake) => {
             let (name, why, left) = (node_name(node), why(machine, language), atoms_words(machine.left(), language));
@@ -117,7 +117,6 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::standing;
     use super::*;
     use crate::balance::{Message, Party, Remedies, Strategy};
     use crate::record::{Record, RecordKind};
@@ -147,7 +146,7 @@ mod tests {
         }
         asleep.iter().for_each(|&node| apply(RecordKind::Retired { node }));
         conditions.iter().for_each(|&(node, condition)| apply(RecordKind::Condition { node, condition }));
-        standing(&state, language)
+        standing_adaptive(&state, language)
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Why a run that is over has no complete picture.
 
 use super::deadlock::hung;
-use super::stopped::in_queues;
-use super::{Machine, waiting};
+use super::phrases::Machine;
+use super::stopped::{in_queues, waiting};
 use crate::language::{Language, say};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::percent;

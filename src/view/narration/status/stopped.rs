@@ -1,9 +1,11 @@
 //! Machines that stand still: why they do, with how many atoms, and what makes them go on.
 
-use super::{Machine, PIPE};
+use super::phrases::Machine;
 use crate::balance::Condition;
 use crate::language::{Language, say, word};
+use crate::view::narration::happening::PIPE_ATOMS;
 use crate::view::state::node_state::NodeState;
+use crate::view::text::format::{atoms_words, names, node_name};
 
 /// Every machine stands still, and has atoms.
 pub(crate) fn all_still(still: &[Machine<'_>], language: Language) -> String {
@@ -53,6 +55,52 @@ pub(crate) fn remedy(still: &[Machine<'_>], language: Language) -> &'static str 
     }
 }
 
+/// Machines stand still while others compute, or when nobody does any more.
+pub(crate) fn waiting(still: &[Machine<'_>], language: Language) -> String {
+    let in_queues = in_queues(still);
+    match still {
+        [(node, machine)] => {
+            let (name, why, left) = (node_name(*node), why(machine, language), atoms_words(machine.left(), language));
+            match machine.left() {
+                1 => say!(
+                    language,
+                    "{name} {why} and keeps the atom in its pipe",
+                    "{name} {why} e fica com o átomo em seu pipe"
+                ),
+                _ if in_queues == 0 => {
+                    say!(
+                        language,
+                        "{name} {why} and keeps the {left} in its pipe",
+                        "{name} {why} e fica com os {left} em seu pipe"
+                    )
+                }
+                _ => say!(
+                    language,
+                    "{name} {why}: its {left} go to whoever offers help",
+                    "{name} {why}: seus {left} vão para quem oferecer ajuda"
+                ),
+            }
+        }
+        _ => {
+            let nodes: Vec<_> = still.iter().map(|(node, _)| *node).collect();
+            let (who, left) = (names(&nodes, language), atoms_words(all_left(still), language));
+            if in_queues == 0 {
+                say!(
+                    language,
+                    "{who} stand still and keep what is in their pipes",
+                    "{who} estão paradas e ficam com o que está em seus pipes"
+                )
+            } else {
+                say!(
+                    language,
+                    "{who} stand still: their {left} go to whoever offers help",
+                    "{who} estão paradas: seus {left} vão para quem oferecer ajuda"
+                )
+            }
+        }
+    }
+}
+
 /// How many atoms machines have together.
 pub(crate) fn all_left(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left()).sum()
@@ -60,5 +108,5 @@ pub(crate) fn all_left(machines: &[Machine<'_>]) -> u32 {
 
 /// How many of their atoms could be given away.
 pub(crate) fn in_queues(machines: &[Machine<'_>]) -> u32 {
-    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE)).sum()
+    machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE_ATOMS)).sum()
 }

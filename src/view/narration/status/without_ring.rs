@@ -1,7 +1,7 @@
 //! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
 
+use super::phrases::{Machine, computing, has_most, only, only_one, under_way, waiting_for_the_parent};
 use super::stopped::{all_left, all_still, remedy, why};
-use super::{Machine, computing, has_most, only, only_one, under_way};
 use crate::balance::NodeId;
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::{Happening, is_slow};
@@ -17,9 +17,9 @@ pub(crate) fn without_ring(state: &RunState, language: Language) -> String {
     let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
     match (&*busy, &*still) {
         _ if state.is_estimating => Happening::Estimating.sentence(language),
-        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines, language),
+        ([], []) if !asking.is_empty() => requests_wait(&asking, machines, language),
         ([], []) if state.has_atoms_under_way() => under_way(language),
-        ([], []) => super::waiting_for_the_parent(language),
+        ([], []) => waiting_for_the_parent(language),
         ([], still) if still.len() == machines => all_still(still, language),
         ([], still) => nobody_computes(still, language),
         ([only], []) if machines == 1 => only_one(only.1, language),
@@ -148,7 +148,7 @@ fn nobody_computes(still: &[Machine<'_>], language: Language) -> String {
 }
 
 /// Nobody has atoms, and some have asked for them.
-fn waiting_for_the_parent(asking: &[NodeId], machines: usize, language: Language) -> String {
+fn requests_wait(asking: &[NodeId], machines: usize, language: Language) -> String {
     match asking {
         _ if machines == 1 => {
             word!(language, "The only machine waits for the parent", "A única máquina espera pelo pai").into()

@@ -1,0 +1,154 @@
+//! How things stand in the article's ring: who computes, who is slow, and where the ring cannot help, why not.
+
+use super::deadlock::why as amiss;
+use super::phrases::{Machine, computing, has_most, only, only_one, under_way, waiting_for_the_parent};
+use super::stopped::{all_left, all_still, in_queues, remedy, waiting, why};
+use crate::balance::NodeId;
+use crate::language::{Language, say, word};
+use crate::view::narration::happening::PIPE_ATOMS;
+use crate::view::state::run_state::RunState;
+use crate::view::text::format::{atoms_words, fraction, names, node_name};
+
+/// How things stand.
+pub(crate) fn ring(state: &RunState, language: Language) -> String {
+    let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
+    let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
+    if let Some(why) = amiss(state, language).filter(|_| !busy.is_empty()) {
+        let compute = computing(busy.len(), state.nodes().len(), word!(language, "machines", "máquinas"), language);
+        return say!(language, "{compute}; {why}, and nobody knows it", "{compute}; {why}, e ninguém sabe disso");
+    }
+    match *busy {
+        [] if state.has_atoms_under_way() => under_way(language),
+        [] if still.is_empty() => waiting_for_the_parent(language),
+        [] if still.len() == state.nodes().len() => all_still(&still, language),
+        [] => stuck(state, &still, language),
+        [last] if still.is_empty() => alone(state, last, language),
+        [(node, _)] => {
+            let (name, waiting) = (node_name(node), waiting(&still, language));
+            say!(language, "Only {name} computes; {waiting}", "Só {name} calcula; {waiting}")
+        }
+        _ => several(state, &busy, &still, language),
+    }
+}
+
+/// One machine has all atoms that are left.
+fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
+    let (name, left) = (node_name(node), atoms_words(last.left(), language));
+    let retired = retired(state);
+    let who = names(&retired, language);
+    match last.left() {
+        _ if state.nodes().len() == 1 => only_one(last, language),
+        1 => say!(
+            language,
+            "Only {name} still computes its last atom: what is in a pipe is not given away",
+            "Só {name} ainda calcula seu último átomo: o que está num pipe não se cede"
+        ),
+        2..=PIPE_ATOMS => say!(
+            language,
+            "Only {name} still computes: its last {left} are in its pipe, and what is in a pipe is not given away",
+            "Só {name} ainda calcula: seus últimos {left} estão no pipe, e o que está num pipe não se cede"
+        ),
+        _ if retired.len() == state.nodes().len() - 1 => match &*retired {
+            [_] => say!(
+                language,
+                "{name} still has {left}, but {who} has retired: an offer that came round unused is not made again",
+                "{name} ainda tem {left}, mas {who} foi dispensada: oferta que dá a volta sem uso não se repete"
+            ),
+            _ => say!(
+                language,
+                "{name} still has {left}, but {who} have retired: an offer that came round unused is not made again",
+                "{name} ainda tem {left}, mas {who} foram dispensadas: oferta que dá a volta sem uso não se repete"
+            ),
+        },
+        _ => only((node, last), language),
+    }
+}
+
+/// Several machines compute.
+fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], language: Language) -> String {
+    let machines = state.nodes().len();
+    let compute = computing(busy.len(), machines, word!(language, "machines", "máquinas"), language);
+    // Of equals the first is named.
+    let Some((node, last)) = busy.iter().rev().max_by_key(|(_, node)| node.left()) else { return compute };
+    let (name, left) = (node_name(*node), atoms_words(last.left(), language));
+    let retired = retired(state);
+    if !still.is_empty() {
+        format!("{compute}; {}", waiting(still, language))
+    } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE_ATOMS {
+        let who = names(&retired, language);
+        match &*retired {
+            [_] => say!(
+                language,
+                "{compute}; {name} has most left, {left}, but {who} has retired and will not help",
+                "{compute}; {name} tem mais, {left}, mas {who} foi dispensada e não vai ajudar"
+            ),
+            _ => say!(
+                language,
+                "{compute}; {name} has most left, {left}, but {who} have retired and will not help",
+                "{compute}; {name} tem mais, {left}, mas {who} foram dispensadas e não vão ajudar"
+            ),
+        }
+    } else if last.speed < 0.5 {
+        let speed = fraction(last.speed);
+        say!(
+            language,
+            "{compute}; {name} is slow ({speed}) and has most left: {left}",
+            "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}"
+        )
+    } else if busy.len() == machines && busy.iter().all(|(_, node)| node.got.count == 0) {
+        say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
+    } else {
+        has_most(&compute, name, language)
+    }
+}
+
+/// Nobody computes, but some could if they had atoms; `still` have all that are left.
+fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String {
+    let nobody_asks = retired(state).len() + still.len() == state.nodes().len();
+    let (left, in_queues) = (all_left(still), in_queues(still));
+    let atoms = atoms_words(left, language);
+    let remedy = remedy(still, language);
+    if let [(node, machine)] = still {
+        let (name, why) = (node_name(*node), why(machine, language));
+        return match left {
+            1 => say!(
+                language,
+                "Machine {name} {why}; its last atom is in its pipe and stays there: {remedy}",
+                "A máquina {name} {why}; seu último átomo está no pipe e fica lá: {remedy}"
+            ),
+            _ if in_queues == 0 => say!(
+                language,
+                "Machine {name} {why}; its last {atoms} are in its pipe and stay there: {remedy}",
+                "A máquina {name} {why}; seus últimos {atoms} estão no pipe e ficam lá: {remedy}"
+            ),
+            _ if nobody_asks => say!(
+                language,
+                "Machine {name} {why} with {atoms}, and nobody asks for them any more: {remedy}",
+                "A máquina {name} {why} com {atoms}, e ninguém mais os pede: {remedy}"
+            ),
+            _ => say!(
+                language,
+                "Machine {name} {why} with {atoms}: the others offer to take them",
+                "A máquina {name} {why} com {atoms}: as outras se oferecem para assumi-los"
+            ),
+        };
+    }
+    let machines = still.len();
+    if in_queues == 0 || nobody_asks {
+        say!(
+            language,
+            "{machines} machines stand still with {atoms}, and nobody can take them: {remedy}",
+            "{machines} máquinas estão paradas com {atoms}, e ninguém pode assumi-los: {remedy}"
+        )
+    } else {
+        say!(
+            language,
+            "{machines} machines stand still with {atoms}: the others offer to take them",
+            "{machines} máquinas estão paradas com {atoms}: as outras se oferecem para assumi-los"
+        )
+    }
+}
+
+fn retired(state: &RunState) -> Vec<NodeId> {
+    (0..).zip(state.nodes()).filter(|(_, node)| node.retired).map(|(node, _)| node).collect()
+}
