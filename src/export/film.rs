@@ -13,7 +13,9 @@ use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::{Anchor, Canvas, Hue, Layer, Mark, RingOverlay, Snapshot, Summary, TextSize, ring, time_words};
+use crate::view::{
+    Anchor, Canvas, Hue, Layer, Mark, RingLayout, RingOverlay, Snapshot, Summary, TextSize, ring, time_words,
+};
 
 /// How a film is made of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,10 +183,9 @@ impl<'a> FilmFrames<'a> {
         let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
-        self.drawn(
-            &ring(&self.moment.state, &overlay, at, [width as f32, height as f32], Language::English),
-            [width, height],
-        )
+        let state = &self.moment.state;
+        let layout = RingLayout::new(state.nodes().len(), [width as f32, height as f32], Language::English);
+        self.drawn(&ring(&layout, state, &overlay, at, Language::English), [width, height])
     }
 
     /// Time and sentence; drawn only where they are others than before.

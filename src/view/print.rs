@@ -7,11 +7,13 @@ use super::analysis::time_budget::TimeBudget;
 use super::charts::time_budget_chart::{spent, spent_height};
 use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use super::playback::snapshots::Snapshot;
+use super::ring::layout::RingLayout;
 use super::ring::{RingOverlay, ring};
 use super::state::lanes::Lanes;
 use super::text::format::{duration, fraction, node_name, time_words};
+use super::timeline::layout::TimelineLayout;
 use super::timeline::time_window::TimeWindow;
-use super::timeline::{TimelineLayout, axis, timeline};
+use super::timeline::{axis, timeline};
 use crate::language::Language;
 use crate::runlog::RunLog;
 use crate::sentence::shown;
@@ -56,7 +58,9 @@ impl PrintedDrawing {
         let top = heading(log, outcome.as_ref(), width, &mut marks, language);
         let overlay = RingOverlay { outcome, ..RingOverlay::default() };
         let room = [width - 2.0 * MARGIN, height - top - 2.5 * MARGIN];
-        marks.extend(ring(state, &overlay, drawn_at, room, language).into_iter().map(|mark| mark.moved([MARGIN, top])));
+        let layout = RingLayout::new(state.nodes().len(), room, language);
+        let drawn = ring(&layout, state, &overlay, drawn_at, language);
+        marks.extend(drawn.into_iter().map(|mark| mark.moved([MARGIN, top])));
         let sentence =
             format!("At {}: {}", time_words(at, grain(log), language), moment.narrator.sentence(state, at, language));
         let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);

@@ -14,9 +14,10 @@ use anel::sim::Sim;
 use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
-    Details, Layer, Narrator, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary, TimeWindow,
-    TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words, picture_pixels,
-    record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline, timeline_at,
+    Details, Layer, Narrator, RingLayout, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary,
+    TimeWindow, TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words,
+    picture_pixels, record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline,
+    timeline_at,
 };
 
 use super::assert_sentence;
@@ -119,13 +120,9 @@ fn go_through(log: &RunLog, language: Language) {
 }
 
 fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Time, language: Language) {
-    let marks = ring(
-        state,
-        &RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() },
-        now,
-        [400.0, 300.0],
-        language,
-    );
+    let layout = RingLayout::new(state.nodes().len(), [400.0, 300.0], language);
+    let overlay = RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() };
+    let marks = ring(&layout, state, &overlay, now, language);
     let mut said = format!("{marks:?}");
     for node in 0..state.nodes().len().min(40) as NodeId {
         said += &format!("{:?}", node_words(state, node, now, language));

@@ -3,7 +3,7 @@
 use anel::balance::{Condition, Remedy, Strategy};
 use anel::language::Language;
 use anel::record::RecordKind;
-use anel::view::message_at;
+use anel::view::{RingLayout, message_at};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -126,7 +126,8 @@ fn a_message_is_held_up_by_its_menu() {
         let (stage, now) = (session(window).stage(), session(window).now());
         let points =
             (0..60 * 60).map(|i| [(i % 60) as f32 / 60.0 * ring.width(), (i / 60) as f32 / 60.0 * ring.height()]);
-        let found = points.map(|at| (at, message_at(stage.state(), now, ring.size().into(), at, language)));
+        let layout = RingLayout::new(stage.state().nodes().len(), ring.size().into(), language);
+        let found = points.map(|at| (at, message_at(&layout, stage.state(), now, at)));
         found.filter_map(|(at, flight)| flight.map(|flight| (at, flight.from, flight.to))).next()
     };
     until(&mut window, "a message", |window| message(window).is_some());

@@ -2,6 +2,7 @@
 //! that answer them; and what has arrived at the parent and waits there.
 
 use super::angles::ease;
+use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
@@ -11,23 +12,29 @@ use crate::view::state::run_state::RunState;
 use crate::view::text::format::count;
 
 /// Draws requests, parts, and the line at the parent.
-pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut RingMarks) {
     if state.presence(now) == 0.0 {
         return;
     }
+    let marks = marks.layer(RingLayer::FarmMessages);
     line(plan, state, now, marks);
     for token in tokens(plan, state, now) {
         token.draw(plan, marks);
     }
 }
 
-/// The request or the part that is drawn at `point`.
-pub(crate) fn token_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+/// The request or the part that is drawn at `point`, and its layer.
+pub(crate) fn message_at<'a>(
+    plan: &RingLayout,
+    state: &'a RunState,
+    now: Time,
+    [x, y]: Point,
+) -> Option<(RingLayer, &'a Flight)> {
     let covers = |token: &FarmDisc<'_>| {
         let [u, v] = token.centre;
         token.flight.shown().contains(&now) && (x - u).abs() <= token.half[0] && (y - v).abs() <= token.half[1]
     };
-    tokens(plan, state, now).into_iter().rev().find(covers).map(|token| token.flight)
+    tokens(plan, state, now).into_iter().rev().find(covers).map(|token| (RingLayer::FarmMessages, token.flight))
 }
 
 /// What lies on a spoke of the parent: a request, or its answer.
@@ -146,7 +153,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::time::Duration;
 
-    use super::super::{RingOverlay, message_at, ring};
+    use super::super::{RingOverlay, message_at as topmost_at, ring};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::runlog::Header;
@@ -173,7 +180,8 @@ mod tests {
     }
 
     fn texts(state: &RunState, now: Time, size: Point, language: Language) -> Vec<String> {
-        let marks = ring(state, &RingOverlay::default(), now, size, language);
+        let layout = RingLayout::new(state.nodes().len(), size, language);
+        let marks = ring(&layout, state, &RingOverlay::default(), now, language);
         marks
             .into_iter()
             .filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(text) } else { None })
@@ -201,9 +209,7 @@ mod tests {
         moments(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
             let plan = RingLayout::new(3, SIZE, language);
             for token in tokens(&plan, state, now) {
-                told.extend(
-                    message_at(state, now, SIZE, token.centre, language).map(|flight| flight_words(flight, language)),
-                );
+                told.extend(topmost_at(&plan, state, now, token.centre).map(|flight| flight_words(flight, language)));
             }
         });
         for words in

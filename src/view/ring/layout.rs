@@ -9,7 +9,8 @@ use crate::language::Language;
 use crate::view::draw::display_list::Point;
 
 /// Where everything is, for a number of nodes and a size.
-pub(crate) struct RingLayout {
+#[derive(Clone, Copy, Debug)]
+pub struct RingLayout {
     /// How many nodes there are.
     pub(crate) nodes: usize,
     /// Where the parent is.
@@ -31,7 +32,7 @@ impl RingLayout {
     pub(crate) const TRACK: f32 = 1.2;
 
     /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
-    pub(crate) fn new(nodes: usize, [width, height]: Point, language: Language) -> Self {
+    pub fn new(nodes: usize, [width, height]: Point, language: Language) -> Self {
         let (labels, rail) = Labels::fit(nodes, [width, height], language);
         let rail = rail.max(40.0);
         let apart = (PI / nodes.max(2) as f32).sin();

@@ -1,6 +1,7 @@
 //! What is small and quick in the ring that adapts: sparks that wake sleepers, and crosses where messages are lost.
 
 use super::angles::{curve, ease};
+use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
 use super::messages::seen_at;
 use crate::balance::Party;
@@ -9,8 +10,14 @@ use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 
+/// Draws sparks and crosses.
+pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut RingMarks) {
+    sparks(plan, state, now, marks.layer(RingLayer::Wakes));
+    crosses(plan, state, now, marks.layer(RingLayer::Losses));
+}
+
 /// Sparks fly straight from machine to machine.
-pub(crate) fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights().iter().filter(|flight| flight.cargo == Cargo::Wake && flight.sent <= now) {
         let (Party::Node(from), alpha) = (flight.from, seen_at(state, flight, now)) else { continue };
         if alpha == 0.0 {
@@ -29,7 +36,7 @@ pub(crate) fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut
 }
 
 /// A small cross stands where a message is lost.
-pub(crate) fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights() {
         let alpha = flight.cross(now) * state.presence(now);
         if alpha == 0.0 {

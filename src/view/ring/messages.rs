@@ -1,6 +1,7 @@
 //! What moves in the ring: results down the spokes, offers along the rail, atoms across.
 
 use super::angles::{arc, curve, ease};
+use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
@@ -9,8 +10,26 @@ use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{count, node_name};
 
+/// Draws results, offers and atoms on their way; the message `lit` stands out.
+pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut RingMarks) {
+    results(plan, state, now, marks.layer(RingLayer::Results));
+    offers(plan, state, now, lit, marks.layer(RingLayer::Offers));
+    parcels(plan, state, now, lit, marks.layer(RingLayer::Parcels));
+}
+
+/// The topmost message that is drawn at `point`, and its layer.
+pub(crate) fn message_at<'a>(
+    plan: &RingLayout,
+    state: &'a RunState,
+    now: Time,
+    point: Point,
+) -> Option<(RingLayer, &'a Flight)> {
+    let parcel = parcel_at(plan, state, now, point).map(|flight| (RingLayer::Parcels, flight));
+    parcel.or_else(|| offer_at(plan, state, now, point).map(|flight| (RingLayer::Offers, flight)))
+}
+
 /// Results stream down the spokes.
-pub(crate) fn results(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+fn results(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     let dot = (plan.rail * 0.011).clamp(1.5, 3.0);
     for flight in state.flights() {
         if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
@@ -26,7 +45,7 @@ pub(crate) fn results(plan: &RingLayout, state: &RunState, now: Time, marks: &mu
 }
 
 /// Offers run along the rail; where an offer has been, its trail fades. Each has a lane of its own.
-pub(crate) fn offers(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
+fn offers(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
     for (lane, flight) in in_lanes(state, now) {
         let (Party::Node(from), Cargo::Offer { who }) = (flight.from, &flight.cargo) else { continue };
         let radius = plan.rail + lane_offset(plan, lane);
@@ -44,7 +63,7 @@ pub(crate) fn offers(plan: &RingLayout, state: &RunState, now: Time, lit: Option
 }
 
 /// The offer whose token is drawn at `point`.
-pub(crate) fn offer_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+fn offer_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
     let covers = |token: &OfferDisc<'_>| {
         let [u, v] = token.centre;
         token.flight.shown().contains(&now) && (x - u).hypot(y - v) <= token.radius + 2.0
@@ -114,25 +133,25 @@ pub(crate) fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
 }
 
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.
-pub(crate) fn lane_offset(plan: &RingLayout, lane: usize) -> f32 {
+fn lane_offset(plan: &RingLayout, lane: usize) -> f32 {
     let lane = lane % 8;
     let out = lane.div_ceil(2) as f32 * lane_width(plan);
     if lane % 2 == 1 { out } else { -out }
 }
 
-pub(crate) fn lane_width(plan: &RingLayout) -> f32 {
+fn lane_width(plan: &RingLayout) -> f32 {
     (plan.rail * 0.025).clamp(1.5, 4.0)
 }
 
 /// Atoms on their way: bands from the parent, transfers from node to node, each with its count.
-pub(crate) fn parcels(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
+fn parcels(plan: &RingLayout, state: &RunState, now: Time, lit: Option<u64>, marks: &mut Vec<Mark>) {
     for parcel in on_their_way(plan, state, now).into_iter().rev() {
         parcel.draw(plan, now, lit == Some(parcel.flight.id), marks);
     }
 }
 
 /// The flight of the parcel that is drawn at `point`.
-pub(crate) fn parcel_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
+fn parcel_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
     let covers = |parcel: &Parcel<'_>| {
         let (_, [u, v], half) = parcel.shape(plan, now);
         parcel.flight.shown().contains(&now) && (x - u).abs() <= half[0] && (y - v).abs() <= half[1]

@@ -25,6 +25,7 @@ use crate::view::playback::details::Details;
 use crate::view::playback::run_view::RunView;
 use crate::view::playback::snapshots::{Snapshot, SnapshotCache};
 use crate::view::ring::labels;
+use crate::view::ring::layout::RingLayout;
 use crate::view::ring::{RingOverlay, ring};
 use crate::view::state::node_state::Activity;
 use crate::view::state::scheduler::Sharing;
@@ -228,7 +229,8 @@ fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
     // Offers are drawn where they are: as many in both languages.
-    let drawn = ring(state, &RingOverlay::default(), now, [1200.0, 1200.0], language);
+    let layout = RingLayout::new(state.nodes().len(), [1200.0, 1200.0], language);
+    let drawn = ring(&layout, state, &RingOverlay::default(), now, language);
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));

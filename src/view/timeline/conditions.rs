@@ -1,7 +1,8 @@
 //! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
 
+use super::layout::TimelineLayout;
+use super::quads::{Quad, Timeline};
 use super::time_window::TimeWindow;
-use super::{Quad, Timeline, TimelineLayout};
 use crate::balance::{Condition, NodeId};
 use crate::time::Time;
 use crate::view::draw::display_list::Hue;

@@ -2,7 +2,9 @@
 
 pub mod conditions;
 pub mod landmarks;
+pub mod layout;
 pub mod markers;
+pub mod quads;
 pub mod time_window;
 
 use super::draw::display_list::{Hue, Ink};
@@ -12,90 +14,15 @@ use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use conditions::troubles;
 use landmarks::Subject;
+use layout::{STRIP_TOP_PX, TimelineLayout};
+use quads::{Quad, Timeline, add_to_columns, column_runs};
 use time_window::TimeWindow;
-
-/// A rectangle of one colour: left, top, right, bottom.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quad {
-    /// Where it is.
-    pub place: [f32; 4],
-    /// What it is filled with.
-    pub ink: Ink,
-}
-
-/// Where things are in a timeline of some size.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimelineLayout {
-    /// All of its width.
-    pub width: f32,
-    /// The height of what stands above the lanes.
-    pub head: f32,
-    /// The height of the axis below the lanes.
-    pub foot: f32,
-    /// The height of a lane, the gap below it included.
-    pub lane: f32,
-    /// How many lanes there are.
-    pub lanes: usize,
-}
-
-/// What is drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Timeline {
-    /// What lies under the lines.
-    pub quads: Vec<Quad>,
-    /// Messages between lanes: from, to, and their ink.
-    pub lines: Vec<([f32; 2], [f32; 2], Ink)>,
-}
-
-/// The height of the words above the lanes, and of the strip between both that shows how much of the machines is used.
-const WORDS: f32 = 20.0;
-const STRIP: f32 = 20.0;
 
 /// Narrower than this, in pixels, atoms are not told apart.
 const APART: f64 = 3.0;
 
 /// More messages than this in the window hide each other and the lanes.
 const MOST_LINES: usize = 400;
-
-impl TimelineLayout {
-    /// A plan for so many lanes in so much room.
-    pub fn new(lanes: usize, width: f32, height: f32) -> Self {
-        let (head, foot) = if height > 120.0 { (WORDS + STRIP, 18.0) } else { (0.0, 0.0) };
-        let lane = ((height - head - foot) / lanes.max(1) as f32).min(26.0);
-        Self { width, head, foot, lane, lanes }
-    }
-
-    /// The top and the bottom of a lane.
-    pub fn lane(&self, node: NodeId) -> [f32; 2] {
-        let top = self.head + f32::from(node) * self.lane;
-        [top, top + self.lane - if self.lane > 8.0 { 2.0 } else { 1.0 }]
-    }
-
-    /// Which lane is at a height.
-    pub fn node_at(&self, y: f32) -> Option<NodeId> {
-        let lane = ((y - self.head) / self.lane).floor();
-        (lane >= 0.0 && lane < self.lanes as f32).then_some(lane as NodeId)
-    }
-
-    /// Where the lanes end.
-    pub fn bottom(&self) -> f32 {
-        self.head + self.lane * self.lanes as f32
-    }
-
-    pub(super) fn x(&self, window: &TimeWindow, time: Time) -> f32 {
-        (window.share(time).clamp(-1.0, 2.0) * f64::from(self.width)) as f32
-    }
-
-    /// Where what lasted from one time to another is seen: its left and its right.
-    pub(super) fn span(&self, window: &TimeWindow, from: Time, to: Time) -> [f32; 2] {
-        [self.x(window, from).max(0.0), self.x(window, to).min(self.width)]
-    }
-
-    pub(super) fn middle(&self, node: NodeId) -> f32 {
-        let [top, bottom] = self.lane(node);
-        (top + bottom) / 2.0
-    }
-}
 
 /// The timeline of what `window` shows, until `head`, which the run has come to.
 pub fn timeline(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, head: Time) -> Timeline {
@@ -153,9 +80,9 @@ pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, [x
 
 /// How many of the machines' time is used, column by column.
 fn usage(used: &[f32], plan: &TimelineLayout, quads: &mut Vec<Quad>) {
-    let (top, bottom) = (WORDS, plan.head - 4.0);
+    let (top, bottom) = (STRIP_TOP_PX, plan.head - 4.0);
     quads.push(Quad { place: [0.0, top, plan.width, bottom], ink: Hue::Hairline.faint(0.35) });
-    for run in runs(used.iter().map(|share| (share / plan.lanes.max(1) as f32 * 16.0).round() as u8)) {
+    for run in column_runs(used.iter().map(|share| (share / plan.lanes.max(1) as f32 * 16.0).round() as u8)) {
         let share = f32::from(run.level) / 16.0;
         let place = [run.start as f32, bottom - (bottom - top) * share, run.end as f32, bottom];
         quads.push(Quad { place, ink: Hue::Quiet.faint(0.7) });
@@ -200,7 +127,7 @@ fn bars(
     let all = seen.iter().map(|bar| (bar.from, bar.to)).chain(open);
     let mut columns = vec![0.0_f32; used.len()];
     for (from, to) in all {
-        cover(&mut columns, plan.x(window, from), plan.x(window, to));
+        add_to_columns(&mut columns, plan.x(window, from), plan.x(window, to));
     }
     used.iter_mut().zip(&columns).for_each(|(sum, column)| *sum += column.min(1.0));
     let pixels = f64::from(plan.width) / (window.to().0 - window.from().0).max(1) as f64;
@@ -218,7 +145,7 @@ fn bars(
         }
         return;
     }
-    for run in runs(columns.iter().map(|share| (share.min(1.0) * 8.0).round() as u8)) {
+    for run in column_runs(columns.iter().map(|share| (share.min(1.0) * 8.0).round() as u8)) {
         let ink = Hue::Node(node).faint(0.9 * f32::from(run.level) / 8.0);
         quads.push(Quad { place: [run.start as f32, top, run.end as f32, bottom], ink });
     }
@@ -280,116 +207,5 @@ fn trips_in<'a>(lanes: &'a Lanes, window: &TimeWindow) -> impl Iterator<Item = &
     lanes.trips()[..last].iter().filter(move |trip| trip.arrives >= from && trip.sent <= to)
 }
 
-/// Adds what lies between two places to each column.
-fn cover(columns: &mut [f32], left: f32, right: f32) {
-    let (left, right) = (left.max(0.0), right.min(columns.len() as f32));
-    if right <= left {
-        return;
-    }
-    let (first, last) = (left as usize, (right as usize).min(columns.len() - 1));
-    if first == last {
-        columns[first] += right - left;
-        return;
-    }
-    columns[first] += (first + 1) as f32 - left;
-    columns[first + 1..last].iter_mut().for_each(|column| *column += 1.0);
-    columns[last] += right - last as f32;
-}
-
-struct DiagonalRun {
-    start: usize,
-    end: usize,
-    level: u8,
-}
-
-/// Columns of the same level, one after the other, as one; those of level 0 are left out.
-fn runs(levels: impl Iterator<Item = u8>) -> Vec<DiagonalRun> {
-    let mut runs: Vec<DiagonalRun> = Vec::new();
-    for (column, level) in levels.enumerate() {
-        match runs.last_mut() {
-            Some(run) if run.level == level && run.end == column => run.end += 1,
-            _ => runs.push(DiagonalRun { start: column, end: column + 1, level }),
-        }
-    }
-    runs.retain(|run| run.level > 0);
-    runs
-}
-
 #[cfg(test)]
-mod tests {
-    use crate::language::Language;
-    use proptest::prelude::*;
-
-    use super::super::tests::sample_runs;
-    use super::*;
-
-    const WIDTH: f32 = 800.0;
-
-    fn drawn(atoms: u32, zoom: f64) -> (Lanes, Timeline, TimeWindow, TimelineLayout) {
-        let header = sample_runs::header(&[1.0, 1.0, 0.1], atoms);
-        let mut lanes = Lanes::new(&header);
-        let records = sample_runs::records(&header);
-        records.iter().for_each(|record| lanes.apply(record));
-        let end = records[records.len() - 1].at;
-        let mut window = TimeWindow::default();
-        window.fit(end);
-        window.zoom(0.3, zoom);
-        window.fit(end);
-        let plan = TimelineLayout::new(3, WIDTH, 150.0);
-        (lanes.clone(), timeline(&lanes, &window, &plan, end), window, plan)
-    }
-
-    proptest! {
-        #[test]
-        fn nothing_is_drawn_beyond_its_place(atoms in 1..600u32, zoom in 0.001..1.0f64) {
-            let (_, drawn, _, plan) = drawn(atoms, zoom);
-            for quad in &drawn.quads {
-                let [left, top, right, bottom] = quad.place;
-                prop_assert!(left >= 0.0 && right <= WIDTH + 0.5 && top >= 0.0 && bottom <= plan.bottom() + 0.5, "{quad:?}");
-                prop_assert!(right - left >= 0.0 && bottom > top);
-            }
-        }
-
-        #[test]
-        fn columns_hold_what_bars_cover(left in -50.0..150.0f32, length in 0.0..90.0f32) {
-            let mut columns = vec![0.0; 100];
-            cover(&mut columns, left, left + length);
-            let inside = (left + length).min(100.0) - left.max(0.0);
-            prop_assert!((columns.iter().sum::<f32>() - inside.max(0.0)).abs() < 1e-3);
-            prop_assert!(columns.iter().all(|column| (0.0..=1.0 + 1e-4).contains(column)));
-        }
-    }
-
-    #[test]
-    fn few_quads_show_many_atoms_and_each_atom_is_one_when_seen_from_near() {
-        let (_, all, ..) = drawn(20_000, 1.0);
-        assert!(all.quads.len() < 3_000, "{}", all.quads.len());
-        let (lanes, near, window, plan) = drawn(20_000, 0.002);
-        let seen = |node: usize| lanes.lanes()[node].bars_in(window.from(), window.to()).len();
-        let of = |node: NodeId| {
-            let [top, bottom] = plan.lane(node);
-            near.quads.iter().filter(|quad| quad.place[1] == top && quad.place[3] == bottom).count()
-        };
-        assert!(seen(0) > 5 && of(0) == seen(0), "{} {}", of(0), seen(0));
-    }
-
-    #[test]
-    fn the_axis_has_round_times_that_are_seen() {
-        let language = Language::English;
-        let (_, _, window, _) = drawn(600, 0.05);
-        let (times, rate) = axis(&window, WIDTH);
-        assert!((3..=8).contains(&times.len()) && rate < 1.0, "{times:?}");
-        assert!(times.iter().all(|&time| window.from() <= time && time <= window.to()));
-        let words: Vec<_> = times.iter().map(|&time| crate::view::time_words(time, rate, language)).collect();
-        assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
-    }
-
-    #[test]
-    fn what_is_pointed_at_is_what_is_there() {
-        let (lanes, _, window, plan) = drawn(600, 0.05);
-        let bar = lanes.lanes()[0].bars_in(window.from(), window.to())[2];
-        let x = (plan.x(&window, bar.from) + plan.x(&window, bar.to)) / 2.0;
-        assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.middle(0)]), Some(Subject::Atom(bar.atom)));
-        assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.bottom() + 9.0]), None);
-    }
-}
+mod tests;

@@ -1,0 +1,64 @@
+//! Where things are in a timeline.
+
+use super::time_window::TimeWindow;
+use crate::balance::NodeId;
+use crate::time::Time;
+
+/// Where things are in a timeline of some size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineLayout {
+    /// All of its width.
+    pub width: f32,
+    /// The height of what stands above the lanes.
+    pub head: f32,
+    /// The height of the axis below the lanes.
+    pub foot: f32,
+    /// The height of a lane, the gap below it included.
+    pub lane: f32,
+    /// How many lanes there are.
+    pub lanes: usize,
+}
+
+/// Top of the strip above the lanes that shows how many machines trace; the words stand above it.
+pub(super) const STRIP_TOP_PX: f32 = 20.0;
+const STRIP_HEIGHT_PX: f32 = 20.0;
+
+impl TimelineLayout {
+    /// A plan for so many lanes in so much room.
+    pub fn new(lanes: usize, width: f32, height: f32) -> Self {
+        let (head, foot) = if height > 120.0 { (STRIP_TOP_PX + STRIP_HEIGHT_PX, 18.0) } else { (0.0, 0.0) };
+        let lane = ((height - head - foot) / lanes.max(1) as f32).min(26.0);
+        Self { width, head, foot, lane, lanes }
+    }
+
+    /// The top and the bottom of a lane.
+    pub fn lane(&self, node: NodeId) -> [f32; 2] {
+        let top = self.head + f32::from(node) * self.lane;
+        [top, top + self.lane - if self.lane > 8.0 { 2.0 } else { 1.0 }]
+    }
+
+    /// Which lane is at a height.
+    pub fn node_at(&self, y: f32) -> Option<NodeId> {
+        let lane = ((y - self.head) / self.lane).floor();
+        (lane >= 0.0 && lane < self.lanes as f32).then_some(lane as NodeId)
+    }
+
+    /// Where the lanes end.
+    pub fn bottom(&self) -> f32 {
+        self.head + self.lane * self.lanes as f32
+    }
+
+    pub(super) fn x(&self, window: &TimeWindow, time: Time) -> f32 {
+        (window.share(time).clamp(-1.0, 2.0) * f64::from(self.width)) as f32
+    }
+
+    /// Where what lasted from one time to another is seen: its left and its right.
+    pub(super) fn span(&self, window: &TimeWindow, from: Time, to: Time) -> [f32; 2] {
+        [self.x(window, from).max(0.0), self.x(window, to).min(self.width)]
+    }
+
+    pub(super) fn middle(&self, node: NodeId) -> f32 {
+        let [top, bottom] = self.lane(node);
+        (top + bottom) / 2.0
+    }
+}
