@@ -180,7 +180,7 @@ impl<'a> FilmFrames<'a> {
     fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, String> {
         /// Longer than the last message is drawn.
         const LINGER: Duration = Duration::from_secs(5);
-        let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
+        let overlay = RingOverlay { summary: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
         let state = &self.moment.state;

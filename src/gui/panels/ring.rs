@@ -34,9 +34,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
     let drawn = RingOverlay {
-        outcome: stage.result().copied(),
+        summary: stage.result().copied(),
         selected: focus.node(),
-        lit: lit.nodes.clone(),
+        highlighted: lit.nodes.clone(),
         message: lit.message,
     };
     let layout = RingLayout::new(state.nodes().len(), rect.size().into(), language);

@@ -10,7 +10,7 @@ use crate::view::text::format::count;
 pub const RATES: [f64; 17] =
     [1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, f64::INFINITY];
 
-const USUAL: usize = 12;
+const REAL_TIME_INDEX: usize = 12;
 
 /// A clock that shows a run's time: it follows the run's own clock (it is *live*), or goes through what has happened.
 #[derive(Clone, Copy, Debug)]
@@ -19,20 +19,20 @@ pub struct Playback {
     now: f64,
     /// The latest that was shown.
     reached: f64,
-    live: bool,
-    stands: bool,
-    rate: usize,
+    is_live: bool,
+    is_paused: bool,
+    rate_index: usize,
 }
 
 impl Playback {
     /// Shows what happens as it happens.
     pub fn live() -> Self {
-        Self { now: 0.0, reached: 0.0, live: true, stands: false, rate: USUAL }
+        Self { now: 0.0, reached: 0.0, is_live: true, is_paused: false, rate_index: REAL_TIME_INDEX }
     }
 
     /// Goes through what has happened, from its beginning.
-    pub fn from_the_beginning() -> Self {
-        Self { live: false, ..Self::live() }
+    pub fn from_start() -> Self {
+        Self { is_live: false, ..Self::live() }
     }
 
     /// The shown time.
@@ -47,74 +47,74 @@ impl Playback {
 
     /// Whether it follows the run's own clock.
     pub fn is_live(&self) -> bool {
-        self.live
+        self.is_live
     }
 
     /// Whether it stands still, apart from following the run.
-    pub fn stands(&self) -> bool {
-        self.stands
+    pub fn is_paused(&self) -> bool {
+        self.is_paused
     }
 
     /// Seconds of the run that go by in a second.
     pub fn rate(&self) -> f64 {
-        RATES[self.rate]
+        RATES[self.rate_index]
     }
 
     /// Which of [`RATES`].
     pub fn rate_index(&self) -> usize {
-        self.rate
+        self.rate_index
     }
 
     /// Sets one of [`RATES`].
     pub fn set_rate(&mut self, index: usize) {
-        self.rate = index.min(RATES.len() - 1);
+        self.rate_index = index.min(RATES.len() - 1);
     }
 
     /// Faster or slower by so many of [`RATES`].
     pub fn change_rate(&mut self, by: isize) {
-        self.set_rate(self.rate.saturating_add_signed(by));
+        self.set_rate(self.rate_index.saturating_add_signed(by));
     }
 
-    /// A moment has passed, in which the run's clock has come to `head`. Where `head_keeps_pace` the run itself goes as
+    /// A moment has passed, in which the run's clock has come to `head`. Where `run_keeps_pace` the run itself goes as
     /// fast as is asked here, so that whoever follows it never falls behind.
-    pub fn advance(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
-        self.go(passed, head, head_keeps_pace);
+    pub fn advance(&mut self, passed: Duration, head: Time, run_keeps_pace: bool) {
+        self.go(passed, head, run_keeps_pace);
         self.reached = self.reached.max(self.now);
     }
 
-    fn go(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
+    fn go(&mut self, passed: Duration, head: Time, run_keeps_pace: bool) {
         let head = head.0 as f64;
-        if self.live && (self.rate() >= 1.0 || head_keeps_pace) {
+        if self.is_live && (self.rate() >= 1.0 || run_keeps_pace) {
             self.now = head;
             return;
         }
         // Slower than the run: it is left behind.
-        self.live = false;
-        if !self.stands {
+        self.is_live = false;
+        if !self.is_paused {
             let further = self.now + passed.as_nanos() as f64 * self.rate();
             // Nothing times infinity is no number.
             self.now = if further.is_nan() { self.now } else { further };
         }
         if self.now >= head {
-            (self.now, self.live) = (head, self.rate() >= 1.0 || head_keeps_pace);
+            (self.now, self.is_live) = (head, self.rate() >= 1.0 || run_keeps_pace);
         }
     }
 
     /// Shows another moment, and whether time goes on from there.
-    pub fn seek(&mut self, time: Time, stands: bool) {
-        (self.now, self.live, self.stands) = (time.0 as f64, false, stands);
+    pub fn seek(&mut self, time: Time, is_paused: bool) {
+        (self.now, self.is_live, self.is_paused) = (time.0 as f64, false, is_paused);
         self.reached = self.reached.max(self.now);
     }
 
     /// Follows the run again.
     pub fn follow(&mut self) {
-        (self.live, self.stands) = (true, false);
-        self.rate = self.rate.max(USUAL);
+        (self.is_live, self.is_paused) = (true, false);
+        self.rate_index = self.rate_index.max(REAL_TIME_INDEX);
     }
 
     /// Stands still, or goes on.
-    pub fn set_stands(&mut self, stands: bool) {
-        self.stands = stands;
+    pub fn set_paused(&mut self, is_paused: bool) {
+        self.is_paused = is_paused;
     }
 }
 
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn what_was_reached_stays_reached() {
-        let mut playback = Playback::from_the_beginning();
+        let mut playback = Playback::from_start();
         playback.advance(Duration::from_secs(2), Time::from_secs(9.0), false);
         playback.seek(Time::from_secs(1.0), true);
         assert_eq!((playback.now(), playback.reached()), (Time::from_secs(1.0), Time::from_secs(2.0)));
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_million_times_slower_still_goes_on() {
-        let mut clock = Playback::from_the_beginning();
+        let mut clock = Playback::from_start();
         clock.set_rate(0);
         // A nanosecond a millisecond, in frames that are no whole number of nanoseconds.
         (0..3_000).for_each(|_| clock.advance(Duration::from_micros(1_500), Time::from_secs(1.0), false));
@@ -197,11 +197,11 @@ mod tests {
         fn it_never_goes_back_nor_beyond_the_run(
             frames in prop::collection::vec((0..100u64, 0..200_000_000u64, -2..=2isize, any::<bool>()), 1..60),
         ) {
-            let (mut clock, mut head) = (Playback::from_the_beginning(), 0);
-            for (ms, further, by, stands) in frames {
+            let (mut clock, mut head) = (Playback::from_start(), 0);
+            for (ms, further, by, is_paused) in frames {
                 head += further;
                 clock.change_rate(by);
-                clock.set_stands(stands);
+                clock.set_paused(is_paused);
                 let before = clock.now();
                 clock.advance(Duration::from_millis(ms), Time(head), false);
                 prop_assert!(before <= clock.now() && clock.now() <= Time(head));
@@ -216,6 +216,6 @@ mod tests {
         let expected =
             ["1\u{a0}000\u{a0}000 × slower", "2 × slower", "in its own time", "2 × faster", "as fast as it can"];
         assert_eq!(said, expected);
-        assert!(RATES.is_sorted() && RATES[USUAL] == 1.0);
+        assert!(RATES.is_sorted() && RATES[REAL_TIME_INDEX] == 1.0);
     }
 }

@@ -20,13 +20,13 @@ pub struct ComparedRun {
     /// All of it.
     pub log: Arc<RunLog>,
     /// What it amounts to; `None` if its picture was never completed.
-    pub account: Option<TimeBudget>,
+    pub budget: Option<TimeBudget>,
     /// What each machine did and when.
     pub lanes: Lanes,
     /// Its machines' colours.
     pub colours: Vec<Rgb>,
-    past: SnapshotCache,
-    moment: Snapshot,
+    cache: SnapshotCache,
+    snapshot: Snapshot,
     canvas: Canvas,
 }
 
@@ -37,16 +37,16 @@ impl ComparedRun {
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
         canvas.take(0..header.division.atoms(), pixels);
-        let (moment, lanes) = (Snapshot::new(header), Lanes::of(&log));
-        canvas.show_all(&moment.state);
+        let (snapshot, lanes) = (Snapshot::new(header), Lanes::of(&log));
+        canvas.show_all(&snapshot.state);
         Self {
             name,
-            account: TimeBudget::new(&log, &lanes),
+            budget: TimeBudget::new(&log, &lanes),
             log,
             lanes,
             colours,
-            past: SnapshotCache::default(),
-            moment,
+            cache: SnapshotCache::default(),
+            snapshot,
             canvas,
         }
     }
@@ -58,40 +58,40 @@ impl ComparedRun {
 
     /// When its picture was complete; never, perhaps.
     pub fn end(&self) -> Option<Time> {
-        self.account.as_ref().map(|account| Time::ZERO + account.makespan)
+        self.budget.as_ref().map(|budget| Time::ZERO + budget.makespan)
     }
 
     /// What is known at the shown time.
-    pub fn moment(&self) -> &Snapshot {
-        &self.moment
+    pub fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
     }
 
     /// Shows another time.
     pub fn show(&mut self, time: Time) {
         let records = self.log.until(time);
-        if records == self.moment.records() {
+        if records == self.snapshot.records() {
             return;
         }
-        if self.past.go(&self.log, records, &mut self.moment) {
-            for atoms in self.moment.state.take_touched() {
-                self.canvas.show(atoms, &self.moment.state);
+        if self.cache.seek(&self.log, records, &mut self.snapshot) {
+            for atoms in self.snapshot.state.take_touched() {
+                self.canvas.show(atoms, &self.snapshot.state);
             }
         } else {
-            self.moment.state.take_touched();
-            self.canvas.show_all(&self.moment.state);
+            self.snapshot.state.take_touched();
+            self.canvas.show_all(&self.snapshot.state);
         }
     }
 
     /// Its picture: the render (0), a layer (1) or something between.
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
-        self.canvas.set_look(look, ground, &self.moment.state);
+        self.canvas.set_look(look, ground, &self.snapshot.state);
         &mut self.canvas
     }
 }
 
 /// When the last of them is over.
-pub fn length_of_all(contenders: &[ComparedRun]) -> Time {
-    contenders.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
+pub fn length_of_all(runs: &[ComparedRun]) -> Time {
+    runs.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
 }
 
 #[cfg(test)]
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
     use crate::view::tests::sample_runs;
 
-    fn contender(speeds: &[f64]) -> ComparedRun {
+    fn compared_run(speeds: &[f64]) -> ComparedRun {
         let header = sample_runs::header(speeds, 300);
         let mut log = RunLog::new(header.clone());
         log.add(sample_runs::records(&header));
@@ -111,18 +111,18 @@ mod tests {
 
     #[test]
     fn at_each_time_a_run_shows_what_it_had_come_to() {
-        let mut shown = contender(&[1.0, 0.2]);
+        let mut shown = compared_run(&[1.0, 0.2]);
         let rows = |shown: &mut ComparedRun| -> Vec<Rgb> {
             let all: Range<u32> = 0..shown.log.header.size.height();
             shown.canvas((Layer::Owners, 0.0), [0; 3]).rows(all).to_vec()
         };
         let end = shown.length();
         shown.show(end);
-        let (complete, done) = (rows(&mut shown), shown.moment().state.done());
-        assert_eq!((done, shown.moment().state.finished().is_some()), (300, true));
+        let (complete, done) = (rows(&mut shown), shown.snapshot().state.done());
+        assert_eq!((done, shown.snapshot().state.finished().is_some()), (300, true));
         assert!(shown.end().is_some_and(|complete| complete <= end));
         shown.show(Time(end.0 / 2));
-        assert!((10..290).contains(&shown.moment().state.done()));
+        assert!((10..290).contains(&shown.snapshot().state.done()));
         assert_ne!(rows(&mut shown), complete);
         shown.show(end);
         assert_eq!(rows(&mut shown), complete);

@@ -22,7 +22,7 @@ use crate::view::timeline::landmarks::Subject;
 #[derive(Clone, Debug)]
 pub struct Details {
     /// What it is of.
-    pub about: Subject,
+    pub subject: Subject,
     /// The message itself.
     flight: Option<Flight>,
     /// Why it carries so much.
@@ -46,31 +46,31 @@ pub struct Highlight {
 
 impl Details {
     /// Looks through the run for what is known of `about`.
-    pub fn of(about: Subject, log: &RunLog, lanes: &Lanes, past: &mut SnapshotCache, language: Language) -> Self {
-        let mut dossier = Self { about, flight: None, why: None, bar: None };
-        match about {
+    pub fn of(subject: Subject, log: &RunLog, lanes: &Lanes, cache: &mut SnapshotCache, language: Language) -> Self {
+        let mut details = Self { subject, flight: None, why: None, bar: None };
+        match subject {
             Subject::Node(_) => {}
-            Subject::Atom(atom) => dossier.bar = lanes.bar_of(atom),
+            Subject::Atom(atom) => details.bar = lanes.bar_of(atom),
             Subject::Message(id) => {
                 let is_it = |what: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
-                let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return dossier };
+                let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return details };
                 let record = &log.records()[index];
-                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return dossier };
+                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return details };
                 let flight = Flight::new(id, (*from, *to), message, record.at, *arrives);
                 if let (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) = (*from, *to, &flight.cargo) {
-                    let mut moment = Snapshot::new(&log.header);
-                    past.go(log, index + 1, &mut moment);
-                    dossier.why = share_words(&moment.state, from, to, flight.cargo.atoms(), language);
+                    let mut snapshot = Snapshot::new(&log.header);
+                    cache.seek(log, index + 1, &mut snapshot);
+                    details.why = share_words(&snapshot.state, from, to, flight.cargo.atoms(), language);
                 }
-                dossier.flight = Some(flight);
+                details.flight = Some(flight);
             }
         }
-        dossier
+        details
     }
 
     /// Whether nothing more can become known of it.
     pub fn is_complete(&self) -> bool {
-        match self.about {
+        match self.subject {
             Subject::Node(_) => true,
             Subject::Atom(_) => self.bar.is_some(),
             Subject::Message(_) => self.flight.is_some(),
@@ -78,8 +78,8 @@ impl Details {
     }
 
     /// What lights up with it, where `state` is shown.
-    pub fn lit(&self, state: &RunState) -> Highlight {
-        match self.about {
+    pub fn highlight(&self, state: &RunState) -> Highlight {
+        match self.subject {
             Subject::Node(node) => {
                 let mut atoms = Vec::new();
                 for (atom, place) in (0..).zip(state.places()) {
@@ -109,7 +109,7 @@ impl Details {
     /// What is said of it at `now`: a title, and a line of what else there is. Times are told as exactly as
     /// [`time_words`] does at the rate `grain`.
     pub fn words(&self, state: &RunState, now: Time, grain: f64, language: Language) -> (String, String) {
-        match self.about {
+        match self.subject {
             Subject::Node(node) => {
                 let facts = node_facts(state, node, now, language);
                 let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
@@ -194,15 +194,15 @@ mod tests {
     fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 900);
-        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
+        let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);
         let found = landmarks(&log, language);
         let biggest = found.iter().find(|mark| mark.words.starts_with("The biggest")).unwrap();
-        let mut past = SnapshotCache::default();
-        let dossier = Details::of(biggest.about, &log, &lanes, &mut past, language);
-        let lit = dossier.lit(&moment.state);
-        let (title, more) = dossier.words(&moment.state, moment.state.head(), 1.0, language);
-        let atoms: usize = lit.atoms.iter().map(Range::len).sum();
-        assert!(lit.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
+        let mut cache = SnapshotCache::default();
+        let details = Details::of(biggest.subject, &log, &lanes, &mut cache, language);
+        let highlight = details.highlight(&snapshot.state);
+        let (title, more) = details.words(&snapshot.state, snapshot.state.head(), 1.0, language);
+        let atoms: usize = highlight.atoms.iter().map(Range::len).sum();
+        assert!(highlight.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(
             more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("left at "),
             "{more}"
@@ -213,13 +213,16 @@ mod tests {
     fn an_atom_lights_up_its_bar_and_its_machine() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 0.5], 40);
-        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
-        let dossier = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default(), language);
-        let lit = dossier.lit(&moment.state);
-        assert_eq!((lit.atoms.len(), lit.bar.map(|(node, _)| vec![node])), (1, Some(lit.nodes.clone())));
-        let whole =
-            Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default(), language).lit(&moment.state);
+        let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);
+        let details = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default(), language);
+        let highlight = details.highlight(&snapshot.state);
+        assert_eq!(
+            (highlight.atoms.len(), highlight.bar.map(|(node, _)| vec![node])),
+            (1, Some(highlight.nodes.clone()))
+        );
+        let whole = Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default(), language)
+            .highlight(&snapshot.state);
         let atoms: usize = whole.atoms.iter().map(Range::len).sum();
-        assert_eq!(atoms as u32, moment.state.nodes()[0].done);
+        assert_eq!(atoms as u32, snapshot.state.nodes()[0].done);
     }
 }

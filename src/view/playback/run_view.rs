@@ -12,7 +12,7 @@ pub struct RunView {
     /// Its last moment.
     pub latest: Snapshot,
     /// What stands out in its time.
-    pub signs: Markers,
+    pub markers: Markers,
     /// What each machine did and when.
     pub lanes: Lanes,
 }
@@ -20,20 +20,20 @@ pub struct RunView {
 impl RunView {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
-        Self { latest: Snapshot::new(header), signs: Markers::default(), lanes: Lanes::new(header) }
+        Self { latest: Snapshot::new(header), markers: Markers::default(), lanes: Lanes::new(header) }
     }
 
     /// All of a recorded run.
     pub fn of(log: &RunLog) -> Self {
-        let mut known = Self::new(&log.header);
-        log.records().iter().for_each(|record| known.apply(record));
-        known
+        let mut view = Self::new(&log.header);
+        log.records().iter().for_each(|record| view.apply(record));
+        view
     }
 
     /// Takes in what happened next.
     pub fn apply(&mut self, record: &Record) {
         self.latest.apply(record);
-        self.signs.apply(record, &self.latest.state);
+        self.markers.apply(record, &self.latest.state);
         self.lanes.apply(record);
     }
 }

@@ -46,40 +46,40 @@ pub struct SnapshotCache {
 }
 
 /// What all kept moments together may take.
-const KEPT_BYTES: usize = 64 << 20;
+const MAX_CACHE_BYTES: usize = 64 << 20;
 
 /// Fewer records than this are told again sooner than a moment is copied.
-const SHORTEST: usize = 1024;
+const MIN_STRIDE: usize = 1024;
 
 impl SnapshotCache {
     /// Comes to the moment after the first `records` records of `log`, or after all if they are fewer. Returns whether
     /// `moment` went on to there, so that its state tells what has changed; else it jumped.
-    pub fn go(&mut self, log: &RunLog, records: usize, moment: &mut Snapshot) -> bool {
+    pub fn seek(&mut self, log: &RunLog, records: usize, snapshot: &mut Snapshot) -> bool {
         let records = records.min(log.records().len());
-        self.keep_until(log, records);
+        self.fill_until(log, records);
         let nearest = self.kept.iter().rfind(|kept| kept.records <= records);
-        let jumps_to = nearest.filter(|kept| moment.records > records || moment.records < kept.records);
+        let jumps_to = nearest.filter(|kept| snapshot.records > records || snapshot.records < kept.records);
         if let Some(kept) = jumps_to {
-            moment.clone_from(kept);
+            snapshot.clone_from(kept);
         }
-        for record in &log.records()[moment.records..records] {
-            moment.apply(record);
+        for record in &log.records()[snapshot.records..records] {
+            snapshot.apply(record);
         }
         jumps_to.is_none()
     }
 
     /// Forgets what was found with more records than these: others were sorted in before them.
     pub fn forget_after(&mut self, records: usize) {
-        self.kept.retain(|moment| moment.records <= records);
+        self.kept.retain(|snapshot| snapshot.records <= records);
     }
 
-    fn keep_until(&mut self, log: &RunLog, records: usize) {
+    fn fill_until(&mut self, log: &RunLog, records: usize) {
         if self.kept.is_empty() {
             let first = Snapshot::new(&log.header);
-            self.stride = SHORTEST.max(first.state.atoms() as usize / 8);
+            self.stride = MIN_STRIDE.max(first.state.atoms() as usize / 8);
             self.kept.push(first);
         }
-        let most = (KEPT_BYTES / size_of_val(self.kept[0].state.places()).max(1)).clamp(2, 64);
+        let most = (MAX_CACHE_BYTES / size_of_val(self.kept[0].state.places()).max(1)).clamp(2, 64);
         // Never empty: the first moment stays.
         while let Some(last) = self.kept.last().filter(|last| last.records + self.stride <= records) {
             let mut next = last.clone();
@@ -89,7 +89,7 @@ impl SnapshotCache {
             if self.kept.len() > most {
                 self.stride *= 2;
                 let stride = self.stride;
-                self.kept.retain(|moment| moment.records.is_multiple_of(stride));
+                self.kept.retain(|snapshot| snapshot.records.is_multiple_of(stride));
             }
         }
     }
@@ -106,8 +106,8 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     /// All that is seen of a moment at its own time.
-    fn seen(moment: &Snapshot, at: Time, language: Language) -> String {
-        let Snapshot { state, narrator, records } = moment;
+    fn seen(snapshot: &Snapshot, at: Time, language: Language) -> String {
+        let Snapshot { state, narrator, records } = snapshot;
         let flights: Vec<_> = state.flights().iter().filter(|flight| flight.gone() > at).collect();
         let events: Vec<_> = narrator.events().collect();
         let sentence = narrator.sentence(state, at, language);
@@ -121,11 +121,11 @@ mod tests {
         ) {
         let language = Language::English;
             let log = sample_runs::log(&speeds, atoms);
-            let mut past = SnapshotCache::default();
+            let mut cache = SnapshotCache::default();
             let mut jumped = Snapshot::new(&log.header);
             for jump in jumps {
                 let records = (jump * (log.records().len() + 3) as f64) as usize;
-                past.go(&log, records, &mut jumped);
+                cache.seek(&log, records, &mut jumped);
                 let mut went = Snapshot::new(&log.header);
                 log.records().iter().take(records).for_each(|record| went.apply(record));
                 let at = went.state.head();
@@ -142,18 +142,18 @@ mod tests {
             let held_back = told.remove((told.len() / 2).saturating_sub(late));
             let mut log = RunLog::new(whole.header.clone());
             log.add(told);
-            let mut past = SnapshotCache::default();
-            let mut moment = Snapshot::new(&whole.header);
-            past.go(&log, usize::MAX, &mut moment);
+            let mut cache = SnapshotCache::default();
+            let mut snapshot = Snapshot::new(&whole.header);
+            cache.seek(&log, usize::MAX, &mut snapshot);
             let before = log.until(held_back.at);
             log.add(vec![held_back]);
-            past.forget_after(before);
+            cache.forget_after(before);
             let records = (records * log.records().len() as f64) as usize;
             let mut went = Snapshot::new(&log.header);
             log.records().iter().take(records).for_each(|record| went.apply(record));
             let at = went.state.head();
             let mut jumped = Snapshot::new(&log.header);
-            past.go(&log, records, &mut jumped);
+            cache.seek(&log, records, &mut jumped);
             prop_assert_eq!(seen(&jumped, at, language), seen(&went, at, language));
         }
     }
@@ -161,10 +161,10 @@ mod tests {
     #[test]
     fn what_is_kept_has_a_bound() {
         let log = sample_runs::log(&[1.0, 0.7, 0.1], 60_000);
-        let mut past = SnapshotCache::default();
-        past.go(&log, usize::MAX, &mut Snapshot::new(&log.header));
-        let bytes = past.kept.len() * 60_000 * size_of::<AtomState>();
-        assert!(bytes <= KEPT_BYTES && past.kept.len() > 3, "{} moments", past.kept.len());
-        assert!(past.kept.windows(2).all(|pair| pair[1].records - pair[0].records == past.stride));
+        let mut cache = SnapshotCache::default();
+        cache.seek(&log, usize::MAX, &mut Snapshot::new(&log.header));
+        let bytes = cache.kept.len() * 60_000 * size_of::<AtomState>();
+        assert!(bytes <= MAX_CACHE_BYTES && cache.kept.len() > 3, "{} moments", cache.kept.len());
+        assert!(cache.kept.windows(2).all(|pair| pair[1].records - pair[0].records == cache.stride));
     }
 }

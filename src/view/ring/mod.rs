@@ -1,7 +1,7 @@
-//! The ring as a display list: nodes on a circle, offers on a rail round it, transfers across, the parent within.
+//! The ring as a display list: nodes on a circle, offers on a rail round it, transfers across, the parent in the centre.
 //!
-//! Numbers rise clockwise from the top, so an offer, which goes to the left neighbour, always runs anticlockwise:
-//! at the top of the ring to the left.
+//! Numbers rise clockwise from the top. An offer goes to the left neighbour, so it always moves anticlockwise: at the top
+//! of the ring to the left.
 
 mod angles;
 mod centre;
@@ -26,34 +26,33 @@ use crate::balance::NodeId;
 use crate::language::Language;
 use crate::time::Time;
 use angles::arc;
-use label_text::{is_labelled, label};
+use label_text::is_labelled;
 use layers::{RingLayer, RingMarks};
 use layout::RingLayout;
-use machine::machine;
 
-/// What is laid over the ring.
+/// Marks over the ring that do not come from the run's state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RingOverlay {
-    /// The result, which takes the centre.
-    pub outcome: Option<Summary>,
-    /// The node that is marked.
+    /// The result, shown in the centre.
+    pub summary: Option<Summary>,
+    /// The selected node.
     pub selected: Option<NodeId>,
-    /// Nodes that stand out.
-    pub lit: Vec<NodeId>,
-    /// A message that stands out.
+    /// Highlighted nodes.
+    pub highlighted: Vec<NodeId>,
+    /// The id of the highlighted message.
     pub message: Option<u64>,
 }
 
-/// What can be pointed at.
+/// A part of the ring that can be pointed at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RingSpot {
-    /// A node, with its progress arc.
+    /// A node or its progress arc.
     Node(NodeId),
-    /// The parent in the centre.
+    /// The parent, in the centre.
     Parent,
 }
 
-/// The ring at `now`; the message, the nodes and the result of `overlay` are laid over it.
+/// Draws the ring at `now`.
 pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: Time, language: Language) -> Vec<Mark> {
     let mut marks = RingMarks::default();
     let tracks = marks.layer(RingLayer::Tracks);
@@ -67,14 +66,14 @@ pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: T
     for node in 0..state.nodes().len() as NodeId {
         let of = &*state.seen(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
-        machine(layout, (node, of), activity, is_selected || overlay.lit.contains(&node), machines);
+        machine::draw(layout, (node, of), activity, is_selected || overlay.highlighted.contains(&node), machines);
         if is_labelled(layout, is_selected) {
-            label(layout, state, (node, of), activity, now, machines, language);
+            label_text::draw(layout, state, (node, of), activity, now, machines, language);
         }
     }
     let centre = marks.layer(RingLayer::Centre);
-    match overlay.outcome {
-        Some(outcome) => centre::result(layout, &outcome, centre, language),
+    match overlay.summary {
+        Some(summary) => centre::result(layout, &summary, centre, language),
         None => centre::parent(layout, state, now, centre, language),
     }
     messages::draw(layout, state, now, overlay.message, &mut marks);
@@ -83,51 +82,51 @@ pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: T
     marks.joined()
 }
 
-/// What of the ring is at `point`.
+/// Finds the part of the ring at `point`.
 pub fn ring_at(layout: &RingLayout, point: Point) -> Option<RingSpot> {
     let from = |[x, y]: Point| (point[0] - x).hypot(point[1] - y);
     let away = |node: &NodeId| from(layout.seat(*node));
     let nearest = (0..layout.nodes as NodeId).min_by(|one, other| away(one).total_cmp(&away(other)));
     match nearest {
-        Some(node) if away(&node) <= layout.reach() => Some(RingSpot::Node(node)),
-        _ => (from(layout.centre) <= layout.parent).then_some(RingSpot::Parent),
+        Some(node) if away(&node) <= layout.node_reach() => Some(RingSpot::Node(node)),
+        _ => (from(layout.centre) <= layout.parent_radius).then_some(RingSpot::Parent),
     }
 }
 
-/// The topmost message that is drawn at `point` at `now`: atoms, an offer, a request, or its answer.
+/// Finds the topmost message that is drawn at `point` at `now`: atoms, an offer, a request, or its answer.
 pub fn message_at<'a>(layout: &RingLayout, state: &'a RunState, now: Time, point: Point) -> Option<&'a Flight> {
     let in_ring = messages::message_at(layout, state, now, point);
     let in_farm = farm_messages::message_at(layout, state, now, point);
     in_ring.into_iter().chain(in_farm).max_by_key(|(layer, _)| *layer).map(|(_, flight)| flight)
 }
 
-/// Arrowheads on the rail, and spokes.
-const MOST_LINES: usize = 64;
+/// Maximum number of arrowheads on the rail, and of spokes: more could not be told apart.
+const MAX_SPOKES: usize = 64;
 
-fn rail(plan: &RingLayout, marks: &mut Vec<Mark>) {
+/// Draws the rail. Arrowheads half-way between neighbours show the direction of offers.
+fn rail(layout: &RingLayout, marks: &mut Vec<Mark>) {
     let ink = Hue::Hairline.full();
-    marks.push(Mark::Line { points: arc(plan.centre, plan.rail, 0.0, TAU), width: 1.5, ink });
-    // Arrowheads half-way between neighbours say which way offers go.
-    let wing = (plan.rail * 0.022).clamp(3.0, 8.0);
-    // As many as can be told apart.
-    for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
-        let angle = plan.angle(node as NodeId) - plan.step() / 2.0;
-        let back = wing / plan.rail;
+    marks.push(Mark::Line { points: arc(layout.centre, layout.rail_radius, 0.0, TAU), width: 1.5, ink });
+    let wing = (layout.rail_radius * 0.022).clamp(3.0, 8.0);
+    for node in (0..layout.nodes).step_by(layout.nodes.div_ceil(MAX_SPOKES)) {
+        let angle = layout.angle(node as NodeId) - layout.node_step() / 2.0;
+        let back = wing / layout.rail_radius;
         let points = vec![
-            plan.at(angle + back, plan.rail - wing),
-            plan.at(angle - back * 0.2, plan.rail),
-            plan.at(angle + back, plan.rail + wing),
+            layout.at(angle + back, layout.rail_radius - wing),
+            layout.at(angle - back * 0.2, layout.rail_radius),
+            layout.at(angle + back, layout.rail_radius + wing),
         ];
         marks.push(Mark::Line { points, width: 1.5, ink: Hue::Quiet.faint(0.7) });
     }
 }
 
-/// The ways between parent and nodes; in a farm, where everything goes that way, they are `strong`.
-fn spokes(plan: &RingLayout, strong: bool, marks: &mut Vec<Mark>) {
+/// Draws the spokes between parent and nodes. They are `strong` in a farm, where all messages take them.
+fn spokes(layout: &RingLayout, strong: bool, marks: &mut Vec<Mark>) {
     let (width, ink) = if strong { (1.5, Hue::Hairline.full()) } else { (1.0, Hue::Hairline.faint(0.7)) };
-    for node in (0..plan.nodes).step_by(plan.nodes.div_ceil(MOST_LINES)) {
-        let angle = plan.angle(node as NodeId);
-        let (inner, outer) = (plan.at(angle, plan.parent), plan.at(angle, plan.seats - plan.node * 1.3));
+    for node in (0..layout.nodes).step_by(layout.nodes.div_ceil(MAX_SPOKES)) {
+        let angle = layout.angle(node as NodeId);
+        let (inner, outer) =
+            (layout.at(angle, layout.parent_radius), layout.at(angle, layout.seat_radius - layout.node_radius * 1.3));
         marks.push(Mark::Line { points: vec![inner, outer], width, ink });
     }
 }

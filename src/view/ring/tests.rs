@@ -26,8 +26,8 @@ fn drawn(state: &RunState, overlay: &RingOverlay, now: Time, size: Point) -> Vec
     ring(&layout(state, size), state, overlay, now, Language::English)
 }
 
-/// The corners of what holds a mark.
-fn places(mark: &Mark) -> Vec<Point> {
+/// Points that bound a mark.
+fn bounds(mark: &Mark) -> Vec<Point> {
     match mark {
         Mark::Disc { centre, radius, .. } => corners(*centre, [*radius; 2]),
         Mark::Box { centre, half, .. } => corners(*centre, *half),
@@ -43,7 +43,7 @@ fn corners([x, y]: Point, [w, h]: Point) -> Vec<Point> {
     vec![[x - w, y - h], [x + w, y + h]]
 }
 
-/// Left, top, right and bottom of a label.
+/// Left, top, right and bottom of a label; `None` for another mark.
 fn extent(mark: &Mark) -> Option<[f32; 4]> {
     let Mark::Label { at: [x, y], anchor, text, size, .. } = mark else { return None };
     let (width, half) = (size.width(text.chars().count()), size.line() / 2.0);
@@ -51,7 +51,7 @@ fn extent(mark: &Mark) -> Option<[f32; 4]> {
     Some([left, y - half, left + width, y + half])
 }
 
-/// The labels beside the rail, not those on nodes, offers or parcels.
+/// Extents of the labels beside the rail; labels on nodes, offers and parcels are left out.
 fn labels(marks: &[Mark]) -> Vec<[f32; 4]> {
     let beside = |mark: &&Mark| matches!(mark, Mark::Label { text, size, .. } if !matches!(size, TextSize::Fit(_)) && !text.starts_with('×'));
     marks.iter().filter(beside).filter_map(extent).collect()
@@ -66,8 +66,8 @@ fn texts(marks: &[Mark]) -> Vec<&str> {
         .collect()
 }
 
-/// A ring of these speeds after a part of its records, with its first node paused.
-fn moment(speeds: &[f64], part: f64) -> (RunState, Time) {
+/// The state of a run with these speeds after `part` of its records, with its first node paused, and its time.
+fn state_after(speeds: &[f64], part: f64) -> (RunState, Time) {
     let header = sample_runs::header(speeds, 60);
     let (records, mut state) = (sample_runs::records(&header), RunState::new(&header));
     let count = (records.len() as f64 * part) as usize;
@@ -79,15 +79,15 @@ fn moment(speeds: &[f64], part: f64) -> (RunState, Time) {
 
 proptest! {
     #[test]
-    fn everything_stays_inside(
+    fn marks_stay_inside(
         speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
         width in 240.0..1000.0f32, height in 240.0..1000.0f32,
     ) {
-        let (state, now) = moment(&speeds, part);
+        let (state, now) = state_after(&speeds, part);
         for later in 0..8 {
             let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
             let now = now + Duration::from_millis(150 * later);
-            for point in drawn(&state, &overlay, now, [width, height]).iter().flat_map(places) {
+            for point in drawn(&state, &overlay, now, [width, height]).iter().flat_map(bounds) {
                 prop_assert!((0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]), "{point:?}");
             }
         }
@@ -98,22 +98,22 @@ proptest! {
         speeds in prop::collection::vec(0.05..1.0f64, 1..33), part in 0.0..1.0f64, selected in 0..33u16,
         width in 240.0..1000.0f32, height in 240.0..1000.0f32,
     ) {
-        let (state, now) = moment(&speeds, part);
+        let (state, now) = state_after(&speeds, part);
         let selected = selected % speeds.len() as u16;
         let overlay = RingOverlay { selected: Some(selected), ..RingOverlay::default() };
-        let plan = RingLayout::new(speeds.len(), [width, height], Language::English);
-        let [x, y] = plan.centre;
+        let layout = RingLayout::new(speeds.len(), [width, height], Language::English);
+        let [x, y] = layout.centre;
         let nearest = |[left, top, right, bottom]: [f32; 4]| {
             (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
         };
         let mut labels = labels(&drawn(&state, &overlay, now, [width, height]));
-        // What stands in the centre.
-        labels.retain(|&label| nearest(label) > plan.parent);
+        // Leaves out the texts in the centre.
+        labels.retain(|&label| nearest(label) > layout.parent_radius);
         let least = if speeds.len() <= 16 { speeds.len() } else { 1 };
         prop_assert!(labels.len() >= least, "{labels:?}");
         prop_assert!(labels.len() <= 2 * speeds.len().min(16));
         for (i, one) in labels.iter().enumerate() {
-            prop_assert!(nearest(*one) > plan.rail + 9.0, "{one:?} lies on the rail");
+            prop_assert!(nearest(*one) > layout.rail_radius + 9.0, "{one:?} lies on the rail");
             for other in &labels[..i] {
                 let apart = [one[0] - other[2], other[0] - one[2], one[1] - other[3], other[1] - one[3]];
                 let apart = apart.into_iter().fold(f32::NEG_INFINITY, f32::max);
@@ -123,20 +123,20 @@ proptest! {
     }
 
     #[test]
-    fn whatever_is_pointed_at_is_found(nodes in 1..33usize, width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
-        let plan = RingLayout::new(nodes, [width, height], Language::English);
+    fn node_under_pointer_is_found(nodes in 1..33usize, width in 240.0..1000.0f32, height in 240.0..1000.0f32) {
+        let layout = RingLayout::new(nodes, [width, height], Language::English);
         for node in 0..nodes as NodeId {
-            prop_assert_eq!(ring_at(&plan, plan.seat(node)), Some(RingSpot::Node(node)));
+            prop_assert_eq!(ring_at(&layout, layout.seat(node)), Some(RingSpot::Node(node)));
         }
-        prop_assert_eq!(ring_at(&plan, plan.centre), Some(RingSpot::Parent));
-        prop_assert_eq!(ring_at(&plan, [1.0, 1.0]), None);
-        prop_assert_eq!(ring_at(&plan, plan.at(0.3, plan.interior() * 0.9)), None);
+        prop_assert_eq!(ring_at(&layout, layout.centre), Some(RingSpot::Parent));
+        prop_assert_eq!(ring_at(&layout, [1.0, 1.0]), None);
+        prop_assert_eq!(ring_at(&layout, layout.at(0.3, layout.interior_radius() * 0.9)), None);
     }
 }
 
 #[test]
-fn a_parcel_is_found_where_it_is_drawn() {
-    let (state, now) = moment(&[1.0, 1.0, 0.1], 0.7);
+fn parcel_is_found_where_it_is_drawn() {
+    let (state, now) = state_after(&[1.0, 1.0, 0.1], 0.7);
     let marks = drawn(&state, &RingOverlay::default(), now, SIZE);
     let label = |mark: &Mark| match mark {
         Mark::Label { at, text, .. } if text.starts_with('×') => Some((*at, text.clone())),
@@ -149,9 +149,9 @@ fn a_parcel_is_found_where_it_is_drawn() {
 }
 
 #[test]
-fn an_offer_is_found_where_its_token_runs() {
+fn offer_is_found_where_it_is_drawn() {
     let found = |part: u32| {
-        let (state, now) = moment(&[1.0, 1.0, 0.1], f64::from(part) / 20.0);
+        let (state, now) = state_after(&[1.0, 1.0, 0.1], f64::from(part) / 20.0);
         let offer = |mark: &Mark| {
             let Mark::Label { at, ink: Ink { hue: Hue::OnNode(who), .. }, .. } = *mark else { return false };
             message_at(&layout(&state, SIZE), &state, now, at)
@@ -163,11 +163,11 @@ fn an_offer_is_found_where_its_token_runs() {
 }
 
 #[test]
-fn a_pause_the_selection_and_the_pipe_are_seen() {
-    let (mut state, now) = moment(&[1.0, 1.0, 0.1], 0.4);
-    // The bands have left each other by then, and so have their counts.
+fn pause_selection_and_pipe_are_drawn() {
+    let (mut state, now) = state_after(&[1.0, 1.0, 0.1], 0.4);
+    // By then the bands and their counts are apart.
     let now = now + Duration::from_millis(400);
-    // Slots are as high as wide, bars higher, parcels wider.
+    // Slots are square, bars are high, parcels are wide.
     let boxes = |marks: &[Mark], shape: Ordering| {
         let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);
         marks.iter().filter(has).count()
@@ -188,7 +188,7 @@ fn a_pause_the_selection_and_the_pipe_are_seen() {
 }
 
 #[test]
-fn who_has_retired_looks_unlike_who_is_idle() {
+fn retired_looks_unlike_idle() {
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 60));
     state.nodes[0].band_at = Some(Time::ZERO);
     let draw = |state: &RunState| drawn(state, &RingOverlay::default(), Time::ZERO, SIZE);
@@ -197,11 +197,11 @@ fn who_has_retired_looks_unlike_who_is_idle() {
     let retired = draw(&state);
     assert!(texts(&idle).contains(&"idle") && texts(&retired).contains(&"retired"));
     let lines = |marks: &[Mark]| marks.iter().filter(|mark| matches!(mark, Mark::Line { .. })).count();
-    assert!(lines(&retired) >= lines(&idle) + 4, "a broken outline");
+    assert!(lines(&retired) >= lines(&idle) + 4, "a dashed outline");
 }
 
 #[test]
-fn every_state_of_a_machine_has_a_sign_and_a_word_of_its_own() {
+fn every_state_of_a_machine_has_its_own_shape_and_word() {
     let mut header = sample_runs::header(&[1.0; 4], 60);
     header.rules.strategy = Strategy::Adaptive;
     let draw = |spares, whats: &[RecordKind]| {
@@ -253,11 +253,11 @@ fn parcels_show_their_counts() {
 }
 
 #[test]
-fn the_result_takes_the_centre() {
+fn result_replaces_the_parent() {
     let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 30));
     let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
-    let outcome = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
+    let summary = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
     let marks =
-        drawn(&state, &RingOverlay { outcome: Some(outcome), ..RingOverlay::default() }, Time::from_secs(21.0), SIZE);
+        drawn(&state, &RingOverlay { summary: Some(summary), ..RingOverlay::default() }, Time::from_secs(21.0), SIZE);
     assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));
 }

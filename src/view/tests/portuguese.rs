@@ -18,7 +18,7 @@ use crate::view::charts::tradeoff::Tradeoff;
 use crate::view::draw::display_list::Mark;
 use crate::view::inspect::Inspected;
 use crate::view::narration::record_sentences::record_words;
-use crate::view::narration::status::standing;
+use crate::view::narration::status::status_sentence;
 use crate::view::picture::overlay::Layer;
 use crate::view::playback::clock::{RATES, rate_of_time_words, short_rate_words};
 use crate::view::playback::details::Details;
@@ -191,21 +191,21 @@ fn runs() -> Vec<RunLog> {
 }
 
 /// What is said of a run while it goes on.
-fn told(log: &RunLog, language: Language) -> Said {
+fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
-    let mut moment = Snapshot::new(&log.header);
-    said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO, language)));
+    let mut snapshot = Snapshot::new(&log.header);
+    said.push((Room::Heard, snapshot.narrator.sentence(&snapshot.state, Time::ZERO, language)));
     for (index, record) in log.records().iter().enumerate() {
-        moment.apply(record);
-        let (state, narrator, now) = (&moment.state, &moment.narrator, record.at);
+        snapshot.apply(record);
+        let (state, narrator, now) = (&snapshot.state, &snapshot.narrator, record.at);
         said.push((Room::Some, record_words(record, state, language)));
         said.push((Room::Heard, narrator.sentence(state, now, language)));
         if !matches!(record.what, RecordKind::AtomStarted { .. }) {
-            said.push((Room::Heard, standing(state, language)));
+            said.push((Room::Heard, status_sentence(state, language)));
             said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.sentence(language))));
         }
         if index % 37 == 0 {
-            said.extend(hovered(&moment, now, language));
+            said.extend(pointed_words(&snapshot, now, language));
         }
     }
     said
@@ -220,8 +220,8 @@ fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
 }
 
 /// What is said of what somebody points at, and what stands in the drawing.
-fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
-    let (state, mut said) = (&moment.state, Vec::new());
+fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
+    let (state, mut said) = (&snapshot.state, Vec::new());
     let nodes = 0..state.nodes().len() as NodeId;
     for (what, words) in
         nodes.flat_map(|node| node_words(state, node, now, language)).chain(parent_words(state, now, language))
@@ -239,26 +239,27 @@ fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
 }
 
 /// What is said of a run when it is over.
-fn summed_up(log: &RunLog, language: Language) -> Said {
+fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
-    let RunView { latest: moment, signs, lanes, .. } = RunView::of(log);
-    let (state, mut past) = (&moment.state, SnapshotCache::default());
-    said.extend(signs.all().iter().map(|sign| (Room::Same, sign.happening.sentence(language))));
+    let RunView { latest: snapshot, markers, lanes, .. } = RunView::of(log);
+    let (state, mut cache) = (&snapshot.state, SnapshotCache::default());
+    said.extend(markers.all().iter().map(|marker| (Room::Same, marker.happening.sentence(language))));
     let found = landmarks(log, language);
-    let abouts =
-        found.iter().map(|mark| mark.about).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
-    for about in abouts.collect::<Vec<_>>() {
+    let subjects =
+        found.iter().map(|mark| mark.subject).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
+    for subject in subjects.collect::<Vec<_>>() {
         let (title, more) =
-            Details::of(about, log, &lanes, &mut past, language).words(state, state.head(), 1.0, language);
+            Details::of(subject, log, &lanes, &mut cache, language).words(state, state.head(), 1.0, language);
         said.extend([(Room::Some, title), (Room::Some, more)]);
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
-    let tally = Metrics::of(log);
-    if let (Some(makespan), Some(ideal), Some(efficiency)) = (tally.makespan(), tally.ideal(), tally.efficiency()) {
-        let outcome = Summary { makespan, ideal, efficiency, spread: tally.finish_spread() };
-        said.push((Room::Same, result_words(state, &outcome, language)));
+    let metrics = Metrics::of(log);
+    if let (Some(makespan), Some(ideal), Some(efficiency)) = (metrics.makespan(), metrics.ideal(), metrics.efficiency())
+    {
+        let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() };
+        said.push((Room::Same, result_words(state, &summary, language)));
         said.extend(
-            figures(&outcome, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+            figures(&summary, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
         );
     }
     said
@@ -268,8 +269,8 @@ fn summed_up(log: &RunLog, language: Language) -> Said {
 fn runs_are_told_in_portuguese() {
     let runs = runs();
     assert!(runs.iter().filter(|log| Metrics::of(log).makespan().is_some()).count() > 30);
-    compare(|language| runs.iter().flat_map(|log| told(log, language)).collect());
-    compare(|language| runs.iter().flat_map(|log| summed_up(log, language)).collect());
+    compare(|language| runs.iter().flat_map(|log| sentences_while_it_runs(log, language)).collect());
+    compare(|language| runs.iter().flat_map(|log| sentences_after_it(log, language)).collect());
 }
 
 #[test]
@@ -335,7 +336,7 @@ fn states_fit_below_a_machine() {
         Activity::Done,
     ];
     compare(|language| all.map(|activity| (Room::Same, activity_word(activity, language).to_owned())).to_vec());
-    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND;
+    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND_LINE_LETTERS;
     assert!(all.iter().all(|activity| short(*activity)));
 }
 

@@ -9,27 +9,27 @@ use crate::view::draw::display_list::Hue;
 use crate::view::state::lane::Lane;
 
 /// How long a dash is, and the gap after it.
-const DASH: [f32; 2] = [6.0, 4.0];
+const DASH_AND_GAP_PX: [f32; 2] = [6.0, 4.0];
 /// More dashes than this are one line.
-const MOST: usize = 400;
+const MAX_DASHES: usize = 400;
 
 /// Draws them: an empty lane with a cross for one that was off, a broken line for one that hung, a wire that is cut for one that was cut off.
-pub(crate) fn troubles(
+pub(crate) fn draw_conditions(
     lane: &Lane,
     node: NodeId,
     window: &TimeWindow,
-    plan: &TimelineLayout,
+    layout: &TimelineLayout,
     head: Time,
     drawn: &mut Timeline,
 ) {
     let conditions = lane.conditions();
     for (i, &(from, condition)) in conditions.iter().enumerate() {
         let to = conditions.get(i + 1).map_or(head, |(next, _)| *next);
-        let [left, right] = plan.span(window, from, to);
+        let [left, right] = layout.span(window, from, to);
         if condition == Condition::Well || right <= left {
             continue;
         }
-        let (middle, [top, bottom]) = (plan.middle(node), plan.lane(node));
+        let (middle, [top, bottom]) = (layout.middle(node), layout.lane(node));
         match condition {
             Condition::Off => {
                 let place = [left, top, right, bottom];
@@ -43,9 +43,9 @@ pub(crate) fn troubles(
             }
             Condition::Well => {}
         }
-        let (x, reach) = (plan.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
-        if (0.0..=plan.width).contains(&x) && reach > 2.0 {
-            let [x, y] = [(x + reach + 2.0).min(plan.width - reach), middle];
+        let (x, reach) = (layout.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
+        if (0.0..=layout.width).contains(&x) && reach > 2.0 {
+            let [x, y] = [(x + reach + 2.0).min(layout.width - reach), middle];
             let at = |[u, v]: [f32; 2]| [x + u * reach, y + v * reach];
             let strokes = condition_strokes(condition).iter();
             drawn.lines.extend(strokes.map(|&[from, to]| (at(from), at(to), Hue::Text.full())));
@@ -55,11 +55,11 @@ pub(crate) fn troubles(
 
 fn dashes([left, right]: [f32; 2], [top, bottom]: [f32; 2], quads: &mut Vec<Quad>) {
     let ink = Hue::Text.faint(0.9);
-    let step = (DASH[0] + DASH[1]).max((right - left) / MOST as f32);
+    let step = (DASH_AND_GAP_PX[0] + DASH_AND_GAP_PX[1]).max((right - left) / MAX_DASHES as f32);
     let count = ((right - left) / step).ceil() as usize;
-    for i in 0..count.min(MOST) {
+    for i in 0..count.min(MAX_DASHES) {
         let start = left + i as f32 * step;
-        let end = (start + DASH[0] * step / (DASH[0] + DASH[1])).min(right);
+        let end = (start + DASH_AND_GAP_PX[0] * step / (DASH_AND_GAP_PX[0] + DASH_AND_GAP_PX[1])).min(right);
         if end > start {
             quads.push(Quad { place: [start, top, end, bottom], ink });
         }
@@ -91,7 +91,7 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     /// What is drawn more of three machines' lanes if this becomes of the second at 1 s: quads and lines.
-    fn more(condition: Condition) -> (usize, usize) {
+    fn marks_added(condition: Condition) -> (usize, usize) {
         let header = sample_runs::header(&[1.0; 3], 300);
         let draw = |whats: &[RecordKind]| {
             let mut lanes = Lanes::new(&header);
@@ -108,7 +108,8 @@ mod tests {
 
     #[test]
     fn each_trouble_has_a_sign_of_its_own() {
-        let [well, off, hung, cut] = [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(more);
+        let [well, off, hung, cut] =
+            [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(marks_added);
         assert_eq!(well, (0, 0));
         assert_eq!([off.1, hung.1, cut.1], [2, 4, 3], "strokes");
         assert!(hung.0 > 20 && cut.0 > 2 * hung.0 - 20, "dashes {hung:?} {cut:?}");

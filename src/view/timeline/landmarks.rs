@@ -11,7 +11,7 @@ use crate::view::text::format::{atoms_words, count, duration, node_name};
 /// By what one steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepUnit {
-    /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a hand.
+    /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a user_change.
     Event,
     /// An atom is traced.
     Atom,
@@ -32,7 +32,7 @@ impl StepUnit {
         }
     }
 
-    fn ends_at(self, what: &RecordKind) -> bool {
+    fn matches(self, what: &RecordKind) -> bool {
         match (self, what) {
             (Self::Atom, RecordKind::AtomDone { .. }) => true,
             (Self::Lap, RecordKind::Sent { from: Party::Node(from), message, .. }) => {
@@ -52,7 +52,7 @@ impl StepUnit {
 /// Whoever has seen the first `records` records of `log` and makes a step has then seen so many; `None` if there is no
 /// such step. The first step back from the first event is the beginning.
 pub fn step(log: &RunLog, records: usize, by: StepUnit, forward: bool) -> Option<usize> {
-    let is_end = |record: &Record| by.ends_at(&record.what);
+    let is_end = |record: &Record| by.matches(&record.what);
     let (before, after) = log.records().split_at(records.min(log.records().len()));
     if forward {
         return after.iter().position(is_end).map(|further| before.len() + further + 1);
@@ -71,7 +71,7 @@ pub struct Landmark {
     /// When it is.
     pub at: Time,
     /// What it is about.
-    pub about: Subject,
+    pub subject: Subject,
 }
 
 /// What something is about.
@@ -88,10 +88,10 @@ pub enum Subject {
 /// What of a run is worth jumping to, in the order in which one would ask.
 pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
     let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
-    let mut hand = None;
-    let records = seen(log);
+    let mut user_change = None;
+    let records = until_finished(log);
     for (index, record) in records.iter().enumerate() {
-        let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
+        let mark = |words: String, subject| Landmark { words, records: index + 1, at: record.at, subject };
         match &record.what {
             RecordKind::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. }
                 if from == who =>
@@ -145,21 +145,21 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
                 let name = node_name(*node);
                 let words =
                     || say!(language, "The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
-                hand.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
+                user_change.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             _ => {}
         }
     }
     // Said once, if they are the same.
     let transfer =
-        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
+        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.subject != first.subject));
     let slowest = slowest(records, log.header.speeds.len(), language);
     let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
-    [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
+    [offer, transfer, biggest, retired, slowest, dearest, user_change].into_iter().flatten().collect()
 }
 
 /// The records that one sees happen: once the picture is complete, time stands still.
-fn seen(log: &RunLog) -> &[Record] {
+fn until_finished(log: &RunLog) -> &[Record] {
     let records = log.records();
     let end = records.iter().position(|record| record.what == RecordKind::Finished);
     &records[..end.map_or(records.len(), |end| end + 1)]
@@ -187,7 +187,7 @@ fn slowest(records: &[Record], nodes: usize, language: Language) -> Option<Landm
     let (name, traced) = (node_name(node), atoms_words(atoms[slowest], language));
     let words = say!(language, "The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
     let (records, at) = (records.len(), records.last()?.at);
-    (nodes > 1).then_some(Landmark { words, records, at, about: Subject::Node(node) })
+    (nodes > 1).then_some(Landmark { words, records, at, subject: Subject::Node(node) })
 }
 
 #[cfg(test)]
@@ -204,7 +204,7 @@ mod tests {
             for by in StepUnit::ALL {
                 let mut places = vec![0];
                 while let Some(next) = step(&log, places[places.len() - 1], by, true) {
-                    prop_assert!(by.ends_at(&log.records()[next - 1].what));
+                    prop_assert!(by.matches(&log.records()[next - 1].what));
                     places.push(next);
                 }
                 let mut back = vec![places[places.len() - 1]];
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn every_atom_is_a_step() {
         let log = sample_runs::log(&[1.0, 0.3], 57);
-        let ends = |by: StepUnit| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
+        let ends = |by: StepUnit| log.records().iter().filter(|record| by.matches(&record.what)).count();
         assert_eq!(ends(StepUnit::Atom), 57);
         assert!(ends(StepUnit::Lap) >= 2 && ends(StepUnit::Event) > ends(StepUnit::Lap));
     }
@@ -235,7 +235,7 @@ mod tests {
         let end = log.end();
         log.add(vec![retires(9e3, 1)]);
         let found = landmarks(&log, language);
-        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
+        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.subject);
         assert!(matches!(says("The first offer: "), Some(Subject::Message(_))));
         assert!(matches!(says("The biggest transfer: "), Some(Subject::Message(_))));
         assert!(matches!(says("The first to retire: "), Some(Subject::Node(0))));

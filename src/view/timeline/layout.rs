@@ -10,11 +10,11 @@ pub struct TimelineLayout {
     /// All of its width.
     pub width: f32,
     /// The height of what stands above the lanes.
-    pub head: f32,
+    pub header_height: f32,
     /// The height of the axis below the lanes.
-    pub foot: f32,
+    pub axis_height: f32,
     /// The height of a lane, the gap below it included.
-    pub lane: f32,
+    pub lane_height: f32,
     /// How many lanes there are.
     pub lanes: usize,
 }
@@ -26,26 +26,27 @@ const STRIP_HEIGHT_PX: f32 = 20.0;
 impl TimelineLayout {
     /// A plan for so many lanes in so much room.
     pub fn new(lanes: usize, width: f32, height: f32) -> Self {
-        let (head, foot) = if height > 120.0 { (STRIP_TOP_PX + STRIP_HEIGHT_PX, 18.0) } else { (0.0, 0.0) };
-        let lane = ((height - head - foot) / lanes.max(1) as f32).min(26.0);
-        Self { width, head, foot, lane, lanes }
+        let (header_height, axis_height) =
+            if height > 120.0 { (STRIP_TOP_PX + STRIP_HEIGHT_PX, 18.0) } else { (0.0, 0.0) };
+        let lane_height = ((height - header_height - axis_height) / lanes.max(1) as f32).min(26.0);
+        Self { width, header_height, axis_height, lane_height, lanes }
     }
 
     /// The top and the bottom of a lane.
     pub fn lane(&self, node: NodeId) -> [f32; 2] {
-        let top = self.head + f32::from(node) * self.lane;
-        [top, top + self.lane - if self.lane > 8.0 { 2.0 } else { 1.0 }]
+        let top = self.header_height + f32::from(node) * self.lane_height;
+        [top, top + self.lane_height - if self.lane_height > 8.0 { 2.0 } else { 1.0 }]
     }
 
     /// Which lane is at a height.
     pub fn node_at(&self, y: f32) -> Option<NodeId> {
-        let lane = ((y - self.head) / self.lane).floor();
+        let lane = ((y - self.header_height) / self.lane_height).floor();
         (lane >= 0.0 && lane < self.lanes as f32).then_some(lane as NodeId)
     }
 
     /// Where the lanes end.
     pub fn bottom(&self) -> f32 {
-        self.head + self.lane * self.lanes as f32
+        self.header_height + self.lane_height * self.lanes as f32
     }
 
     pub(super) fn x(&self, window: &TimeWindow, time: Time) -> f32 {

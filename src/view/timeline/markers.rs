@@ -34,7 +34,7 @@ pub enum MarkerKind {
     Complete,
 }
 
-/// The signs of a run, by time.
+/// The markers of a run, by time.
 #[derive(Clone, Debug, Default)]
 pub struct Markers(Vec<Marker>);
 
@@ -51,14 +51,14 @@ impl Markers {
             _ => return,
         };
         let Some(happening) = Happening::of(record, state) else { return };
-        let sign = Marker { at: record.at, kind, happening };
+        let marker = Marker { at: record.at, kind, happening };
         // A slider that is dragged says many speeds, of which the last stays.
         let drags = |last: &Marker| last.kind == kind && matches!(kind, MarkerKind::Speed(_) | MarkerKind::Latency);
         match self.0.last_mut() {
-            Some(last) if drags(last) && sign.at.since(last.at) < DRAGGED => *last = sign,
+            Some(last) if drags(last) && marker.at.since(last.at) < DRAG_TIME => *last = marker,
             _ => {
-                let place = self.0.partition_point(|other| other.at <= sign.at);
-                self.0.insert(place, sign);
+                let place = self.0.partition_point(|other| other.at <= marker.at);
+                self.0.insert(place, marker);
             }
         }
     }
@@ -70,15 +70,15 @@ impl Markers {
 
     /// The ones no further from `time` than `reach`, the nearest first.
     pub fn near(&self, time: Time, reach: std::time::Duration) -> Vec<&Marker> {
-        let away = |sign: &Marker| sign.at.since(time).max(time.since(sign.at));
-        let mut near: Vec<_> = self.0.iter().filter(|sign| away(sign) <= reach).collect();
-        near.sort_by_key(|sign| away(sign));
+        let away = |marker: &Marker| marker.at.since(time).max(time.since(marker.at));
+        let mut near: Vec<_> = self.0.iter().filter(|marker| away(marker) <= reach).collect();
+        near.sort_by_key(|marker| away(marker));
         near
     }
 }
 
 /// Speeds that follow each other sooner than this are one.
-const DRAGGED: std::time::Duration = std::time::Duration::from_secs(1);
+const DRAG_TIME: std::time::Duration = std::time::Duration::from_secs(1);
 
 #[cfg(test)]
 mod tests {
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn a_dragged_slider_is_one_sign_and_every_retirement_its_own() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
-        let (mut state, mut signs) = (RunState::new(&header), Markers::default());
+        let (mut state, mut markers) = (RunState::new(&header), Markers::default());
         let mut records = sample_runs::records(&header);
         let half = records.len() / 2;
         let at = records[half].at;
@@ -99,17 +99,17 @@ mod tests {
         }
         for record in &records {
             state.apply(record);
-            signs.apply(record, &state);
+            markers.apply(record, &state);
         }
-        let speeds: Vec<_> = signs.all().iter().filter(|sign| sign.kind == MarkerKind::Speed(1)).collect();
+        let speeds: Vec<_> = markers.all().iter().filter(|marker| marker.kind == MarkerKind::Speed(1)).collect();
         assert_eq!((speeds.len(), speeds[0].at), (1, Time(at.0 + 2)));
         let sentence = speeds[0].happening.sentence(Language::English);
         assert!(sentence.starts_with("Machine 2 now runs at 20 %"), "{sentence}");
-        let retired = signs.all().iter().filter(|sign| matches!(sign.kind, MarkerKind::Retired(_))).count();
+        let retired = markers.all().iter().filter(|marker| matches!(marker.kind, MarkerKind::Retired(_))).count();
         assert_eq!(retired, state.nodes().iter().filter(|node| node.retired).count());
-        assert_eq!(signs.all().last().map(|sign| sign.kind), Some(MarkerKind::Complete));
-        assert!(signs.all().is_sorted_by_key(|sign| sign.at));
-        let near = signs.near(Time(at.0 + 5), std::time::Duration::from_nanos(10));
-        assert!(near.first().is_some_and(|sign| sign.kind == MarkerKind::Speed(1)));
+        assert_eq!(markers.all().last().map(|marker| marker.kind), Some(MarkerKind::Complete));
+        assert!(markers.all().is_sorted_by_key(|marker| marker.at));
+        let near = markers.near(Time(at.0 + 5), std::time::Duration::from_nanos(10));
+        assert!(near.first().is_some_and(|marker| marker.kind == MarkerKind::Speed(1)));
     }
 }

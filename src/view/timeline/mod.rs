@@ -12,41 +12,41 @@ use super::state::lane::{Lane, LanePhase};
 use super::state::lanes::{Lanes, Load, Trip};
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
-use conditions::troubles;
+use conditions::draw_conditions;
 use landmarks::Subject;
 use layout::{STRIP_TOP_PX, TimelineLayout};
 use quads::{Quad, Timeline, add_to_columns, column_runs};
 use time_window::TimeWindow;
 
 /// Narrower than this, in pixels, atoms are not told apart.
-const APART: f64 = 3.0;
+const MIN_BAR_WIDTH_PX: f64 = 3.0;
 
 /// More messages than this in the window hide each other and the lanes.
-const MOST_LINES: usize = 400;
+const MAX_LINES: usize = 400;
 
 /// The timeline of what `window` shows, until `head`, which the run has come to.
-pub fn timeline(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, head: Time) -> Timeline {
+pub fn timeline(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, head: Time) -> Timeline {
     let mut drawn = Timeline::default();
-    let mut used = vec![0.0; plan.width.max(0.0) as usize];
+    let mut used = vec![0.0; layout.width.max(0.0) as usize];
     for (node, lane) in (0..).zip(lanes.lanes()) {
-        stays(lane, node, window, plan, head, &mut drawn.quads);
-        bars(lane, node, window, plan, head, &mut drawn.quads, &mut used);
-        pauses(lane, node, window, plan, head, &mut drawn.quads);
-        troubles(lane, node, window, plan, head, &mut drawn);
+        draw_phases(lane, node, window, layout, head, &mut drawn.quads);
+        draw_bars(lane, node, window, layout, head, &mut drawn.quads, &mut used);
+        draw_pauses(lane, node, window, layout, head, &mut drawn.quads);
+        draw_conditions(lane, node, window, layout, head, &mut drawn);
     }
-    if plan.head > 0.0 {
-        usage(&used, plan, &mut drawn.quads);
+    if layout.header_height > 0.0 {
+        draw_usage(&used, layout, &mut drawn.quads);
     }
-    messages(lanes, window, plan, &mut drawn.lines);
+    draw_messages(lanes, window, layout, &mut drawn.lines);
     drawn
 }
 
 /// Times for the axis below the lanes: round ones, far enough apart for their words, and how exactly they are to be told,
 /// as a rate is for [`time_words`](super::text::format::time_words).
 pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
-    const APART: f64 = 110.0;
+    const MIN_TICK_DISTANCE_PX: f64 = 110.0;
     let length = (window.to().0 - window.from().0) as f64;
-    let least = (length * APART / f64::from(width.max(1.0))).max(1.0);
+    let least = (length * MIN_TICK_DISTANCE_PX / f64::from(width.max(1.0))).max(1.0);
     let power = 10_f64.powf(least.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|times| times * power).find(|&step| step >= least);
     let step = step.unwrap_or(10.0 * power).max(1.0) as u64;
@@ -60,18 +60,18 @@ pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
 }
 
 /// What is pointed at: an atom's bar, else a message near the place, else the lane's machine.
-pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, [x, y]: [f32; 2]) -> Option<Subject> {
-    let node = plan.node_at(y)?;
-    let time = window.at(f64::from(x / plan.width.max(1.0)));
+pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, [x, y]: [f32; 2]) -> Option<Subject> {
+    let node = layout.node_at(y)?;
+    let time = window.at(f64::from(x / layout.width.max(1.0)));
     let lane = lanes.lanes().get(usize::from(node))?;
-    let reach = |time: Time| (plan.x(window, time) - x).abs() < 4.0;
+    let reach = |time: Time| (layout.x(window, time) - x).abs() < 4.0;
     let of = Party::Node(node);
     // Where atoms stand apart they are what one points at; else a parcel is.
     let is_near = |trip: &&Trip| {
         trip.load == Load::Atoms && (trip.from == of && reach(trip.sent) || trip.to == of && reach(trip.arrives))
     };
     let bar = lane.bar_at(time);
-    let wide = bar.is_some_and(|bar| plan.x(window, bar.to) - plan.x(window, bar.from) >= APART as f32);
+    let wide = bar.is_some_and(|bar| layout.x(window, bar.to) - layout.x(window, bar.from) >= MIN_BAR_WIDTH_PX as f32);
     if !wide && let Some(trip) = trips_in(lanes, window).filter(is_near).max_by_key(|trip| trip.atoms) {
         return Some(Subject::Message(trip.id));
     }
@@ -79,10 +79,10 @@ pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, [x
 }
 
 /// How many of the machines' time is used, column by column.
-fn usage(used: &[f32], plan: &TimelineLayout, quads: &mut Vec<Quad>) {
-    let (top, bottom) = (STRIP_TOP_PX, plan.head - 4.0);
-    quads.push(Quad { place: [0.0, top, plan.width, bottom], ink: Hue::Hairline.faint(0.35) });
-    for run in column_runs(used.iter().map(|share| (share / plan.lanes.max(1) as f32 * 16.0).round() as u8)) {
+fn draw_usage(used: &[f32], layout: &TimelineLayout, quads: &mut Vec<Quad>) {
+    let (top, bottom) = (STRIP_TOP_PX, layout.header_height - 4.0);
+    quads.push(Quad { place: [0.0, top, layout.width, bottom], ink: Hue::Hairline.faint(0.35) });
+    for run in column_runs(used.iter().map(|share| (share / layout.lanes.max(1) as f32 * 16.0).round() as u8)) {
         let share = f32::from(run.level) / 16.0;
         let place = [run.start as f32, bottom - (bottom - top) * share, run.end as f32, bottom];
         quads.push(Quad { place, ink: Hue::Quiet.faint(0.7) });
@@ -90,15 +90,22 @@ fn usage(used: &[f32], plan: &TimelineLayout, quads: &mut Vec<Quad>) {
 }
 
 /// What a machine is about while it traces nothing.
-fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout, head: Time, quads: &mut Vec<Quad>) {
-    let middle = plan.middle(node);
+fn draw_phases(
+    lane: &Lane,
+    node: NodeId,
+    window: &TimeWindow,
+    layout: &TimelineLayout,
+    head: Time,
+    quads: &mut Vec<Quad>,
+) {
+    let middle = layout.middle(node);
     let first = lane.stays().partition_point(|(at, _)| *at <= window.from()).saturating_sub(1);
     for (i, &(from, stay)) in lane.stays().iter().enumerate().skip(first) {
         if from > window.to() {
             break;
         }
         let to = lane.stays().get(i + 1).map_or(head, |(next, _)| *next);
-        let [left, right] = plan.span(window, from, to);
+        let [left, right] = layout.span(window, from, to);
         let (half, ink) = match stay {
             LanePhase::Waits | LanePhase::Works => continue,
             LanePhase::Offers => (2.5, Hue::Node(node).faint(0.45)),
@@ -112,35 +119,35 @@ fn stays(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout, 
 }
 
 /// What a machine traced: atom by atom where there is room, else how much of each column.
-fn bars(
+fn draw_bars(
     lane: &Lane,
     node: NodeId,
     window: &TimeWindow,
-    plan: &TimelineLayout,
+    layout: &TimelineLayout,
     head: Time,
     quads: &mut Vec<Quad>,
     used: &mut [f32],
 ) {
-    let [top, bottom] = plan.lane(node);
+    let [top, bottom] = layout.lane(node);
     let seen = lane.bars_in(window.from(), window.to());
     let open = lane.open().map(|(_, since)| (since, head.max(since)));
     let all = seen.iter().map(|bar| (bar.from, bar.to)).chain(open);
     let mut columns = vec![0.0_f32; used.len()];
     for (from, to) in all {
-        add_to_columns(&mut columns, plan.x(window, from), plan.x(window, to));
+        add_to_columns(&mut columns, layout.x(window, from), layout.x(window, to));
     }
     used.iter_mut().zip(&columns).for_each(|(sum, column)| *sum += column.min(1.0));
-    let pixels = f64::from(plan.width) / (window.to().0 - window.from().0).max(1) as f64;
+    let pixels = f64::from(layout.width) / (window.to().0 - window.from().0).max(1) as f64;
     let mean = seen.iter().map(|bar| (bar.to.0 - bar.from.0) as f64).sum::<f64>() / seen.len().max(1) as f64;
-    if mean * pixels >= APART {
+    if mean * pixels >= MIN_BAR_WIDTH_PX {
         let ink = |i: usize| Hue::Node(node).faint(if i.is_multiple_of(2) { 0.95 } else { 0.75 });
         for bar in seen {
             // Atoms keep their shade while one pans.
-            let [left, right] = plan.span(window, bar.from, bar.to);
+            let [left, right] = layout.span(window, bar.from, bar.to);
             quads.push(Quad { place: [left, top, right, bottom], ink: ink(bar.atom as usize) });
         }
         if let Some((from, to)) = open {
-            let [left, right] = plan.span(window, from, to);
+            let [left, right] = layout.span(window, from, to);
             quads.push(Quad { place: [left, top, right, bottom], ink: Hue::Node(node).faint(0.55) });
         }
         return;
@@ -152,10 +159,17 @@ fn bars(
 }
 
 /// A worker that was made to stand still: the lane is struck out.
-fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout, head: Time, quads: &mut Vec<Quad>) {
-    let middle = plan.middle(node);
+fn draw_pauses(
+    lane: &Lane,
+    node: NodeId,
+    window: &TimeWindow,
+    layout: &TimelineLayout,
+    head: Time,
+    quads: &mut Vec<Quad>,
+) {
+    let middle = layout.middle(node);
     for &(from, to) in lane.pauses() {
-        let [left, right] = plan.span(window, from, to.unwrap_or(head));
+        let [left, right] = layout.span(window, from, to.unwrap_or(head));
         if right > left {
             quads.push(Quad { place: [left, middle - 1.0, right, middle + 1.0], ink: Hue::Text.faint(0.9) });
         }
@@ -163,24 +177,29 @@ fn pauses(lane: &Lane, node: NodeId, window: &TimeWindow, plan: &TimelineLayout,
 }
 
 /// Offers from neighbour to neighbour, and atoms across.
-fn messages(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, lines: &mut Vec<([f32; 2], [f32; 2], Ink)>) {
+fn draw_messages(
+    lanes: &Lanes,
+    window: &TimeWindow,
+    layout: &TimelineLayout,
+    lines: &mut Vec<([f32; 2], [f32; 2], Ink)>,
+) {
     let drawn = |load: Load| trips_in(lanes, window).filter(move |trip| trip.load == load);
     let mut draw = |trip: &Trip, alpha: f32| {
         let (Party::Node(from), Party::Node(to)) = (trip.from, trip.to) else { return };
-        let inside = |node: NodeId| usize::from(node) < plan.lanes;
+        let inside = |node: NodeId| usize::from(node) < layout.lanes;
         if inside(from) && inside(to) {
-            let start = [plan.x(window, trip.sent), plan.middle(from)];
-            lines.push((start, [plan.x(window, trip.arrives), plan.middle(to)], Hue::Text.faint(alpha)));
+            let start = [layout.x(window, trip.sent), layout.middle(from)];
+            lines.push((start, [layout.x(window, trip.arrives), layout.middle(to)], Hue::Text.faint(alpha)));
         }
     };
     let between = |load: Load| {
         drawn(load).filter(|trip| matches!((trip.from, trip.to), (Party::Node(_), Party::Node(_)))).count()
     };
     // Where they are too many only the largest would be seen, and these the ring shows.
-    if between(Load::Atoms) <= MOST_LINES {
+    if between(Load::Atoms) <= MAX_LINES {
         drawn(Load::Atoms).for_each(|trip| draw(trip, 0.7));
     }
-    if between(Load::Offer) <= MOST_LINES {
+    if between(Load::Offer) <= MAX_LINES {
         drawn(Load::Offer).for_each(|trip| draw(trip, 0.25));
     }
     // What is sent to the parent, and what comes from it, is a tick where it leaves or arrives.
@@ -190,10 +209,10 @@ fn messages(lanes: &Lanes, window: &TimeWindow, plan: &TimelineLayout, lines: &m
         (Party::Parent, Party::Node(node)) => Some((node, trip.arrives)),
         _ => None,
     };
-    let ticks: Vec<_> = trips_in(lanes, window).filter_map(of_parent).take(MOST_LINES + 1).collect();
-    if ticks.len() <= MOST_LINES {
+    let ticks: Vec<_> = trips_in(lanes, window).filter_map(of_parent).take(MAX_LINES + 1).collect();
+    if ticks.len() <= MAX_LINES {
         lines.extend(ticks.into_iter().map(|(node, at)| {
-            let ([_, bottom], x) = (plan.lane(node), plan.x(window, at));
+            let ([_, bottom], x) = (layout.lane(node), layout.x(window, at));
             ([x, bottom - 5.0], [x, bottom], Hue::Text.faint(0.8))
         }));
     }

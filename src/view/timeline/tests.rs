@@ -18,17 +18,17 @@ fn drawn(atoms: u32, zoom: f64) -> (Lanes, Timeline, TimeWindow, TimelineLayout)
     window.fit(end);
     window.zoom(0.3, zoom);
     window.fit(end);
-    let plan = TimelineLayout::new(3, WIDTH, 150.0);
-    (lanes.clone(), timeline(&lanes, &window, &plan, end), window, plan)
+    let layout = TimelineLayout::new(3, WIDTH, 150.0);
+    (lanes.clone(), timeline(&lanes, &window, &layout, end), window, layout)
 }
 
 proptest! {
     #[test]
     fn nothing_is_drawn_beyond_its_place(atoms in 1..600u32, zoom in 0.001..1.0f64) {
-        let (_, drawn, _, plan) = drawn(atoms, zoom);
+        let (_, drawn, _, layout) = drawn(atoms, zoom);
         for quad in &drawn.quads {
             let [left, top, right, bottom] = quad.place;
-            prop_assert!(left >= 0.0 && right <= WIDTH + 0.5 && top >= 0.0 && bottom <= plan.bottom() + 0.5, "{quad:?}");
+            prop_assert!(left >= 0.0 && right <= WIDTH + 0.5 && top >= 0.0 && bottom <= layout.bottom() + 0.5, "{quad:?}");
             prop_assert!(right - left >= 0.0 && bottom > top);
         }
     }
@@ -38,10 +38,10 @@ proptest! {
 fn few_quads_show_many_atoms_and_each_atom_is_one_when_seen_from_near() {
     let (_, all, ..) = drawn(20_000, 1.0);
     assert!(all.quads.len() < 3_000, "{}", all.quads.len());
-    let (lanes, near, window, plan) = drawn(20_000, 0.002);
+    let (lanes, near, window, layout) = drawn(20_000, 0.002);
     let seen = |node: usize| lanes.lanes()[node].bars_in(window.from(), window.to()).len();
     let of = |node: NodeId| {
-        let [top, bottom] = plan.lane(node);
+        let [top, bottom] = layout.lane(node);
         near.quads.iter().filter(|quad| quad.place[1] == top && quad.place[3] == bottom).count()
     };
     assert!(seen(0) > 5 && of(0) == seen(0), "{} {}", of(0), seen(0));
@@ -60,9 +60,9 @@ fn the_axis_has_round_times_that_are_seen() {
 
 #[test]
 fn what_is_pointed_at_is_what_is_there() {
-    let (lanes, _, window, plan) = drawn(600, 0.05);
+    let (lanes, _, window, layout) = drawn(600, 0.05);
     let bar = lanes.lanes()[0].bars_in(window.from(), window.to())[2];
-    let x = (plan.x(&window, bar.from) + plan.x(&window, bar.to)) / 2.0;
-    assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.middle(0)]), Some(Subject::Atom(bar.atom)));
-    assert_eq!(timeline_at(&lanes, &window, &plan, [x, plan.bottom() + 9.0]), None);
+    let x = (layout.x(&window, bar.from) + layout.x(&window, bar.to)) / 2.0;
+    assert_eq!(timeline_at(&lanes, &window, &layout, [x, layout.middle(0)]), Some(Subject::Atom(bar.atom)));
+    assert_eq!(timeline_at(&lanes, &window, &layout, [x, layout.bottom() + 9.0]), None);
 }

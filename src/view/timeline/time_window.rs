@@ -10,15 +10,15 @@ pub struct TimeWindow {
     /// Its length, in nanoseconds; never 0.
     length: f64,
     /// It grows with the run, of which it shows all.
-    all: bool,
+    shows_all: bool,
 }
 
 /// Nothing shorter is shown: a hundredth of the shortest atom.
-const SHORTEST: f64 = 100.0;
+const MIN_LENGTH_NS: f64 = 100.0;
 
 impl Default for TimeWindow {
     fn default() -> Self {
-        Self { from: 0.0, length: 1.0, all: true }
+        Self { from: 0.0, length: 1.0, shows_all: true }
     }
 }
 
@@ -35,19 +35,19 @@ impl TimeWindow {
 
     /// Whether it shows all of the run.
     pub fn shows_all(&self) -> bool {
-        self.all
+        self.shows_all
     }
 
     /// Shows all of the run.
     pub fn show_all(&mut self) {
-        self.all = true;
+        self.shows_all = true;
     }
 
     /// The run is so long by now.
     pub fn fit(&mut self, length: Time) {
-        let whole = (length.0 as f64).max(SHORTEST);
-        if self.all || self.length >= whole {
-            *self = Self { from: 0.0, length: whole, all: true };
+        let whole = (length.0 as f64).max(MIN_LENGTH_NS);
+        if self.shows_all || self.length >= whole {
+            *self = Self { from: 0.0, length: whole, shows_all: true };
         }
         self.from = self.from.clamp(0.0, whole - self.length);
     }
@@ -55,9 +55,9 @@ impl TimeWindow {
     /// Shows `factor` times as much time (less than 1: nearer), so that what is at `share` of the width, 0 to 1, stays.
     pub fn zoom(&mut self, share: f64, factor: f64) {
         let (at, before) = (self.from + share * self.length, self.length);
-        self.length = (self.length * factor).max(SHORTEST);
+        self.length = (self.length * factor).max(MIN_LENGTH_NS);
         self.from = (at - share * self.length).max(0.0);
-        self.all &= self.length >= before;
+        self.shows_all &= self.length >= before;
     }
 
     /// Moves by a share of its length; to the right shows what is later.

@@ -74,14 +74,14 @@ impl EventLog {
     }
 
     /// The last change that the user made to the run.
-    pub(crate) fn latest_by_hand(&self) -> Option<&Happening> {
-        let by_hand = |event: &&ListedEvent| {
+    pub(crate) fn latest_user_change(&self) -> Option<&Happening> {
+        let is_user_change = |event: &&ListedEvent| {
             matches!(
                 event.kind,
                 EventKind::Speed { .. } | EventKind::Paused | EventKind::Latency | EventKind::Condition
             )
         };
-        self.events.iter().rev().find(by_hand).map(|event| &event.happening)
+        self.events.iter().rev().find(is_user_change).map(|event| &event.happening)
     }
 
     /// Whether the list has an event of this kind.

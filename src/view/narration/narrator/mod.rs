@@ -12,7 +12,7 @@ use crate::view::narration::event_sentences::before_virtual_time;
 use crate::view::narration::events::{EventLog, is_band_done, waiting_messages};
 use crate::view::narration::failure::Failure;
 use crate::view::narration::happening::{Happening, Retirement};
-use crate::view::narration::status::standing;
+use crate::view::narration::status::status_sentence;
 use crate::view::state::run_state::RunState;
 
 /// Says what happens, one sentence at a time: each stays long enough to be read, unless something weightier
@@ -20,14 +20,14 @@ use crate::view::state::run_state::RunState;
 #[derive(Clone, Debug, Default)]
 pub struct Narrator {
     /// What is told where time goes as it does.
-    told: Option<Told>,
+    shown: Option<WeightedEvent>,
     /// The last that were passed over since, for want of time to read them: where time goes slower there is some.
-    passed_over: VecDeque<Told>,
+    skipped: VecDeque<WeightedEvent>,
     events: EventLog,
 }
 
 #[derive(Clone, Debug)]
-struct Told {
+struct WeightedEvent {
     at: Time,
     weight: Weight,
     happening: Happening,
@@ -37,25 +37,25 @@ struct Told {
 type Weight = (u8, u32);
 
 /// Of what somebody does to the run: it follows the hand.
-const BY_HAND: Weight = (4, 0);
+const USER_CHANGE: Weight = (4, 0);
 
 /// Of machines that are missed: it follows what was done to them.
 const MISSED: Weight = (4, 1);
 
 /// Of the end, which nothing follows.
-const END: Weight = (5, 0);
+const COMPLETE: Weight = (5, 0);
 
 /// How long an event is fresh for whoever looks on.
-const FRESH: Duration = Duration::from_secs(3);
+const FRESH_TIME: Duration = Duration::from_secs(3);
 
 /// How long a sentence stays when others like it follow.
-const READ: Duration = Duration::from_millis(1600);
+const MIN_READING_TIME: Duration = Duration::from_millis(1600);
 
 impl Narrator {
     /// Takes in a record; `state` already knows it.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
         self.events.apply(record, state);
-        let by_hand = matches!(
+        let is_user_change = matches!(
             record.what,
             RecordKind::SpeedSet { .. }
                 | RecordKind::Paused { .. }
@@ -63,31 +63,31 @@ impl Narrator {
                 | RecordKind::LatencySet { .. }
                 | RecordKind::Condition { .. }
         );
-        let told = if by_hand {
+        let event = if is_user_change {
             // The list knows where a slider was before the hand took hold of it.
-            self.events.latest_by_hand().map(|happening| (BY_HAND, happening.clone()))
+            self.events.latest_user_change().map(|happening| (USER_CHANGE, happening.clone()))
         } else {
-            tell(record, state)
+            weigh(record, state)
         };
-        let Some((weight, happening)) = told else { return };
-        let next = Told { at: record.at, weight, happening };
-        if self.told.as_ref().is_none_or(|told| told.gives_way_to(&next, READ)) {
-            self.told = Some(next);
-            self.passed_over.clear();
+        let Some((weight, happening)) = event else { return };
+        let next = WeightedEvent { at: record.at, weight, happening };
+        if self.shown.as_ref().is_none_or(|event| event.yields_to(&next, MIN_READING_TIME)) {
+            self.shown = Some(next);
+            self.skipped.clear();
         } else {
-            self.passed_over.truncate(MOST_PASSED_OVER - 1);
-            self.passed_over.push_front(next);
+            self.skipped.truncate(MAX_SKIPPED_EVENTS - 1);
+            self.skipped.push_front(next);
         }
     }
 
     /// What is to be read at `now`: the last event while it is fresh, else how things stand.
     pub fn sentence(&self, state: &RunState, now: Time, language: Language) -> String {
-        match self.told_at(now, state.rate()) {
-            Some(told) => told.happening.sentence(language),
+        match self.shown_at(now, state.rate()) {
+            Some(event) => event.happening.sentence(language),
             None if state.finished().is_some() => Happening::Complete.sentence(language),
             // Nothing has been heard of it: its records begin when all costs are known.
             _ if state.is_virtual && state.head() == Time::ZERO => before_virtual_time(language).into(),
-            _ => standing(state, language),
+            _ => status_sentence(state, language),
         }
     }
 
@@ -99,39 +99,39 @@ impl Narrator {
 
     /// Those before what is to be read at `now`.
     pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
-        let told = self.told_at(now, state.rate()).map(|told| told.at);
-        self.events().filter(move |(at, _)| told.is_none_or(|told| *at < told))
+        let event = self.shown_at(now, state.rate()).map(|event| event.at);
+        self.events().filter(move |(at, _)| event.is_none_or(|event| *at < event))
     }
 
     /// The event that is to be read at `now`, while it is fresh; `rate` of the run's seconds go by in one of whoever
     /// looks on.
-    fn told_at(&self, now: Time, rate: f64) -> Option<&Told> {
-        let (read, fresh) = (READ.mul_f64(rate), FRESH.mul_f64(rate));
-        let mut told = self.told.as_ref()?;
-        for next in self.passed_over.iter().rev() {
-            if told.gives_way_to(next, read) {
-                told = next;
+    fn shown_at(&self, now: Time, rate: f64) -> Option<&WeightedEvent> {
+        let (read, fresh) = (MIN_READING_TIME.mul_f64(rate), FRESH_TIME.mul_f64(rate));
+        let mut event = self.shown.as_ref()?;
+        for next in self.skipped.iter().rev() {
+            if event.yields_to(next, read) {
+                event = next;
             }
         }
-        (now < told.at + fresh).then_some(told)
+        (now < event.at + fresh).then_some(event)
     }
 }
 
-impl Told {
+impl WeightedEvent {
     /// Whether it has been there so long, or weighs so little, that `next` is told in its stead. What is done by hand is
     /// told at once, or the first of a slider's many speeds would stand there.
-    fn gives_way_to(&self, next: &Self, read: Duration) -> bool {
+    fn yields_to(&self, next: &Self, read: Duration) -> bool {
         next.weight > self.weight
-            || next.weight == self.weight && next.weight == BY_HAND
-            || self.weight < END && next.at >= self.at + read
+            || next.weight == self.weight && next.weight == USER_CHANGE
+            || self.weight < COMPLETE && next.at >= self.at + read
     }
 }
 
 /// More of them nobody could follow.
-const MOST_PASSED_OVER: usize = 64;
+const MAX_SKIPPED_EVENTS: usize = 64;
 
-fn tell(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
-    let told = match &record.what {
+fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
+    let event = match &record.what {
         RecordKind::Sent {
             from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
         } => {
@@ -181,10 +181,10 @@ fn tell(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
             ((2, waiting.ilog2()), Happening::queue(state, waiting))
         }
         RecordKind::AtomDone { node, .. } if is_band_done(state, *node) => ((2, 0), Happening::BandsDone(vec![*node])),
-        RecordKind::Finished => (END, Happening::Complete),
+        RecordKind::Finished => (COMPLETE, Happening::Complete),
         _ => return None,
     };
-    Some(told)
+    Some(event)
 }
 
 #[cfg(test)]

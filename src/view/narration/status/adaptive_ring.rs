@@ -1,8 +1,10 @@
 //! How things stand in the ring that adapts: who computes, who sleeps, who is not there.
 
-use super::deadlock::hangs;
-use super::phrases::{Machine, computing, only, only_one, under_way, waiting_for_the_parent};
-use super::stopped::{all_still, why};
+use super::deadlock::deadlock_words;
+use super::phrases::{
+    Machine, atoms_on_their_way, computing, last_computing, machines_wait_for_parent, single_machine,
+};
+use super::stopped::{all_stand_still, stop_reason};
 use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::Happening;
@@ -12,13 +14,13 @@ use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, names, node_name};
 
 /// How things stand.
-pub(crate) fn standing_adaptive(state: &RunState, language: Language) -> String {
+pub(crate) fn adaptive_ring_status(state: &RunState, language: Language) -> String {
     let there: Vec<Machine<'_>> = (0..).zip(state.nodes()).filter(|(_, node)| !node.spare).collect();
     let busy: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.computes()).collect();
     let told = match *busy {
         [] => return nobody_computes(state, &there, language),
-        [last] if there.len() == 1 => only_one(last.1, language),
-        [last] => only(last, language),
+        [last] if there.len() == 1 => single_machine(last.1, language),
+        [last] => last_computing(last, language),
         _ => computing(busy.len(), there.len(), word!(language, "machines", "máquinas"), language),
     };
     match besides(state, &there, language) {
@@ -47,7 +49,7 @@ fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Optio
         }
         ([], [], asleep) => Happening::retired(state, asleep.to_vec()).sentence(language),
         ([], [node, ..], _) => {
-            let (name, why) = (node_name(*node), why(&state.nodes()[usize::from(*node)], language));
+            let (name, why) = (node_name(*node), stop_reason(&state.nodes()[usize::from(*node)], language));
             if state.has(Remedy::Copies) {
                 say!(
                     language,
@@ -81,7 +83,7 @@ fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Optio
 
 /// Nobody computes, and the picture is not complete.
 fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) -> String {
-    if let Some(words) = hangs(state, language) {
+    if let Some(words) = deadlock_words(state, language) {
         return words;
     }
     let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
@@ -97,15 +99,16 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
     }
     let still: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.left() > 0).collect();
     match *still {
-        [] if state.has_atoms_under_way() => under_way(language),
-        [] => waiting_for_the_parent(language),
-        [..] if still.len() == there.len() => all_still(&still, language),
+        [] if state.has_atoms_under_way() => atoms_on_their_way(language),
+        [] => machines_wait_for_parent(language),
+        [..] if still.len() == there.len() => all_stand_still(&still, language),
         [(node, machine), ..] if !state.has(Remedy::Wake) => {
-            let (name, why, left) = (node_name(node), why(machine, language), atoms_words(machine.left(), language));
+            let (name, why, left) =
+                (node_name(node), stop_reason(machine, language), atoms_words(machine.left(), language));
             say!(language, "{name} {why}, with {left}", "{name} {why}, com {left}")
         }
         [(node, machine), ..] => {
-            let (name, why) = (node_name(node), why(machine, language));
+            let (name, why) = (node_name(node), stop_reason(machine, language));
             say!(
                 language,
                 "{name} {why}: it wakes others for its atoms",
@@ -146,7 +149,7 @@ mod tests {
         }
         asleep.iter().for_each(|&node| apply(RecordKind::Retired { node }));
         conditions.iter().for_each(|&(node, condition)| apply(RecordKind::Condition { node, condition }));
-        standing_adaptive(&state, language)
+        adaptive_ring_status(&state, language)
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, names};
 
 /// Why nothing happens any more, if a machine that failed is why; `None` if something may happen still.
-pub(crate) fn hangs(state: &RunState, language: Language) -> Option<String> {
+pub(crate) fn deadlock_words(state: &RunState, language: Language) -> Option<String> {
     let answers = |party: Party| match party {
         Party::Parent => true,
         Party::Node(node) => state.nodes().get(usize::from(node)).is_some_and(|of| of.condition == Condition::Well),
@@ -20,7 +20,7 @@ pub(crate) fn hangs(state: &RunState, language: Language) -> Option<String> {
     if goes_on {
         return None;
     }
-    let why = why(state, language)?;
+    let why = failure_words(state, language)?;
     if state.has(Remedy::Leases) {
         return (!state.nodes().iter().any(|node| node.condition == Condition::Well)).then(|| {
             say!(
@@ -30,18 +30,18 @@ pub(crate) fn hangs(state: &RunState, language: Language) -> Option<String> {
             )
         });
     }
-    let remedy = remedy(state, language);
+    let remedy = recovery_words(state, language);
     Some(say!(language, "The run hangs, since {why}: {remedy}", "A execução parou, pois {why}: {remedy}"))
 }
 
 /// The same of a record that ends before the picture is complete.
-pub(crate) fn hung(state: &RunState, language: Language) -> Option<String> {
-    let (why, remedy) = (why(state, language)?, remedy(state, language));
+pub(crate) fn incomplete_reason(state: &RunState, language: Language) -> Option<String> {
+    let (why, remedy) = (failure_words(state, language)?, recovery_words(state, language));
     Some(if state.has(Remedy::Leases) { why } else { format!("{why}; {remedy}") })
 }
 
 /// Who has failed, or what is lost.
-pub(crate) fn why(state: &RunState, language: Language) -> Option<String> {
+pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<String> {
     let failed = |(node, of): (NodeId, &NodeState)| (!of.spare && of.condition != Condition::Well).then_some(node);
     let failed: Vec<NodeId> = (0..).zip(state.nodes()).filter_map(failed).collect();
     let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
@@ -62,7 +62,7 @@ pub(crate) fn why(state: &RunState, language: Language) -> Option<String> {
 }
 
 /// Who has a remedy for it.
-fn remedy(state: &RunState, language: Language) -> &'static str {
+fn recovery_words(state: &RunState, language: Language) -> &'static str {
     if state.sharing.is_adaptive() {
         word!(language, "without leases this ring has no remedy", "sem prazos este anel não tem remédio")
     } else if state.sharing == Sharing::By(Strategy::Ring) {

@@ -1,8 +1,8 @@
 //! Why a run that is over has no complete picture.
 
-use super::deadlock::hung;
+use super::deadlock::incomplete_reason;
 use super::phrases::Machine;
-use super::stopped::{in_queues, waiting};
+use super::stopped::{atoms_in_queues, machines_stand_still};
 use crate::language::{Language, say};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::percent;
@@ -21,11 +21,11 @@ pub fn unfinished_words(state: &RunState, language: Language) -> String {
     let is_kept = !keepers.is_empty()
         && state.done() + missing == state.atoms()
         && keepers.iter().all(|(_, node)| !node.runs())
-        && in_queues(&keepers) == 0;
-    if let Some(why) = hung(state, language) {
+        && atoms_in_queues(&keepers) == 0;
+    if let Some(why) = incomplete_reason(state, language) {
         return format!("{ends}: {why}");
     }
-    if is_kept { format!("{ends}: {}", waiting(&keepers, language)) } else { ends }
+    if is_kept { format!("{ends}: {}", machines_stand_still(&keepers, language)) } else { ends }
 }
 
 #[cfg(test)]

@@ -10,20 +10,20 @@ mod without_ring;
 
 use crate::language::Language;
 use crate::view::state::run_state::RunState;
-use adaptive_ring::standing_adaptive;
-use deadlock::hangs;
-use ring::ring;
-use without_ring::without_ring;
+use adaptive_ring::adaptive_ring_status;
+use deadlock::deadlock_words;
+use ring::ring_status;
+use without_ring::status_without_ring;
 
 /// How things stand.
-pub(crate) fn standing(state: &RunState, language: Language) -> String {
+pub(crate) fn status_sentence(state: &RunState, language: Language) -> String {
     if state.sharing.is_adaptive() {
-        return standing_adaptive(state, language);
+        return adaptive_ring_status(state, language);
     }
-    if let Some(words) = hangs(state, language) {
+    if let Some(words) = deadlock_words(state, language) {
         return words;
     }
-    if state.sharing.is_ring() { ring(state, language) } else { without_ring(state, language) }
+    if state.sharing.is_ring() { ring_status(state, language) } else { status_without_ring(state, language) }
 }
 
 #[cfg(test)]

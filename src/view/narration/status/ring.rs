@@ -1,8 +1,10 @@
 //! How things stand in the article's ring: who computes, who is slow, and where the ring cannot help, why not.
 
-use super::deadlock::why as amiss;
-use super::phrases::{Machine, computing, has_most, only, only_one, under_way, waiting_for_the_parent};
-use super::stopped::{all_left, all_still, in_queues, remedy, waiting, why};
+use super::deadlock::failure_words;
+use super::phrases::{
+    Machine, atoms_on_their_way, computing, has_most_atoms, last_computing, machines_wait_for_parent, single_machine,
+};
+use super::stopped::{all_stand_still, atoms_in_queues, atoms_left, machines_stand_still, restart_words, stop_reason};
 use crate::balance::NodeId;
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::PIPE_ATOMS;
@@ -10,21 +12,21 @@ use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, fraction, names, node_name};
 
 /// How things stand.
-pub(crate) fn ring(state: &RunState, language: Language) -> String {
+pub(crate) fn ring_status(state: &RunState, language: Language) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
-    if let Some(why) = amiss(state, language).filter(|_| !busy.is_empty()) {
+    if let Some(why) = failure_words(state, language).filter(|_| !busy.is_empty()) {
         let compute = computing(busy.len(), state.nodes().len(), word!(language, "machines", "máquinas"), language);
         return say!(language, "{compute}; {why}, and nobody knows it", "{compute}; {why}, e ninguém sabe disso");
     }
     match *busy {
-        [] if state.has_atoms_under_way() => under_way(language),
-        [] if still.is_empty() => waiting_for_the_parent(language),
-        [] if still.len() == state.nodes().len() => all_still(&still, language),
+        [] if state.has_atoms_under_way() => atoms_on_their_way(language),
+        [] if still.is_empty() => machines_wait_for_parent(language),
+        [] if still.len() == state.nodes().len() => all_stand_still(&still, language),
         [] => stuck(state, &still, language),
         [last] if still.is_empty() => alone(state, last, language),
         [(node, _)] => {
-            let (name, waiting) = (node_name(node), waiting(&still, language));
+            let (name, waiting) = (node_name(node), machines_stand_still(&still, language));
             say!(language, "Only {name} computes; {waiting}", "Só {name} calcula; {waiting}")
         }
         _ => several(state, &busy, &still, language),
@@ -37,7 +39,7 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
     let retired = retired(state);
     let who = names(&retired, language);
     match last.left() {
-        _ if state.nodes().len() == 1 => only_one(last, language),
+        _ if state.nodes().len() == 1 => single_machine(last, language),
         1 => say!(
             language,
             "Only {name} still computes its last atom: what is in a pipe is not given away",
@@ -60,7 +62,7 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
                 "{name} ainda tem {left}, mas {who} foram dispensadas: oferta que dá a volta sem uso não se repete"
             ),
         },
-        _ => only((node, last), language),
+        _ => last_computing((node, last), language),
     }
 }
 
@@ -73,7 +75,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
     let (name, left) = (node_name(*node), atoms_words(last.left(), language));
     let retired = retired(state);
     if !still.is_empty() {
-        format!("{compute}; {}", waiting(still, language))
+        format!("{compute}; {}", machines_stand_still(&still, language))
     } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE_ATOMS {
         let who = names(&retired, language);
         match &*retired {
@@ -98,18 +100,18 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
     } else if busy.len() == machines && busy.iter().all(|(_, node)| node.got.count == 0) {
         say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
     } else {
-        has_most(&compute, name, language)
+        has_most_atoms(&compute, name, language)
     }
 }
 
 /// Nobody computes, but some could if they had atoms; `still` have all that are left.
 fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String {
     let nobody_asks = retired(state).len() + still.len() == state.nodes().len();
-    let (left, in_queues) = (all_left(still), in_queues(still));
+    let (left, in_queues) = (atoms_left(still), atoms_in_queues(still));
     let atoms = atoms_words(left, language);
-    let remedy = remedy(still, language);
+    let remedy = restart_words(still, language);
     if let [(node, machine)] = still {
-        let (name, why) = (node_name(*node), why(machine, language));
+        let (name, why) = (node_name(*node), stop_reason(machine, language));
         return match left {
             1 => say!(
                 language,

@@ -8,10 +8,10 @@ use crate::view::state::node_state::NodeState;
 use crate::view::text::format::{atoms_words, names, node_name};
 
 /// Every machine stands still, and has atoms.
-pub(crate) fn all_still(still: &[Machine<'_>], language: Language) -> String {
+pub(crate) fn all_stand_still(still: &[Machine<'_>], language: Language) -> String {
     match still.iter().filter(|(_, node)| node.paused).count() {
         _ if still.len() == 1 => {
-            let (why, remedy) = (why(still[0].1, language), remedy(still, language));
+            let (why, remedy) = (stop_reason(still[0].1, language), restart_words(still, language));
             say!(language, "The only machine {why}: {remedy}", "A única máquina {why}: {remedy}")
         }
         0 => word!(
@@ -36,7 +36,7 @@ pub(crate) fn all_still(still: &[Machine<'_>], language: Language) -> String {
 }
 
 /// Why a machine stands still.
-pub(crate) fn why(node: &NodeState, language: Language) -> &'static str {
+pub(crate) fn stop_reason(node: &NodeState, language: Language) -> &'static str {
     match node.condition {
         Condition::Hung => word!(language, "hangs", "travou"),
         _ if node.paused => word!(language, "is paused", "está em pausa"),
@@ -45,7 +45,7 @@ pub(crate) fn why(node: &NodeState, language: Language) -> &'static str {
 }
 
 /// What makes machines that stand still go on.
-pub(crate) fn remedy(still: &[Machine<'_>], language: Language) -> &'static str {
+pub(crate) fn restart_words(still: &[Machine<'_>], language: Language) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
         (1, 0) => word!(language, "raise its speed", "basta aumentar sua velocidade"),
         (1, _) => word!(language, "let it go on", "basta retomá-la"),
@@ -56,11 +56,12 @@ pub(crate) fn remedy(still: &[Machine<'_>], language: Language) -> &'static str 
 }
 
 /// Machines stand still while others compute, or when nobody does any more.
-pub(crate) fn waiting(still: &[Machine<'_>], language: Language) -> String {
-    let in_queues = in_queues(still);
+pub(crate) fn machines_stand_still(still: &[Machine<'_>], language: Language) -> String {
+    let in_queues = atoms_in_queues(still);
     match still {
         [(node, machine)] => {
-            let (name, why, left) = (node_name(*node), why(machine, language), atoms_words(machine.left(), language));
+            let (name, why, left) =
+                (node_name(*node), stop_reason(machine, language), atoms_words(machine.left(), language));
             match machine.left() {
                 1 => say!(
                     language,
@@ -83,7 +84,7 @@ pub(crate) fn waiting(still: &[Machine<'_>], language: Language) -> String {
         }
         _ => {
             let nodes: Vec<_> = still.iter().map(|(node, _)| *node).collect();
-            let (who, left) = (names(&nodes, language), atoms_words(all_left(still), language));
+            let (who, left) = (names(&nodes, language), atoms_words(atoms_left(still), language));
             if in_queues == 0 {
                 say!(
                     language,
@@ -102,11 +103,11 @@ pub(crate) fn waiting(still: &[Machine<'_>], language: Language) -> String {
 }
 
 /// How many atoms machines have together.
-pub(crate) fn all_left(machines: &[Machine<'_>]) -> u32 {
+pub(crate) fn atoms_left(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left()).sum()
 }
 
 /// How many of their atoms could be given away.
-pub(crate) fn in_queues(machines: &[Machine<'_>]) -> u32 {
+pub(crate) fn atoms_in_queues(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE_ATOMS)).sum()
 }

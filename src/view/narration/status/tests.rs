@@ -1,8 +1,8 @@
 //! Tests of how things stand in the article's ring, and where a run hangs.
 
-use super::deadlock::hangs;
+use super::deadlock::deadlock_words;
 use super::incomplete::unfinished_words;
-use super::standing;
+use super::status_sentence;
 use crate::balance::{Condition, Message, NodeId, Party, Strategy};
 use crate::language::Language;
 use crate::record::{Record, RecordKind};
@@ -33,7 +33,7 @@ fn run(machines: &[Left], retired: &[NodeId]) -> RunState {
 
 /// How things stand there.
 fn stands(machines: &[Left], retired: &[NodeId], language: Language) -> String {
-    let words = standing(&run(machines, retired), language);
+    let words = status_sentence(&run(machines, retired), language);
     assert!(words.chars().count() <= 105, "{} characters: {words}", words.chars().count());
     words
 }
@@ -144,7 +144,7 @@ fn end(strategy: Strategy, condition: Condition, language: Language) -> RunState
     let mut before = 0;
     Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
         state.apply(&record);
-        before += usize::from(record.at.secs() < 0.7 && hangs(&state, language).is_some());
+        before += usize::from(record.at.secs() < 0.7 && deadlock_words(&state, language).is_some());
     });
     assert_eq!(before, 0, "others go on: {strategy} {condition:?}");
     state
@@ -158,14 +158,14 @@ fn a_ring_that_hangs_says_why_and_who_has_a_remedy() {
         [(Condition::Off, "2 is off"), (Condition::Hung, "2 hangs"), (Condition::CutOff, "2 is cut off")]
     {
         let state = end(Strategy::Ring, condition, language);
-        assert_eq!(standing(&state, language), format!("The run hangs, since {why}: {remedy}"));
+        assert_eq!(status_sentence(&state, language), format!("The run hangs, since {why}: {remedy}"));
         let told = unfinished_words(&state, language);
         assert!(
             told.starts_with("The record ends here, with ") && told.ends_with(&format!("{why}; {remedy}")),
             "{told}"
         );
     }
-    let told = standing(&end(Strategy::Static, Condition::Off, language), language);
+    let told = status_sentence(&end(Strategy::Static, Condition::Off, language), language);
     assert_eq!(told, "The run hangs, since 2 is off: only the adaptive ring has a remedy");
     assert!(end(Strategy::Adaptive, Condition::Off, language).finished().is_some());
 }

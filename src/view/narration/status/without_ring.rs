@@ -1,7 +1,9 @@
 //! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
 
-use super::phrases::{Machine, computing, has_most, only, only_one, under_way, waiting_for_the_parent};
-use super::stopped::{all_left, all_still, remedy, why};
+use super::phrases::{
+    Machine, atoms_on_their_way, computing, has_most_atoms, last_computing, machines_wait_for_parent, single_machine,
+};
+use super::stopped::{all_stand_still, atoms_left, restart_words, stop_reason};
 use crate::balance::NodeId;
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::{Happening, is_slow};
@@ -10,7 +12,7 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, fraction, left_words, names, node_name};
 
 /// How things stand.
-pub(crate) fn without_ring(state: &RunState, language: Language) -> String {
+pub(crate) fn status_without_ring(state: &RunState, language: Language) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     let machines = state.nodes().len();
@@ -18,11 +20,11 @@ pub(crate) fn without_ring(state: &RunState, language: Language) -> String {
     match (&*busy, &*still) {
         _ if state.is_estimating => Happening::Estimating.sentence(language),
         ([], []) if !asking.is_empty() => requests_wait(&asking, machines, language),
-        ([], []) if state.has_atoms_under_way() => under_way(language),
-        ([], []) => waiting_for_the_parent(language),
-        ([], still) if still.len() == machines => all_still(still, language),
+        ([], []) if state.has_atoms_under_way() => atoms_on_their_way(language),
+        ([], []) => machines_wait_for_parent(language),
+        ([], still) if still.len() == machines => all_stand_still(still, language),
         ([], still) => nobody_computes(still, language),
-        ([only], []) if machines == 1 => only_one(only.1, language),
+        ([only], []) if machines == 1 => single_machine(only.1, language),
         ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last, language),
         (busy, still) => several(state, busy, still, &asking, language),
     }
@@ -37,7 +39,7 @@ fn all_is_given_away(state: &RunState) -> bool {
 fn all_wait_for(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
     let (name, left, speed) = (node_name(node), left_words(last.left(), language), fraction(last.speed));
     if state.sharing == Sharing::Stealing {
-        return only((node, last), language);
+        return last_computing((node, last), language);
     }
     if last.done + last.left() == state.atoms() {
         return say!(
@@ -67,11 +69,11 @@ fn several(
     let compute = computing(busy.len(), machines, what, language);
     if let [(_, machine), ..] = still {
         let (is, they) = match still.len() {
-            1 => (why(machine, language), "its"),
+            1 => (stop_reason(machine, language), "its"),
             _ => (word!(language, "stand still", "estão paradas"), "their"),
         };
         let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>(), language);
-        let left = atoms_words(all_left(still), language);
+        let left = atoms_words(atoms_left(still), language);
         return match state.sharing {
             Sharing::Stealing => say!(
                 language,
@@ -93,7 +95,7 @@ fn several(
         Sharing::Stealing if busy.len() == machines => {
             say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
         }
-        Sharing::Stealing => has_most(&compute, name, language),
+        Sharing::Stealing => has_most_atoms(&compute, name, language),
         sharing if sharing.is_farm() => match asking {
             [] if !all_is_given_away(state) => {
                 say!(
@@ -129,10 +131,11 @@ fn several(
 
 /// Nobody computes, and the atoms that are left are with machines that stand still.
 fn nobody_computes(still: &[Machine<'_>], language: Language) -> String {
-    let (left, remedy, machines) = (atoms_words(all_left(still), language), remedy(still, language), still.len());
+    let (left, remedy, machines) =
+        (atoms_words(atoms_left(still), language), restart_words(still, language), still.len());
     match still {
         [(node, machine)] => {
-            let (name, why) = (node_name(*node), why(machine, language));
+            let (name, why) = (node_name(*node), stop_reason(machine, language));
             say!(
                 language,
                 "All wait for {name}, which {why} with {left}: {remedy}",
@@ -212,7 +215,7 @@ mod tests {
             apply(RecordKind::SpeedSet { node, speed });
         }
         retired.iter().for_each(|&node| apply(RecordKind::Retired { node }));
-        without_ring(&state, language)
+        status_without_ring(&state, language)
     }
 
     #[test]
