@@ -1,4 +1,5 @@
-//! A run on paper: the ring at a moment and the timeline, each with what it is of, so that it can be read alone.
+//! Drawings of a run for paper: the ring at a time, and the timeline, each with a heading, so that it can be read
+//! alone.
 
 use std::time::Duration;
 
@@ -19,32 +20,34 @@ use crate::runlog::RunLog;
 use crate::sentence::shown;
 use crate::time::Time;
 
-/// What is drawn on a sheet of paper, and how large that is.
+/// A drawing for a sheet of paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrintedDrawing {
-    /// What is drawn.
+    /// Its marks.
     pub marks: Vec<Mark>,
     /// Width and height.
     pub size: Point,
 }
 
+/// Margin of all sheets.
 const MARGIN: f32 = 28.0;
 
-/// So much of a title or a memo is shown: more than a line may stand in the run's file.
+/// Letters of a title or a memo that are shown; the run's file may have more than a line.
 const MAX_TITLE_LETTERS: usize = 150;
 
-/// Of the ring's sheet.
+/// Size of the ring's sheet.
 const RING_SIZE: Point = [900.0, 760.0];
 
-/// Of the timeline's sheet, and of what stands left of its lanes.
+/// Width of the timeline's sheet.
 const TIMELINE_WIDTH: f32 = 1200.0;
+/// Width of the labels to the left of its lanes.
 const LANE_LABEL_WIDTH: f32 = 96.0;
 
 impl PrintedDrawing {
-    /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
-    /// After the end it is as at the end.
+    /// Draws the ring of a run at a time, with the sentence at that time, or the result if the picture was complete. A
+    /// time after the end counts as the end.
     pub fn ring(log: &RunLog, at: Time, language: Language) -> Self {
-        /// Longer than the last message is drawn: at the end all is at rest.
+        /// Longer than the last message stays visible: at the end nothing moves.
         const LINGER: Duration = Duration::from_secs(5);
         let at = at.min(log.end());
         let mut snapshot = Snapshot::new(&log.header);
@@ -68,7 +71,7 @@ impl PrintedDrawing {
         Self { marks, size: RING_SIZE }
     }
 
-    /// The timeline of all of a run: a lane a machine, with its number and its speed at the beginning.
+    /// Draws the timeline of a whole run: a lane for each machine, with its number and its first speed.
     pub fn timeline(log: &RunLog, language: Language) -> Self {
         let lanes = Lanes::of(log);
         let nodes = log.header.speeds.len();
@@ -93,7 +96,7 @@ impl PrintedDrawing {
             Mark::Box { centre, half, round: 0.0, ink: quad.ink }
         }));
         let within = |[x, y]: Point, [u, v]: Point| {
-            // What is still under way at the end leads out of the sheet's edge.
+            // A message that is on its way at the end is cut at the edge.
             let part = if u > layout.width { (layout.width - x) / (u - x) } else { 1.0 };
             [x + part * (u - x), y + part * (v - y)]
         };
@@ -106,14 +109,14 @@ impl PrintedDrawing {
         marks.extend(drawn.into_iter().map(|mark| mark.moved([LANE_LABEL_WIDTH, top])));
         let foot = top + layout.bottom() + layout.axis_height + 18.0;
         let legend = "Bars: atoms traced. Dark lines: atoms to another machine. Pale lines: offers from neighbour to \
-                      neighbour. Ticks: results to the parent. Above: what part of the machines traced.";
+                      neighbour. Ticks: results to the parent. Above: the share of the machines that traced.";
         marks.push(label([LANE_LABEL_WIDTH, foot], Anchor::Left, legend.into(), TextSize::Small(0.9), Hue::Quiet));
         Self { marks, size: [TIMELINE_WIDTH, foot + MARGIN] }
     }
 }
 
 impl PrintedDrawing {
-    /// Where the time of several runs went.
+    /// Draws the time budgets of several runs.
     pub fn comparison(title: &str, runs: &[(&str, &TimeBudget)], language: Language) -> Self {
         const TOP: f32 = MARGIN + 36.0;
         let room = TIMELINE_WIDTH - 2.0 * MARGIN;
@@ -125,7 +128,7 @@ impl PrintedDrawing {
     }
 }
 
-/// Number and speed of the machines, as many as there is room for, and what the strip above them is.
+/// Draws number and speed of the machines, as many as there is room for, and the caption of the strip above them.
 fn lane_labels(log: &RunLog, layout: &TimelineLayout, marks: &mut Vec<Mark>) {
     let every = (TextSize::SMALL / layout.lane_height).ceil().max(1.0) as usize;
     for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
@@ -145,7 +148,7 @@ fn lane_labels(log: &RunLog, layout: &TimelineLayout, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The axis below the lanes.
+/// Draws the axis below the lanes.
 fn time_axis(log: &RunLog, window: &TimeWindow, layout: &TimelineLayout, marks: &mut Vec<Mark>, language: Language) {
     let ink = Hue::Quiet.full();
     let y = layout.bottom() + 2.0;
@@ -162,7 +165,7 @@ fn time_axis(log: &RunLog, window: &TimeWindow, layout: &TimelineLayout, marks: 
     }
 }
 
-/// What the run is called, what it was, and what is said of it; returns where it ends.
+/// Draws the title of a run, its header in words, and its memo; returns the y below them.
 fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<Mark>, language: Language) -> f32 {
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
@@ -190,12 +193,12 @@ fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<
     y + 20.0
 }
 
-/// How exactly times are told: the shorter the run, the more.
+/// Returns the precision of times, as a rate: finer for a shorter run.
 fn grain(log: &RunLog) -> f64 {
     (log.end().secs() / 2.0).clamp(1e-9, 1.0)
 }
 
-/// The size of a text that is to be no broader than this.
+/// Returns the text size, at most `size`, at which a text is at most `width` wide.
 fn fitting(text: &str, size: f32, width: f32) -> TextSize {
     let broad = TextSize::Fit(size).width(text.chars().count());
     TextSize::Fit(size * (width / broad.max(1.0)).min(1.0))
@@ -221,10 +224,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn nothing_lies_beside_the_sheet(
+        fn marks_stay_inside_the_sheet(
             speeds in prop::collection::vec(0.05..1.0f64, 1..40), atoms in 1..400u32, at in 0.0..20.0f64, title in ".{0,300}",
         ) {
-        let language = Language::English;
+            let language = Language::English;
             let mut log = sample_runs::log(&speeds, atoms);
             log.header.caption.title = title;
             for paper in [PrintedDrawing::ring(&log, Time::from_secs(at), language), PrintedDrawing::timeline(&log, language)] {
@@ -247,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_says_what_it_is_of() {
+    fn sheet_has_a_heading() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
         let caption = Metadata { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
@@ -263,12 +266,12 @@ mod tests {
         }
         assert!(
             texts(&PrintedDrawing::timeline(&log, language)).contains(&"sample"),
-            "without a title it is the scene"
+            "without a title it shows the scene"
         );
     }
 
     #[test]
-    fn the_ring_shows_its_moment() {
+    fn ring_shows_its_time() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
         let at = |secs| texts(&PrintedDrawing::ring(&log, Time::from_secs(secs), language)).join("\n");

@@ -113,7 +113,7 @@ fn other_rings_can_be_broken_too_and_say_that_they_hang() {
     until(&mut window, "the run to hang", |window| {
         let (stage, now) = (session(window).stage(), session(window).now());
         stage.narrator().sentence(stage.state(), now, language)
-            == "The run hangs, since 1 is off: the article's ring has no remedy, the adaptive ring has"
+            == "The run hangs because 1 is off: the article's ring cannot recover, the adaptive ring can"
     });
 }
 
@@ -144,7 +144,7 @@ fn a_message_is_held_up_by_its_menu() {
         })
     };
     until(&mut window, "a delay", |window| held(window) == [(from, to)]);
-    until(&mut window, "word of it", |window| is_seen(window, " is held up for 5.0 s"));
+    until(&mut window, "word of it", |window| is_seen(window, " are held up for 5.0 s"));
 }
 
 #[test]

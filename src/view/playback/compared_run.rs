@@ -1,4 +1,4 @@
-//! Runs beside each other: what each has come to at one time, and what it amounts to.
+//! Runs side by side: the state of each at one time, and its time budget.
 
 use std::sync::Arc;
 
@@ -12,14 +12,14 @@ use crate::view::picture::canvas::Canvas;
 use crate::view::picture::overlay::Layer;
 use crate::view::state::lanes::Lanes;
 
-/// One of several runs that are over, at the time that is shown of all of them.
+/// One of several finished runs, at the shown time.
 #[derive(Clone, Debug)]
 pub struct ComparedRun {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// All of it.
+    /// All of its records.
     pub log: Arc<RunLog>,
-    /// What it amounts to; `None` if its picture was never completed.
+    /// Its time budget; `None` if its picture was never complete.
     pub budget: Option<TimeBudget>,
     /// What each machine did and when.
     pub lanes: Lanes,
@@ -31,7 +31,7 @@ pub struct ComparedRun {
 }
 
 impl ComparedRun {
-    /// A run and its picture's pixels in scan order, before anything has happened.
+    /// Creates a run at its beginning; `pixels` is its whole picture in scan order.
     pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
         let header = &log.header;
         let colours = node_colours(header.speeds.len());
@@ -51,17 +51,17 @@ impl ComparedRun {
         }
     }
 
-    /// How long its records go on.
+    /// Returns the length of its record.
     pub fn length(&self) -> Time {
         self.log.end()
     }
 
-    /// When its picture was complete; never, perhaps.
+    /// Returns when its picture was complete; `None` if never.
     pub fn end(&self) -> Option<Time> {
         self.budget.as_ref().map(|budget| Time::ZERO + budget.makespan)
     }
 
-    /// What is known at the shown time.
+    /// Returns its state at the shown time.
     pub fn snapshot(&self) -> &Snapshot {
         &self.snapshot
     }
@@ -82,14 +82,14 @@ impl ComparedRun {
         }
     }
 
-    /// Its picture: the render (0), a layer (1) or something between.
+    /// Returns its picture with a layer over it, at an opacity of 0 to 1.
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
         self.canvas.set_look(look, ground, &self.snapshot.state);
         &mut self.canvas
     }
 }
 
-/// When the last of them is over.
+/// Returns the length of the longest run.
 pub fn length_of_all(runs: &[ComparedRun]) -> Time {
     runs.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
 }
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn at_each_time_a_run_shows_what_it_had_come_to() {
+    fn run_shows_its_state_at_each_time() {
         let mut shown = compared_run(&[1.0, 0.2]);
         let rows = |shown: &mut ComparedRun| -> Vec<Rgb> {
             let all: Range<u32> = 0..shown.log.header.size.height();

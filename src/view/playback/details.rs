@@ -1,4 +1,4 @@
-//! What there is to know of a machine, an atom or a message: what lights up with it, and what is said of it.
+//! Details of a machine, an atom or a message: its words and its highlight.
 
 use std::ops::Range;
 
@@ -18,34 +18,34 @@ use crate::view::text::format::{count, duration, node_name, time_words};
 use crate::view::text::tooltips::{Fact, atom_words, flight_words, node_facts};
 use crate::view::timeline::landmarks::Subject;
 
-/// What is known of it whatever moment is shown; found by looking through the run, so not for every frame.
+/// Details of a subject that do not depend on the shown time. Found by a search through the run, so not in every frame.
 #[derive(Clone, Debug)]
 pub struct Details {
-    /// What it is of.
+    /// The machine, atom or message.
     pub subject: Subject,
     /// The message itself.
     flight: Option<Flight>,
-    /// Why it carries so much.
+    /// Why the message carries this number of atoms.
     why: Option<String>,
     /// Who traced the atom, and when.
     bar: Option<(NodeId, Traced)>,
 }
 
-/// What lights up.
+/// Machines, atoms and a message that are highlighted in all views.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Highlight {
     /// Machines.
     pub nodes: Vec<NodeId>,
     /// Atoms.
     pub atoms: Vec<Range<Atom>>,
-    /// A message, by its name in the run.
+    /// A message, by its id in the run.
     pub message: Option<u64>,
     /// The bar of an atom.
     pub bar: Option<(NodeId, Traced)>,
 }
 
 impl Details {
-    /// Looks through the run for what is known of `about`.
+    /// Searches the run for the details of `subject`.
     pub fn of(subject: Subject, log: &RunLog, lanes: &Lanes, cache: &mut SnapshotCache, language: Language) -> Self {
         let mut details = Self { subject, flight: None, why: None, bar: None };
         match subject {
@@ -77,7 +77,7 @@ impl Details {
         }
     }
 
-    /// What lights up with it, where `state` is shown.
+    /// Returns the highlight of the subject while `state` is shown.
     pub fn highlight(&self, state: &RunState) -> Highlight {
         match self.subject {
             Subject::Node(node) => {
@@ -106,8 +106,7 @@ impl Details {
         }
     }
 
-    /// What is said of it at `now`: a title, and a line of what else there is. Times are told as exactly as
-    /// [`time_words`] does at the rate `grain`.
+    /// Returns a title and a line of details at `now`. Times have the precision of [`time_words`] at the rate `grain`.
     pub fn words(&self, state: &RunState, now: Time, grain: f64, language: Language) -> (String, String) {
         match self.subject {
             Subject::Node(node) => {
@@ -142,15 +141,15 @@ impl Details {
                 let traced = self.bar.map(|(node, bar)| {
                     let (name, took) = (node_name(node), duration(bar.to.since(bar.from), language));
                     let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01, language));
-                    let is = if bar.to <= now {
-                        word!(language, "was", "o calculou")
+                    let traces = if bar.to <= now {
+                        word!(language, "traced", "o calculou")
                     } else {
-                        word!(language, "will be", "o calculará")
+                        word!(language, "will trace", "o calculará")
                     };
                     say!(
                         language,
-                        " · machine {name} {is} at it from {from} to {to}, for {took} at its speed",
-                        " · a máquina {name} {is} de {from} a {to}, {took} à sua velocidade"
+                        " · machine {name} {traces} it from {from} to {to}: {took} at its speed",
+                        " · a máquina {name} {traces} de {from} a {to}: {took} à sua velocidade"
                     )
                 });
                 (atom_words(state, atom, now, language), format!("{place}{}", traced.unwrap_or_default()))
@@ -158,7 +157,7 @@ impl Details {
             Subject::Message(_) => match &self.flight {
                 None => {
                     let title =
-                        word!(language, "A message that is not known any more", "Uma mensagem que não se conhece mais");
+                        word!(language, "This message is no longer known", "Esta mensagem não é mais conhecida");
                     (title.into(), String::new())
                 }
                 Some(flight) => {
@@ -173,8 +172,8 @@ impl Details {
                     };
                     let more = say!(
                         language,
-                        "{why}left at {sent}, {arrived} at {arrives}, {took} later",
-                        "{why}saiu em {sent}, {arrived} em {arrives}, {took} depois"
+                        "{why}sent at {sent}, {arrived} at {arrives}, {took} later",
+                        "{why}enviada em {sent}, {arrived} em {arrives}, {took} depois"
                     );
                     (flight_words(flight, language), more)
                 }
@@ -191,7 +190,7 @@ mod tests {
     use crate::view::timeline::landmarks::landmarks;
 
     #[test]
-    fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
+    fn biggest_transfer_has_a_reason_and_its_atoms() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 900);
         let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);
@@ -204,13 +203,13 @@ mod tests {
         let atoms: usize = highlight.atoms.iter().map(Range::len).sum();
         assert!(highlight.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(
-            more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("left at "),
+            more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("sent at "),
             "{more}"
         );
     }
 
     #[test]
-    fn an_atom_lights_up_its_bar_and_its_machine() {
+    fn atom_highlights_its_bar_and_its_machine() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 0.5], 40);
         let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);

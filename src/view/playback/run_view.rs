@@ -1,4 +1,4 @@
-//! Everything that is known of a run by now, whatever moment is shown.
+//! The latest state of a run and its history, independent of the shown time.
 
 use super::snapshots::Snapshot;
 use crate::record::Record;
@@ -6,31 +6,31 @@ use crate::runlog::{Header, RunLog};
 use crate::view::state::lanes::Lanes;
 use crate::view::timeline::markers::Markers;
 
-/// What is known of a run, as a fold over its records.
+/// The latest state, the markers and the lanes of a run, as a fold over its records.
 #[derive(Clone, Debug)]
 pub struct RunView {
-    /// Its last moment.
+    /// Its latest state.
     pub latest: Snapshot,
-    /// What stands out in its time.
+    /// Its markers on the time line.
     pub markers: Markers,
-    /// What each machine did and when.
+    /// What each machine did, and when.
     pub lanes: Lanes,
 }
 
 impl RunView {
-    /// Before anything has happened.
+    /// Starts before the first record.
     pub fn new(header: &Header) -> Self {
         Self { latest: Snapshot::new(header), markers: Markers::default(), lanes: Lanes::new(header) }
     }
 
-    /// All of a recorded run.
+    /// Folds all records of a run.
     pub fn of(log: &RunLog) -> Self {
         let mut view = Self::new(&log.header);
         log.records().iter().for_each(|record| view.apply(record));
         view
     }
 
-    /// Takes in what happened next.
+    /// Takes in the next record.
     pub fn apply(&mut self, record: &Record) {
         self.latest.apply(record);
         self.markers.apply(record, &self.latest.state);

@@ -6,7 +6,7 @@ use super::layout::RingLayout;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::node_state::Activity;
 
-/// A badge, by what it says of the machine.
+/// A badge, by the condition that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Badge {
     /// Two bars: paused.

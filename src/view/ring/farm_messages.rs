@@ -134,7 +134,8 @@ fn request_radius(layout: &RingLayout) -> f32 {
     (layout.node_radius * 0.3).clamp(2.5, 9.0)
 }
 
-/// Returns the centre of a box beside the spoke of `node`: `way` is 0 at the parent and 1 at the node, `side` is 1 or -1.
+/// Returns the centre of a box beside the spoke of `node`: `way` is 0 at the parent and 1 at the node, `side` is 1 or
+/// -1.
 fn beside_spoke(layout: &RingLayout, node: NodeId, way: f32, [width, height]: Point, side: f32) -> Point {
     let angle = layout.angle(node);
     let (cos, sin) = (angle.cos().abs(), angle.sin().abs());

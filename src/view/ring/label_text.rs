@@ -44,8 +44,8 @@ pub(crate) fn is_labelled(layout: &RingLayout, is_selected: bool) -> bool {
     layout.nodes <= MAX_LABELLED_NODES || is_selected
 }
 
-/// Returns the two lines of a label: the atoms left, and the activity or the rate. After the run or for a machine that is
-/// out: the atoms done.
+/// Returns the two lines of a label: the atoms left, and the activity or the rate. After the run or for a machine that
+/// is out: the atoms done.
 fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, language: Language) -> [String; 2] {
     let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
     let [left, done] = [of.left(), of.done].map(short_count);
@@ -91,7 +91,7 @@ mod tests {
     proptest! {
         #[test]
         fn labels_fit_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
-        let language = Language::English;
+            let language = Language::English;
             let mut state = RunState::new(&sample_runs::header(&[1.0], 9));
             for ms in 0..done % 3000 {
                 state.nodes[0].atom_done(true, Time(u64::from(ms) * 1_000_000));

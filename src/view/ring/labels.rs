@@ -44,8 +44,8 @@ pub(crate) const SECOND_LINE_LETTERS: usize = 12;
 pub(crate) const NUMBER_LETTERS: usize = 5;
 
 impl LabelForm {
-    /// Returns the least height and width for this form, and the least radius of the rail as a share of them: labels must
-    /// not shrink the ring further.
+    /// Returns the least height and width for this form, and the least radius of the rail as a share of them: labels
+    /// must not shrink the ring further.
     fn least(self) -> [f32; 2] {
         match self {
             Self::TwoLines => [380.0, 0.25],
@@ -113,8 +113,8 @@ impl Labels {
         self.extent(language).map(|extent| self.gap() + extent + EDGE_GAP_PX)
     }
 
-    /// Returns the position of a label relative to the centre, as near to the rail as its height allows. To the right of
-    /// the ring a text begins at this position, to the left it ends there: so it may have any length.
+    /// Returns the position of a label relative to the centre, as near to the rail as its height allows. To the right
+    /// of the ring a text begins at this position, to the left it ends there: so it may have any length.
     pub(crate) fn place(&self, angle: f32, rail: f32, language: Language) -> (Point, Anchor) {
         let (radius, half) = (rail + self.gap(), self.extent(language)[1] / 2.0);
         let (cos, sin) = (angle.cos(), angle.sin());

@@ -62,8 +62,8 @@ impl RingLayout {
         self.node_radius * Self::TRACK_RADIUS + self.track_width()
     }
 
-    /// Returns the ends of the path between two nodes, or from the parent to a node. They are at the rims, so no message
-    /// covers a number.
+    /// Returns the ends of the path between two nodes, or from the parent to a node. They are at the rims, so no
+    /// message covers a number.
     pub(crate) fn path_ends(&self, from: Point, to: Point) -> (Point, Point) {
         let bend = self.bend(from, to);
         let towards = |start: Point, by: f32| {

@@ -132,8 +132,8 @@ pub(crate) fn visibility(state: &RunState, flight: &Flight, now: Time) -> f32 {
     flight.presence(now) * state.presence(now)
 }
 
-/// Returns the distance of a lane from the rail: lane 0 is on it, the others by turns outside and inside. More than eight
-/// offers share lanes.
+/// Returns the distance of a lane from the rail: lane 0 is on it, the others by turns outside and inside. More than
+/// eight offers share lanes.
 fn lane_offset(layout: &RingLayout, lane: usize) -> f32 {
     let lane = lane % 8;
     let out = lane.div_ceil(2) as f32 * lane_width(layout);

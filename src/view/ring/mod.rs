@@ -1,7 +1,8 @@
-//! The ring as a display list: nodes on a circle, offers on a rail round it, transfers across, the parent in the centre.
+//! The ring as a display list: nodes on a circle, offers on a rail round it, transfers across, the parent in the
+//! centre.
 //!
-//! Numbers rise clockwise from the top. An offer goes to the left neighbour, so it always moves anticlockwise: at the top
-//! of the ring to the left.
+//! Numbers rise clockwise from the top. An offer goes to the left neighbour, so it always moves anticlockwise: at the
+//! top of the ring to the left.
 
 mod angles;
 mod centre;

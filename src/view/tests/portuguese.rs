@@ -1,4 +1,4 @@
-//! Tests of what is said in Portuguese: whole runs are told in both languages, and compared sentence by sentence.
+//! Tests of the Portuguese texts: all texts of whole runs are compared with the English ones, sentence by sentence.
 
 use std::time::Duration;
 
@@ -35,18 +35,18 @@ use crate::view::text::scene_stats::{needs_lines, needs_warnings};
 use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
 use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
-/// How much room there is for what is said.
+/// Room for a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Room {
-    /// For a sentence that is heard while the run goes on.
+    /// A sentence that is read while the run goes on.
     Heard,
-    /// About as much as in English.
+    /// About as much as for the English text.
     Same,
     /// A line that may become two.
     Some,
 }
 
-/// What was said, and how much room there is for it.
+/// Texts, and the room for each.
 type Said = Vec<(Room, String)>;
 
 /// English words that no Portuguese sentence has.
@@ -93,7 +93,7 @@ const ENGLISH: [&str; 40] = [
     "stopped",
 ];
 
-/// Says the same in both languages, and compares.
+/// Makes the texts in both languages, and compares them.
 fn compare(say: impl Fn(Language) -> Said) {
     let [english, portuguese] = [Language::English, Language::Portuguese].map(say);
     assert_eq!(english.len(), portuguese.len());
@@ -123,7 +123,7 @@ fn compare(say: impl Fn(Language) -> Said) {
     assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Whole runs of all strategies, in which somebody takes a hand.
+/// Whole runs of all strategies, with changes by the user.
 fn runs() -> Vec<RunLog> {
     let ways = Strategy::ALL.into_iter().map(|strategy| (strategy, Driver::Sim));
     let ways = ways.chain([(Strategy::Ring, Driver::WorkStealing)]);
@@ -190,7 +190,7 @@ fn runs() -> Vec<RunLog> {
     logs
 }
 
-/// What is said of a run while it goes on.
+/// Sentences of a run while it goes on.
 fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let mut snapshot = Snapshot::new(&log.header);
@@ -211,7 +211,7 @@ fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
     said
 }
 
-/// The words of a drawing.
+/// Labels of a drawing.
 fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
     marks.into_iter().filter_map(|mark| match mark {
         Mark::Label { text, .. } => Some(text),
@@ -219,7 +219,7 @@ fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
     })
 }
 
-/// What is said of what somebody points at, and what stands in the drawing.
+/// Texts under the pointer, and labels of the ring.
 fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
     let (state, mut said) = (&snapshot.state, Vec::new());
     let nodes = 0..state.nodes().len() as NodeId;
@@ -228,7 +228,7 @@ fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
     {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
-    // Offers are drawn where they are: as many in both languages.
+    // The ring has as many labels in both languages.
     let layout = RingLayout::new(state.nodes().len(), [1200.0, 1200.0], language);
     let drawn = ring(&layout, state, &RingOverlay::default(), now, language);
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
@@ -238,7 +238,7 @@ fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
     said
 }
 
-/// What is said of a run when it is over.
+/// Sentences of a run after its end.
 fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let RunView { latest: snapshot, markers, lanes, .. } = RunView::of(log);
@@ -266,7 +266,7 @@ fn sentences_after_it(log: &RunLog, language: Language) -> Said {
 }
 
 #[test]
-fn runs_are_told_in_portuguese() {
+fn sentences_of_runs_are_portuguese() {
     let runs = runs();
     assert!(runs.iter().filter(|log| Metrics::of(log).makespan().is_some()).count() > 30);
     compare(|language| runs.iter().flat_map(|log| sentences_while_it_runs(log, language)).collect());
@@ -341,7 +341,7 @@ fn states_fit_below_a_machine() {
 }
 
 #[test]
-fn scenes_and_pixels_are_told_in_portuguese() {
+fn texts_of_scenes_and_pixels_are_portuguese() {
     let size = Size::new(24, 18).expect("a small picture");
     compare(|language| {
         let mut said = Vec::new();
@@ -366,7 +366,7 @@ fn scenes_and_pixels_are_told_in_portuguese() {
                 said.extend(labels_of(marks.collect()));
             }
         }
-        // What a material is called is the scene's own.
+        // Names of materials come from the scene.
         said.into_iter().map(|words| (Room::Some, words.replace("section of", "section"))).collect()
     });
 }

@@ -1,4 +1,5 @@
-//! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
+//! Conditions of a machine in its lane: a pattern over the time for which it was hung, cut off or off, and a symbol at
+//! the beginning.
 
 use super::layout::TimelineLayout;
 use super::quads::{Quad, Timeline};
@@ -8,12 +9,13 @@ use crate::time::Time;
 use crate::view::draw::display_list::Hue;
 use crate::view::state::lane::Lane;
 
-/// How long a dash is, and the gap after it.
+/// Length of a dash, and of the gap after it.
 const DASH_AND_GAP_PX: [f32; 2] = [6.0, 4.0];
-/// More dashes than this are one line.
+/// Maximum number of dashes: a longer line has longer dashes.
 const MAX_DASHES: usize = 400;
 
-/// Draws them: an empty lane with a cross for one that was off, a broken line for one that hung, a wire that is cut for one that was cut off.
+/// Draws the conditions of a machine: an empty lane with a cross while it is off, a dashed line while it hangs, two
+/// dashed lines with a cut wire while it is cut off.
 pub(crate) fn draw_conditions(
     lane: &Lane,
     node: NodeId,
@@ -66,8 +68,8 @@ fn dashes([left, right]: [f32; 2], [top, bottom]: [f32; 2], quads: &mut Vec<Quad
     }
 }
 
-/// The strokes of a condition's sign, within 1.3 of its middle: the same as at the machine in the ring, but for a cross in the place
-/// of a switch, and a tick for one that is well.
+/// Returns the strokes of a condition's symbol, within 1.3 of its centre. They are those of the badge in the ring,
+/// except for a cross instead of the switch, and a tick for a machine that is well.
 pub fn condition_strokes(condition: Condition) -> &'static [[[f32; 2]; 2]] {
     match condition {
         Condition::Well => &[[[-1.0, -0.1], [-0.3, 0.7]], [[-0.3, 0.7], [1.1, -1.1]]],
@@ -90,7 +92,7 @@ mod tests {
     use crate::view::state::lanes::Lanes;
     use crate::view::tests::sample_runs;
 
-    /// What is drawn more of three machines' lanes if this becomes of the second at 1 s: quads and lines.
+    /// How many quads and lines are added to three lanes if the second machine gets this condition at 1 s.
     fn marks_added(condition: Condition) -> (usize, usize) {
         let header = sample_runs::header(&[1.0; 3], 300);
         let draw = |whats: &[RecordKind]| {
@@ -107,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn each_trouble_has_a_sign_of_its_own() {
+    fn each_condition_has_its_own_symbol() {
         let [well, off, hung, cut] =
             [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(marks_added);
         assert_eq!(well, (0, 0));
@@ -116,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spare_is_off_from_the_beginning() {
+    fn spare_machine_is_off_from_the_beginning() {
         let header = crate::runlog::Header { spares: 1, ..sample_runs::header(&[1.0; 3], 300) };
         let lanes = Lanes::new(&header);
         let off: Vec<_> = lanes.lanes().iter().map(|lane| lane.conditions().len()).collect();

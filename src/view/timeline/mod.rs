@@ -1,4 +1,4 @@
-//! The timeline as things to draw: a lane a node, and above them how much of the machines' time is used.
+//! The timeline: a lane for each node, and above them the share of the machines that trace.
 
 pub mod conditions;
 pub mod landmarks;
@@ -18,13 +18,13 @@ use layout::{STRIP_TOP_PX, TimelineLayout};
 use quads::{Quad, Timeline, add_to_columns, column_runs};
 use time_window::TimeWindow;
 
-/// Narrower than this, in pixels, atoms are not told apart.
+/// Least mean width of the bars of single atoms; narrower bars are drawn as columns.
 const MIN_BAR_WIDTH_PX: f64 = 3.0;
 
-/// More messages than this in the window hide each other and the lanes.
+/// Maximum number of messages of a kind in the window: more would cover each other and the lanes.
 const MAX_LINES: usize = 400;
 
-/// The timeline of what `window` shows, until `head`, which the run has come to.
+/// Draws the part of the timeline in `window`, up to `head`, the present time of the run.
 pub fn timeline(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, head: Time) -> Timeline {
     let mut drawn = Timeline::default();
     let mut used = vec![0.0; layout.width.max(0.0) as usize];
@@ -41,8 +41,8 @@ pub fn timeline(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, hea
     drawn
 }
 
-/// Times for the axis below the lanes: round ones, far enough apart for their words, and how exactly they are to be told,
-/// as a rate is for [`time_words`](super::text::format::time_words).
+/// Returns round times for the axis below the lanes, far enough apart for their words, and the precision of these
+/// words, as a rate for [`time_words`](super::text::format::time_words).
 pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
     const MIN_TICK_DISTANCE_PX: f64 = 110.0;
     let length = (window.to().0 - window.from().0) as f64;
@@ -59,14 +59,14 @@ pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
     (times, (step as f64 * 1e-9 * 10.0).min(1.0))
 }
 
-/// What is pointed at: an atom's bar, else a message near the place, else the lane's machine.
+/// Finds the subject at a point: a message or an atom's bar, or else the machine of the lane.
 pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, [x, y]: [f32; 2]) -> Option<Subject> {
     let node = layout.node_at(y)?;
     let time = window.at(f64::from(x / layout.width.max(1.0)));
     let lane = lanes.lanes().get(usize::from(node))?;
     let reach = |time: Time| (layout.x(window, time) - x).abs() < 4.0;
     let of = Party::Node(node);
-    // Where atoms stand apart they are what one points at; else a parcel is.
+    // A wide bar comes before a message, a narrow one after it.
     let is_near = |trip: &&Trip| {
         trip.load == Load::Atoms && (trip.from == of && reach(trip.sent) || trip.to == of && reach(trip.arrives))
     };
@@ -78,7 +78,7 @@ pub fn timeline_at(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, 
     bar.map_or(Some(Subject::Node(node)), |bar| Some(Subject::Atom(bar.atom)))
 }
 
-/// How many of the machines' time is used, column by column.
+/// Draws the strip above the lanes: the share of the machines that trace, column by column.
 fn draw_usage(used: &[f32], layout: &TimelineLayout, quads: &mut Vec<Quad>) {
     let (top, bottom) = (STRIP_TOP_PX, layout.header_height - 4.0);
     quads.push(Quad { place: [0.0, top, layout.width, bottom], ink: Hue::Hairline.faint(0.35) });
@@ -89,7 +89,7 @@ fn draw_usage(used: &[f32], layout: &TimelineLayout, quads: &mut Vec<Quad>) {
     }
 }
 
-/// What a machine is about while it traces nothing.
+/// Draws the phases of a lane in which no atom is traced.
 fn draw_phases(
     lane: &Lane,
     node: NodeId,
@@ -118,7 +118,7 @@ fn draw_phases(
     }
 }
 
-/// What a machine traced: atom by atom where there is room, else how much of each column.
+/// Draws the traced atoms of a lane: a bar for each where there is room, else the share of each column.
 fn draw_bars(
     lane: &Lane,
     node: NodeId,
@@ -142,7 +142,7 @@ fn draw_bars(
     if mean * pixels >= MIN_BAR_WIDTH_PX {
         let ink = |i: usize| Hue::Node(node).faint(if i.is_multiple_of(2) { 0.95 } else { 0.75 });
         for bar in seen {
-            // Atoms keep their shade while one pans.
+            // The shade depends on the atom, so that it stays while the window pans.
             let [left, right] = layout.span(window, bar.from, bar.to);
             quads.push(Quad { place: [left, top, right, bottom], ink: ink(bar.atom as usize) });
         }
@@ -158,7 +158,7 @@ fn draw_bars(
     }
 }
 
-/// A worker that was made to stand still: the lane is struck out.
+/// Draws a line through the lane while its machine is paused.
 fn draw_pauses(
     lane: &Lane,
     node: NodeId,
@@ -176,7 +176,8 @@ fn draw_pauses(
     }
 }
 
-/// Offers from neighbour to neighbour, and atoms across.
+/// Draws messages: offers from neighbour to neighbour, atoms between machines, and ticks for those from and to the
+/// parent.
 fn draw_messages(
     lanes: &Lanes,
     window: &TimeWindow,
@@ -195,14 +196,14 @@ fn draw_messages(
     let between = |load: Load| {
         drawn(load).filter(|trip| matches!((trip.from, trip.to), (Party::Node(_), Party::Node(_)))).count()
     };
-    // Where they are too many only the largest would be seen, and these the ring shows.
+    // Too many messages would cover the lanes; the ring shows them.
     if between(Load::Atoms) <= MAX_LINES {
         drawn(Load::Atoms).for_each(|trip| draw(trip, 0.7));
     }
     if between(Load::Offer) <= MAX_LINES {
         drawn(Load::Offer).for_each(|trip| draw(trip, 0.25));
     }
-    // What is sent to the parent, and what comes from it, is a tick where it leaves or arrives.
+    // A message to or from the parent is a tick on the lane, at its departure or arrival.
     let of_parent = |trip: &Trip| match (trip.from, trip.to) {
         _ if trip.load == Load::Notice => None,
         (Party::Node(node), Party::Parent) => Some((node, trip.sent)),
@@ -218,10 +219,10 @@ fn draw_messages(
     }
 }
 
-/// The messages that are under way within the window.
+/// Returns the messages that are on their way within the window.
 fn trips_in<'a>(lanes: &'a Lanes, window: &TimeWindow) -> impl Iterator<Item = &'a Trip> {
     let (from, to) = (window.from(), window.to());
-    // About in the order in which they left: nobody is later than a second.
+    // Messages are nearly in the order in which they were sent: at most a second out of order.
     let last = lanes.trips().partition_point(|trip| trip.sent <= to);
     lanes.trips()[..last].iter().filter(move |trip| trip.arrives >= from && trip.sent <= to)
 }

@@ -1,26 +1,26 @@
-//! What a timeline is drawn with, and the sums over its columns of pixels.
+//! Quads and lines of a timeline, and sums over its columns of pixels.
 
 use crate::view::draw::display_list::Ink;
 
-/// A rectangle of one colour: left, top, right, bottom.
+/// A rectangle of one colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quad {
-    /// Where it is.
+    /// Left, top, right, bottom.
     pub place: [f32; 4],
-    /// What it is filled with.
+    /// Its colour.
     pub ink: Ink,
 }
 
-/// What is drawn.
+/// Drawing of a timeline.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timeline {
-    /// What lies under the lines.
+    /// Rectangles, under the lines.
     pub quads: Vec<Quad>,
-    /// Messages between lanes: from, to, and their ink.
+    /// Messages between lanes: start, end, and ink.
     pub lines: Vec<([f32; 2], [f32; 2], Ink)>,
 }
 
-/// Adds what lies between two places to each column.
+/// Adds to each column the share of it that lies between `left` and `right`, in columns.
 pub(super) fn add_to_columns(columns: &mut [f32], left: f32, right: f32) {
     let (left, right) = (left.max(0.0), right.min(columns.len() as f32));
     if right <= left {
@@ -36,14 +36,14 @@ pub(super) fn add_to_columns(columns: &mut [f32], left: f32, right: f32) {
     columns[last] += right - last as f32;
 }
 
-/// Neighbouring columns of one level.
+/// Neighbouring columns of one level, from `start` to before `end`.
 pub(super) struct ColumnRun {
     pub(super) start: usize,
     pub(super) end: usize,
     pub(super) level: u8,
 }
 
-/// Columns of the same level, one after the other, as one; those of level 0 are left out.
+/// Joins neighbouring columns of one level; columns of level 0 are left out.
 pub(super) fn column_runs(levels: impl Iterator<Item = u8>) -> Vec<ColumnRun> {
     let mut runs: Vec<ColumnRun> = Vec::new();
     for (column, level) in levels.enumerate() {
@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
     #[test]
-        fn columns_hold_what_bars_cover(left in -50.0..150.0f32, length in 0.0..90.0f32) {
+        fn columns_sum_up_the_covered_length(left in -50.0..150.0f32, length in 0.0..90.0f32) {
             let mut columns = vec![0.0; 100];
             add_to_columns(&mut columns, left, left + length);
             let inside = (left + length).min(100.0) - left.max(0.0);

@@ -24,7 +24,7 @@ fn drawn(atoms: u32, zoom: f64) -> (Lanes, Timeline, TimeWindow, TimelineLayout)
 
 proptest! {
     #[test]
-    fn nothing_is_drawn_beyond_its_place(atoms in 1..600u32, zoom in 0.001..1.0f64) {
+    fn quads_stay_inside_the_timeline(atoms in 1..600u32, zoom in 0.001..1.0f64) {
         let (_, drawn, _, layout) = drawn(atoms, zoom);
         for quad in &drawn.quads {
             let [left, top, right, bottom] = quad.place;
@@ -35,7 +35,7 @@ proptest! {
 }
 
 #[test]
-fn few_quads_show_many_atoms_and_each_atom_is_one_when_seen_from_near() {
+fn many_atoms_are_few_quads_and_zoomed_in_each_atom_is_one() {
     let (_, all, ..) = drawn(20_000, 1.0);
     assert!(all.quads.len() < 3_000, "{}", all.quads.len());
     let (lanes, near, window, layout) = drawn(20_000, 0.002);
@@ -48,7 +48,7 @@ fn few_quads_show_many_atoms_and_each_atom_is_one_when_seen_from_near() {
 }
 
 #[test]
-fn the_axis_has_round_times_that_are_seen() {
+fn axis_has_round_times_inside_the_window() {
     let language = Language::English;
     let (_, _, window, _) = drawn(600, 0.05);
     let (times, rate) = axis(&window, WIDTH);
@@ -59,7 +59,7 @@ fn the_axis_has_round_times_that_are_seen() {
 }
 
 #[test]
-fn what_is_pointed_at_is_what_is_there() {
+fn subject_under_the_pointer_is_found() {
     let (lanes, _, window, layout) = drawn(600, 0.05);
     let bar = lanes.lanes()[0].bars_in(window.from(), window.to())[2];
     let x = (layout.x(&window, bar.from) + layout.x(&window, bar.to)) / 2.0;

@@ -13,8 +13,8 @@ fn sentences(events: &EventLog) -> Vec<String> {
     events.iter().map(|(_, event)| event.sentence(Language::English)).collect()
 }
 
-/// The events of these records, at their times in ms.
-fn told(nodes: usize, records: impl IntoIterator<Item = (u64, RecordKind)>) -> EventLog {
+/// The events of `records`, at their times in ms.
+fn events_of(nodes: usize, records: impl IntoIterator<Item = (u64, RecordKind)>) -> EventLog {
     let (mut state, mut events) = (RunState::new(&sample_runs::header(&vec![1.0; nodes], 900)), EventLog::default());
     for (ms, what) in records {
         let record = Record { at: Time(ms * 1_000_000), what };
@@ -32,7 +32,7 @@ fn transfer(from: NodeId, to: NodeId, atoms: u32) -> RecordKind {
 
 proptest! {
     #[test]
-    fn events_of_a_whole_run_are_few_and_in_order(
+    fn events_of_a_run_are_few_and_in_order(
         speeds in prop::collection::vec(0.02..1.0f64, 1..9), atoms in 1..400u32,
     ) {
         let header = sample_runs::header(&speeds, atoms);
@@ -47,7 +47,7 @@ proptest! {
             prop_assert!(sentence.chars().count() <= 95, "{sentence}");
         }
         prop_assert!(sentences(&events).contains(&Happening::Complete.sentence(Language::English)));
-        // Every node offers at last, and says so once.
+        // Every node makes offers at the end; only the first is an event.
         for node in 0..speeds.len() as NodeId {
             let offers = events.events.iter().filter(|event| event.kind == EventKind::Offer(node)).count();
             prop_assert!(offers == 1 || events.events.len() == MAX_EVENTS);
@@ -56,50 +56,50 @@ proptest! {
 }
 
 #[test]
-fn the_list_tells_who_is_slow_and_what_moved_where() {
+fn list_names_the_slow_machine_and_its_transfers() {
     let header = sample_runs::header(&[1.0, 1.0, 0.1], 600);
     let (mut state, mut events) = (RunState::new(&header), EventLog::default());
     for record in sample_runs::records(&header) {
         state.apply(&record);
         events.apply(&record, &state);
     }
-    let told = sentences(&events);
-    assert_eq!(told[0], "The parent gives each of 3 machines an equal band of the picture");
-    assert_eq!(told[1], "1 has finished its band and offers help round the ring");
-    assert!(told.iter().any(|told| told.starts_with("3, slow at 10 %, gave ")), "{told:#?}");
+    let sentences = sentences(&events);
+    assert_eq!(sentences[0], "The parent gives each of 3 machines an equal band of the picture");
+    assert_eq!(sentences[1], "1 has finished its band and offers help round the ring");
+    assert!(sentences.iter().any(|event| event.starts_with("3, slow at 10 %, gave ")), "{sentences:#?}");
 }
 
 #[test]
 fn small_transfers_of_a_machine_are_one_event() {
     let [one, two, more] = [1, 2, 40].map(|atoms| move |from, to| transfer(from, to, atoms));
-    let events = told(8, [(0, one(6, 1)), (10, one(6, 7)), (20, one(4, 2)), (30, more(6, 3)), (40, one(6, 2))]);
+    let events = events_of(8, [(0, one(6, 1)), (10, one(6, 7)), (20, one(4, 2)), (30, more(6, 3)), (40, one(6, 2))]);
     assert_eq!(
         sentences(&events),
         ["5 gave 1 atom to 3", "7 gave 40 atoms to 4, which had finished", "7 gave 1 atom to 2, 3 and 8"]
     );
-    let events = told(8, [(0, one(6, 1)), (10, two(6, 1)), (20, two(6, 3)), (9000, one(6, 1))]);
+    let events = events_of(8, [(0, one(6, 1)), (10, two(6, 1)), (20, two(6, 3)), (9000, one(6, 1))]);
     assert_eq!(sentences(&events), ["7 gave few atoms at a time to 2 and 4: 5 in 3 parcels", "7 gave 1 atom to 2"]);
 }
 
 #[test]
-fn many_small_transfers_do_not_drown_the_rest() {
+fn many_small_transfers_do_not_crowd_out_other_events() {
     let small = (0..500).map(|i: u16| (u64::from(i), transfer(i % 7, i % 3 + 7, 1)));
-    let events = told(12, std::iter::once((0, transfer(0, 1, 99))).chain(small));
+    let events = events_of(12, std::iter::once((0, transfer(0, 1, 99))).chain(small));
     assert_eq!(events.events.len(), 8);
     assert_eq!(sentences(&events)[0], "1 gave 99 atoms to 2, which had finished");
 }
 
 #[test]
 fn machines_that_retire_together_are_one_event() {
-    let events = told(4, [2, 0, 3].map(|node| (10 * u64::from(node), RecordKind::Retired { node })));
+    let events = events_of(4, [2, 0, 3].map(|node| (10 * u64::from(node), RecordKind::Retired { node })));
     assert_eq!(sentences(&events), ["1, 3 and 4 retire: their offers came back, nobody needs their help"]);
 }
 
 #[test]
-fn a_dragged_slider_is_one_event() {
+fn dragged_slider_is_one_event() {
     let speed = |node, percent: u64| RecordKind::SpeedSet { node, speed: percent as f64 / 100.0 };
     let ms = Duration::from_millis;
-    let events = told(
+    let events = events_of(
         3,
         [
             (0, speed(1, 80)),
@@ -117,20 +117,20 @@ fn a_dragged_slider_is_one_event() {
         sentences(&events),
         [
             "1 gave 50 atoms to 3, which had finished",
-            "Machine 2 now runs at 30 %: the others will make up for it",
-            "A hop takes 200 ms now",
-            "Machine 3 now runs at 60 %: the others will make up for it",
+            "Machine 2 now runs at 30 %: the others will take over its work",
+            "A hop now takes 200 ms",
+            "Machine 3 now runs at 60 %: the others will take over its work",
             "Machine 2 now runs at 40 %: it can take more work",
-            "Machine 3 is paused: the others will make up for it",
-            "Machine 3 goes on",
+            "Machine 3 is paused: the others will take over its work",
+            "Machine 3 continues",
         ]
     );
 }
 
 #[test]
-fn only_the_last_are_kept() {
+fn only_the_last_events_are_kept() {
     let records = (0..200).map(|i| (i, transfer(0, 1, 100 + i as u32)));
-    let events = told(2, records);
+    let events = events_of(2, records);
     assert_eq!(events.events.len(), MAX_EVENTS);
     assert_eq!(sentences(&events)[MAX_EVENTS - 1], "1 gave 299 atoms to 2, which had finished");
 }

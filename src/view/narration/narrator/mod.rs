@@ -1,4 +1,4 @@
-//! The run in sentences: one large at a time, and the last ones in a list.
+//! The large sentence that is read while a run goes on, and the list of the last events.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -15,13 +15,14 @@ use crate::view::narration::happening::{Happening, Retirement};
 use crate::view::narration::status::status_sentence;
 use crate::view::state::run_state::RunState;
 
-/// Says what happens, one sentence at a time: each stays long enough to be read, unless something weightier
-/// happens. Keeps the last events too.
+/// Chooses the event whose sentence is shown, and keeps the last events. A sentence stays long enough to be read,
+/// unless an event of more weight follows.
 #[derive(Clone, Debug, Default)]
 pub struct Narrator {
-    /// What is told where time goes as it does.
+    /// The event that is shown in real time.
     shown: Option<WeightedEvent>,
-    /// The last that were passed over since, for want of time to read them: where time goes slower there is some.
+    /// The last events that were skipped because there was no time to read them, the newest first. Slower playback
+    /// shows them.
     skipped: VecDeque<WeightedEvent>,
     events: EventLog,
 }
@@ -33,22 +34,22 @@ struct WeightedEvent {
     happening: Happening,
 }
 
-/// What kind of event it is and, of transfers, how large: one of twice the atoms weighs more.
+/// Weight of an event: its kind, then its size. A transfer of twice the atoms has more weight.
 type Weight = (u8, u32);
 
-/// Of what somebody does to the run: it follows the hand.
+/// Weight of a change by the user: its sentence appears at once.
 const USER_CHANGE: Weight = (4, 0);
 
-/// Of machines that are missed: it follows what was done to them.
+/// Weight of missing machines: more than the change that made them fail.
 const MISSED: Weight = (4, 1);
 
-/// Of the end, which nothing follows.
+/// Weight of the end of the run.
 const COMPLETE: Weight = (5, 0);
 
-/// How long an event is fresh for whoever looks on.
+/// How long the sentence of an event is shown at most.
 const FRESH_TIME: Duration = Duration::from_secs(3);
 
-/// How long a sentence stays when others like it follow.
+/// How long a sentence stays at least when events of no more weight follow.
 const MIN_READING_TIME: Duration = Duration::from_millis(1600);
 
 impl Narrator {
@@ -64,7 +65,7 @@ impl Narrator {
                 | RecordKind::Condition { .. }
         );
         let event = if is_user_change {
-            // The list knows where a slider was before the hand took hold of it.
+            // The list knows the speed before the slider was dragged.
             self.events.latest_user_change().map(|happening| (USER_CHANGE, happening.clone()))
         } else {
             weigh(record, state)
@@ -80,31 +81,31 @@ impl Narrator {
         }
     }
 
-    /// What is to be read at `now`: the last event while it is fresh, else how things stand.
+    /// Returns the sentence at `now`: the last event while it is fresh, else the status of the run.
     pub fn sentence(&self, state: &RunState, now: Time, language: Language) -> String {
         match self.shown_at(now, state.rate()) {
             Some(event) => event.happening.sentence(language),
             None if state.finished().is_some() => Happening::Complete.sentence(language),
-            // Nothing has been heard of it: its records begin when all costs are known.
+            // The records of virtual time begin when all costs are known.
             _ if state.is_virtual && state.head() == Time::ZERO => before_virtual_time(language).into(),
             _ => status_sentence(state, language),
         }
     }
 
-    /// The last events and their times, the newest last. What belongs together is one event: a slider that is
-    /// dragged, small transfers of one machine, machines that retire.
+    /// The last events and their times, the newest last. Records that belong together are one event: a dragged slider,
+    /// small transfers of one machine, machines that retire.
     pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
         self.events.iter()
     }
 
-    /// Those before what is to be read at `now`.
+    /// The events before the sentence that is shown at `now`.
     pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
         let event = self.shown_at(now, state.rate()).map(|event| event.at);
         self.events().filter(move |(at, _)| event.is_none_or(|event| *at < event))
     }
 
-    /// The event that is to be read at `now`, while it is fresh; `rate` of the run's seconds go by in one of whoever
-    /// looks on.
+    /// Returns the event that is shown at `now`, if it is fresh, at a playback rate of `rate` run seconds per wall
+    /// second.
     fn shown_at(&self, now: Time, rate: f64) -> Option<&WeightedEvent> {
         let (read, fresh) = (MIN_READING_TIME.mul_f64(rate), FRESH_TIME.mul_f64(rate));
         let mut event = self.shown.as_ref()?;
@@ -118,8 +119,8 @@ impl Narrator {
 }
 
 impl WeightedEvent {
-    /// Whether it has been there so long, or weighs so little, that `next` is told in its stead. What is done by hand is
-    /// told at once, or the first of a slider's many speeds would stand there.
+    /// Whether `next` replaces it: after the reading time, or because of its weight. A change by the user replaces the
+    /// one before at once; else the first of a dragged slider's speeds would stay.
     fn yields_to(&self, next: &Self, read: Duration) -> bool {
         next.weight > self.weight
             || next.weight == self.weight && next.weight == USER_CHANGE
@@ -127,9 +128,10 @@ impl WeightedEvent {
     }
 }
 
-/// More of them nobody could follow.
+/// Skipped events that are kept: nobody could follow more.
 const MAX_SKIPPED_EVENTS: usize = 64;
 
+/// Returns the event of a record and its weight; `None` if the record is not worth a sentence.
 fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
     let event = match &record.what {
         RecordKind::Sent {
@@ -157,7 +159,7 @@ fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
         RecordKind::Sent { from: Party::Node(from), message: message @ Message::Offer { .. }, .. } => {
             ((1, 0), Happening::offer(state, *from, false, message.own_offer(*from)?))
         }
-        // One that is asked back, or let in, gets no band.
+        // A node that is called back or let in gets an empty band.
         RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
             return None;
         }
@@ -170,7 +172,7 @@ fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
             let sleeps = matches!(happening, Happening::Retired { reason: Retirement::Sleeps, .. });
             ((if sleeps { 1 } else { 2 }, 0), happening)
         }
-        // The bands follow, perhaps soon.
+        // The bands may follow soon, with more weight.
         RecordKind::Estimating => ((1, 0), Happening::Estimating),
         RecordKind::Sent { to: Party::Node(to), message: Message::Part(part), .. } => {
             let weight = if part.is_empty() { 2 } else { 1 };

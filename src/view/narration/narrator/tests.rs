@@ -8,7 +8,7 @@ use crate::runlog::{Driver, Header};
 use crate::view::tests::sample_runs;
 
 #[test]
-fn the_story_of_a_slow_machine() {
+fn slow_machine_is_told_of() {
     let language = Language::English;
     let header = sample_runs::header(&[1.0, 1.0, 0.1], 2400);
     let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), Vec::new());
@@ -27,7 +27,7 @@ fn the_story_of_a_slow_machine() {
 }
 
 #[test]
-fn a_sentence_stays_until_it_is_read_or_outweighed() {
+fn sentence_stays_until_read_or_outweighed() {
     let language = Language::English;
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
     let mut narrator = Narrator::default();
@@ -42,14 +42,16 @@ fn a_sentence_stays_until_it_is_read_or_outweighed() {
     assert!(say(100, RecordKind::Retired { node: 1 }).starts_with("1's offer"));
     assert!(say(200, RecordKind::SpeedSet { node: 1, speed: 0.25 }).starts_with("Machine 2 now runs at 25 %"));
     assert!(say(300, RecordKind::Retired { node: 1 }).starts_with("Machine 2"));
-    assert!(say(400, RecordKind::LatencySet { latency: Duration::from_millis(200) }).starts_with("A hop takes 200 ms"));
+    assert!(
+        say(400, RecordKind::LatencySet { latency: Duration::from_millis(200) }).starts_with("A hop now takes 200 ms")
+    );
     assert!(say(2100, RecordKind::Retired { node: 1 }).starts_with("2's offer"));
     assert!(say(2200, RecordKind::Finished).starts_with("The picture"));
     assert!(say(9000, RecordKind::SpeedSet { node: 1, speed: 0.5 }).starts_with("The picture"));
 }
 
 #[test]
-fn where_time_goes_slowly_there_is_time_to_read_what_would_be_passed_over() {
+fn slow_playback_shows_skipped_events() {
     let language = Language::English;
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 1.0], 9));
     let mut narrator = Narrator::default();
@@ -65,12 +67,12 @@ fn where_time_goes_slowly_there_is_time_to_read_what_would_be_passed_over() {
     };
     assert!(says(1.0, 250).starts_with("1's offer"));
     assert!(says(0.01, 210).starts_with("3's offer"));
-    assert!(says(0.1, 250).starts_with("3's offer"), "the second is being read for 160 ms");
-    assert_eq!(says(0.01, 250), "Waiting for the parent", "what was fresh for 30 ms");
+    assert!(says(0.1, 250).starts_with("3's offer"), "the second stays for 160 ms");
+    assert_eq!(says(0.01, 250), "The machines wait for the parent", "it was fresh for 30 ms");
 }
 
 #[test]
-fn a_transfer_of_twice_the_atoms_outweighs_another() {
+fn transfer_of_twice_the_atoms_outweighs_another() {
     let language = Language::English;
     let state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 900));
     let mut narrator = Narrator::default();
@@ -88,7 +90,7 @@ fn a_transfer_of_twice_the_atoms_outweighs_another() {
 }
 
 #[test]
-fn a_sentence_on_a_speed_follows_the_hand() {
+fn sentence_on_a_speed_follows_the_slider() {
     let language = Language::English;
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 9));
     let mut narrator = Narrator::default();
@@ -99,25 +101,25 @@ fn a_sentence_on_a_speed_follows_the_hand() {
         narrator.sentence(&state, record.at, language)
     };
     for (ms, speed) in [(0, 0.86), (50, 0.4), (100, 0.01)] {
-        let expected = format!("Machine 2 now runs at {:.0} %: the others will make up for it", speed * 100.0);
+        let expected = format!("Machine 2 now runs at {:.0} %: the others will take over its work", speed * 100.0);
         assert_eq!(set(ms, 1, speed), expected);
     }
-    assert_eq!(set(150, 1, 0.0), "Machine 2 is stopped: the others will make up for it");
-    assert_eq!(set(200, 1, 0.7), "Machine 2 now runs at 70 %: the others will make up for it");
+    assert_eq!(set(150, 1, 0.0), "Machine 2 is stopped: the others will take over its work");
+    assert_eq!(set(200, 1, 0.7), "Machine 2 now runs at 70 %: the others will take over its work");
     assert_eq!(set(250, 1, 1.0), "Machine 2 now runs at 100 %");
     assert_eq!(set(300, 2, 0.6), "Machine 3 now runs at 60 %: it can take more work");
     assert_eq!(set(350, 2, 1.0), "Machine 3 now runs at 100 %: it can take more work");
-    assert_eq!(set(9000, 2, 0.9), "Machine 3 now runs at 90 %: the others will make up for it");
+    assert_eq!(set(9000, 2, 0.9), "Machine 3 now runs at 90 %: the others will take over its work");
 }
 
-/// What is heard of a run by this strategy whose last machine is slow, and what is left in the list at its end.
+/// The sentences of a run by `strategy` whose last machine is slow, and the list of events at its end.
 fn story(strategy: Strategy, handling: u64, language: Language) -> (BTreeSet<String>, Vec<String>) {
     let plain = sample_runs::header(&[1.0, 1.0, 1.0, 1.0, 0.1], 2000);
     let rules = Rules { strategy, part: strategy.usual_part(plain.division, 5), ..plain.rules };
     let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
     let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), BTreeSet::new());
     for record in sample_runs::records(&header) {
-        // How things stood before it.
+        // The status before it.
         heard.insert(narrator.sentence(&state, record.at, language));
         state.apply(&record);
         narrator.apply(&record, &state);
@@ -129,7 +131,7 @@ fn story(strategy: Strategy, handling: u64, language: Language) -> (BTreeSet<Str
     (heard, listed)
 }
 
-/// Each of these is somewhere in what is heard.
+/// Asserts that each part is in a sentence, and that no sentence is about a ring.
 fn assert_heard(heard: &BTreeSet<String>, parts: &[&str]) {
     for part in parts {
         assert!(heard.iter().any(|sentence| sentence.contains(part)), "{part}: {heard:#?}");
@@ -139,7 +141,7 @@ fn assert_heard(heard: &BTreeSet<String>, parts: &[&str]) {
 }
 
 #[test]
-fn in_a_farm_nodes_ask_and_their_parts_are_one_event() {
+fn parts_of_a_farm_are_one_event() {
     let language = Language::English;
     let (heard, listed) = story(Strategy::Farm, 0, language);
     assert_heard(
@@ -147,36 +149,36 @@ fn in_a_farm_nodes_ask_and_their_parts_are_one_event() {
         &[
             "The parent gives each of 5 machines a first part: 25 atoms",
             " asks the parent for more and gets 25 atoms",
-            " asks the parent for more, but all is given away: it is no longer needed",
+            " asks for more, but the parent has no more: ",
         ],
     );
     let parts = listed.iter().filter(|event| event.starts_with("The parent has handed out")).count();
     assert!(parts == 1 && listed.len() < 12, "{listed:#?}");
-    assert!(listed.iter().any(|event| event.ends_with(" asked for more, but all is given away")), "{listed:#?}");
+    assert!(listed.iter().any(|event| event.ends_with(" asked for more, but the parent has no more")), "{listed:#?}");
 }
 
 #[test]
-fn a_slow_parent_is_told_of() {
+fn queue_at_slow_parent_is_told_of() {
     let language = Language::English;
     let (heard, listed) = story(Strategy::Farm, 40, language);
-    assert_heard(&heard, &[" messages wait at the parent, which needs 40 ms for each"]);
+    assert_heard(&heard, &[" messages wait at the parent; it needs 40 ms for each"]);
     let jams = listed.iter().filter(|event| event.contains("messages wait")).count();
     assert!((1..40).contains(&jams), "{listed:#?}");
 }
 
 #[test]
-fn with_fixed_bands_all_wait_for_the_slow_one() {
+fn with_fixed_bands_all_wait_for_the_slow_machine() {
     let language = Language::English;
     let (heard, listed) = story(Strategy::Static, 0, language);
     assert_heard(
         &heard,
         &[
             "The parent gives each of 5 machines an equal band",
-            "1 is done and waits: nobody shares with it",
+            "1 has finished and waits: nobody shares with it",
             "All wait for 5, which is slow (10 %): ",
         ],
     );
-    assert!(listed.iter().any(|event| event == "1, 2, 3 and 4 are done and wait: nobody shares with them"));
+    assert!(listed.iter().any(|event| event == "1, 2, 3 and 4 have finished and wait: nobody shares with them"));
     let (heard, _) = story(Strategy::StaticEstimate, 0, language);
     assert_heard(
         &heard,
@@ -187,7 +189,7 @@ fn with_fixed_bands_all_wait_for_the_slow_one() {
 }
 
 #[test]
-fn threads_steal() {
+fn thefts_are_told_of() {
     let language = Language::English;
     let header = Header { driver: Driver::WorkStealing, ..sample_runs::header(&[1.0, 1.0, 0.1], 600) };
     let mut state = RunState::new(&header);
@@ -207,7 +209,7 @@ fn threads_steal() {
 }
 
 #[test]
-fn before_virtual_time_begins_something_is_said() {
+fn sentence_exists_before_virtual_time_begins() {
     let language = Language::English;
     let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
     assert_eq!(Narrator::default().sentence(&state, Time::ZERO, language), before_virtual_time(language));

@@ -1,4 +1,4 @@
-//! What is said where a run hangs, since a machine has failed: which rings have no remedy, and which has.
+//! Sentences for a run that hangs because a machine has failed: the reason, and which ring recovers from it.
 
 use crate::balance::{Condition, NodeId, Party, Remedy, Strategy};
 use crate::language::{Language, say, word};
@@ -8,7 +8,7 @@ use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, names};
 
-/// Why nothing happens any more, if a machine that failed is why; `None` if something may happen still.
+/// Explains why a run hangs after a failure; `None` if the run may still go on.
 pub(crate) fn deadlock_words(state: &RunState, language: Language) -> Option<String> {
     let answers = |party: Party| match party {
         Party::Parent => true,
@@ -25,22 +25,22 @@ pub(crate) fn deadlock_words(state: &RunState, language: Language) -> Option<Str
         return (!state.nodes().iter().any(|node| node.condition == Condition::Well)).then(|| {
             say!(
                 language,
-                "{why}: nobody is left; make one well again",
-                "{why}: não resta ninguém; basta recuperar uma"
+                "{why}: no machine is left; repair one of them",
+                "{why}: não resta nenhuma máquina; recupere uma delas"
             )
         });
     }
     let remedy = recovery_words(state, language);
-    Some(say!(language, "The run hangs, since {why}: {remedy}", "A execução parou, pois {why}: {remedy}"))
+    Some(say!(language, "The run hangs because {why}: {remedy}", "A execução parou porque {why}: {remedy}"))
 }
 
-/// The same of a record that ends before the picture is complete.
+/// Explains why a record ends before the picture is complete, if a failure is the reason.
 pub(crate) fn incomplete_reason(state: &RunState, language: Language) -> Option<String> {
     let (why, remedy) = (failure_words(state, language)?, recovery_words(state, language));
     Some(if state.has(Remedy::Leases) { why } else { format!("{why}; {remedy}") })
 }
 
-/// Who has failed, or what is lost.
+/// Names the machines that have failed, or the lost atoms; `None` if there are none.
 pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<String> {
     let failed = |(node, of): (NodeId, &NodeState)| (!of.spare && of.condition != Condition::Well).then_some(node);
     let failed: Vec<NodeId> = (0..).zip(state.nodes()).filter_map(failed).collect();
@@ -50,7 +50,10 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
         [] if lost == 0 => None,
         [] => {
             let atoms = atoms_words(lost, language);
-            Some(say!(language, "{atoms} were lost", "{atoms} se perderam"))
+            Some(match lost {
+                1 => say!(language, "{atoms} was lost", "{atoms} se perdeu"),
+                _ => say!(language, "{atoms} were lost", "{atoms} se perderam"),
+            })
         }
         [node] => Some(match state.nodes()[usize::from(node)].condition {
             Condition::Hung => say!(language, "{who} hangs", "{who} travou"),
@@ -61,17 +64,17 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
     }
 }
 
-/// Who has a remedy for it.
+/// Says which ring recovers from a failure.
 fn recovery_words(state: &RunState, language: Language) -> &'static str {
     if state.sharing.is_adaptive() {
-        word!(language, "without leases this ring has no remedy", "sem prazos este anel não tem remédio")
+        word!(language, "without leases this ring cannot recover", "sem prazos este anel não se recupera")
     } else if state.sharing == Sharing::By(Strategy::Ring) {
         word!(
             language,
-            "the article's ring has no remedy, the adaptive ring has",
-            "o anel do artigo não tem remédio, o adaptativo tem"
+            "the article's ring cannot recover, the adaptive ring can",
+            "o anel do artigo não se recupera, o adaptativo sim"
         )
     } else {
-        word!(language, "only the adaptive ring has a remedy", "só o anel adaptativo tem remédio")
+        word!(language, "only the adaptive ring can recover", "só o anel adaptativo se recupera")
     }
 }

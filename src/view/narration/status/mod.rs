@@ -1,4 +1,4 @@
-//! How things stand while nothing happens, by strategy.
+//! Status of a run between events, by strategy: who computes, who is slow, and why the ring cannot help.
 
 mod adaptive_ring;
 mod deadlock;
@@ -15,7 +15,7 @@ use deadlock::deadlock_words;
 use ring::ring_status;
 use without_ring::status_without_ring;
 
-/// How things stand.
+/// Describes the status of a run in one sentence.
 pub(crate) fn status_sentence(state: &RunState, language: Language) -> String {
     if state.sharing.is_adaptive() {
         return adaptive_ring_status(state, language);

@@ -1,4 +1,4 @@
-//! How things stand in the article's ring: who computes, who is slow, and where the ring cannot help, why not.
+//! Status of the article's ring: who computes, who is slow, and why the ring cannot help.
 
 use super::deadlock::failure_words;
 use super::phrases::{
@@ -11,13 +11,13 @@ use crate::view::narration::happening::PIPE_ATOMS;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, fraction, names, node_name};
 
-/// How things stand.
+/// Describes the status of the article's ring.
 pub(crate) fn ring_status(state: &RunState, language: Language) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     if let Some(why) = failure_words(state, language).filter(|_| !busy.is_empty()) {
         let compute = computing(busy.len(), state.nodes().len(), word!(language, "machines", "máquinas"), language);
-        return say!(language, "{compute}; {why}, and nobody knows it", "{compute}; {why}, e ninguém sabe disso");
+        return say!(language, "{compute}; {why}, and nobody notices", "{compute}; {why}, e ninguém percebe");
     }
     match *busy {
         [] if state.has_atoms_under_way() => atoms_on_their_way(language),
@@ -33,7 +33,7 @@ pub(crate) fn ring_status(state: &RunState, language: Language) -> String {
     }
 }
 
-/// One machine has all atoms that are left.
+/// One machine has all atoms that are left, and computes.
 fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
     let (name, left) = (node_name(node), atoms_words(last.left(), language));
     let retired = retired(state);
@@ -42,24 +42,24 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
         _ if state.nodes().len() == 1 => single_machine(last, language),
         1 => say!(
             language,
-            "Only {name} still computes its last atom: what is in a pipe is not given away",
-            "Só {name} ainda calcula seu último átomo: o que está num pipe não se cede"
+            "Only {name} still computes, its last atom: atoms in a pipe are never given away",
+            "Só {name} ainda calcula, seu último átomo: átomos num pipe nunca são cedidos"
         ),
         2..=PIPE_ATOMS => say!(
             language,
-            "Only {name} still computes: its last {left} are in its pipe, and what is in a pipe is not given away",
-            "Só {name} ainda calcula: seus últimos {left} estão no pipe, e o que está num pipe não se cede"
+            "Only {name} still computes: its last {left} are in its pipe, and atoms in a pipe are never given away",
+            "Só {name} ainda calcula: seus últimos {left} estão no pipe, e átomos num pipe nunca são cedidos"
         ),
         _ if retired.len() == state.nodes().len() - 1 => match &*retired {
             [_] => say!(
                 language,
-                "{name} still has {left}, but {who} has retired: an offer that came round unused is not made again",
-                "{name} ainda tem {left}, mas {who} foi dispensada: oferta que dá a volta sem uso não se repete"
+                "{name} still has {left}, but {who} has retired: a retired machine makes no more offers",
+                "{name} ainda tem {left}, mas {who} foi dispensada: máquina dispensada não faz mais ofertas"
             ),
             _ => say!(
                 language,
-                "{name} still has {left}, but {who} have retired: an offer that came round unused is not made again",
-                "{name} ainda tem {left}, mas {who} foram dispensadas: oferta que dá a volta sem uso não se repete"
+                "{name} still has {left}, but {who} have retired: a retired machine makes no more offers",
+                "{name} ainda tem {left}, mas {who} foram dispensadas: máquina dispensada não faz mais ofertas"
             ),
         },
         _ => last_computing((node, last), language),
@@ -70,7 +70,7 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
 fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], language: Language) -> String {
     let machines = state.nodes().len();
     let compute = computing(busy.len(), machines, word!(language, "machines", "máquinas"), language);
-    // Of equals the first is named.
+    // Among equals, the first.
     let Some((node, last)) = busy.iter().rev().max_by_key(|(_, node)| node.left()) else { return compute };
     let (name, left) = (node_name(*node), atoms_words(last.left(), language));
     let retired = retired(state);
@@ -81,12 +81,12 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
         match &*retired {
             [_] => say!(
                 language,
-                "{compute}; {name} has most left, {left}, but {who} has retired and will not help",
+                "{compute}; {name} has the most left, {left}, but {who} has retired and will not help",
                 "{compute}; {name} tem mais, {left}, mas {who} foi dispensada e não vai ajudar"
             ),
             _ => say!(
                 language,
-                "{compute}; {name} has most left, {left}, but {who} have retired and will not help",
+                "{compute}; {name} has the most left, {left}, but {who} have retired and will not help",
                 "{compute}; {name} tem mais, {left}, mas {who} foram dispensadas e não vão ajudar"
             ),
         }
@@ -94,7 +94,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
         let speed = fraction(last.speed);
         say!(
             language,
-            "{compute}; {name} is slow ({speed}) and has most left: {left}",
+            "{compute}; {name} is slow ({speed}) and has the most left: {left}",
             "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}"
         )
     } else if busy.len() == machines && busy.iter().all(|(_, node)| node.got.count == 0) {
@@ -104,9 +104,9 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
     }
 }
 
-/// Nobody computes, but some could if they had atoms; `still` have all that are left.
+/// Nobody computes: the machines `still` have all atoms that are left; others could compute, but have none.
 fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String {
-    let nobody_asks = retired(state).len() + still.len() == state.nodes().len();
+    let nobody_offers = retired(state).len() + still.len() == state.nodes().len();
     let (left, in_queues) = (atoms_left(still), atoms_in_queues(still));
     let atoms = atoms_words(left, language);
     let remedy = restart_words(still, language);
@@ -123,10 +123,10 @@ fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String 
                 "Machine {name} {why}; its last {atoms} are in its pipe and stay there: {remedy}",
                 "A máquina {name} {why}; seus últimos {atoms} estão no pipe e ficam lá: {remedy}"
             ),
-            _ if nobody_asks => say!(
+            _ if nobody_offers => say!(
                 language,
-                "Machine {name} {why} with {atoms}, and nobody asks for them any more: {remedy}",
-                "A máquina {name} {why} com {atoms}, e ninguém mais os pede: {remedy}"
+                "Machine {name} {why} with {atoms}, and nobody offers help any more: {remedy}",
+                "A máquina {name} {why} com {atoms}, e ninguém mais oferece ajuda: {remedy}"
             ),
             _ => say!(
                 language,
@@ -136,7 +136,7 @@ fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String 
         };
     }
     let machines = still.len();
-    if in_queues == 0 || nobody_asks {
+    if in_queues == 0 || nobody_offers {
         say!(
             language,
             "{machines} machines stand still with {atoms}, and nobody can take them: {remedy}",
@@ -151,6 +151,7 @@ fn stuck(state: &RunState, still: &[Machine<'_>], language: Language) -> String 
     }
 }
 
+/// Returns the nodes that have retired.
 fn retired(state: &RunState) -> Vec<NodeId> {
     (0..).zip(state.nodes()).filter(|(_, node)| node.retired).map(|(node, _)| node).collect()
 }

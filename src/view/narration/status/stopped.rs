@@ -1,4 +1,4 @@
-//! Machines that stand still: why they do, with how many atoms, and what makes them go on.
+//! Machines that stand still because they are paused, stopped or hung: the reason, their atoms, and how to continue.
 
 use super::phrases::Machine;
 use crate::balance::Condition;
@@ -7,7 +7,7 @@ use crate::view::narration::happening::PIPE_ATOMS;
 use crate::view::state::node_state::NodeState;
 use crate::view::text::format::{atoms_words, names, node_name};
 
-/// Every machine stands still, and has atoms.
+/// All machines stand still, and all have atoms.
 pub(crate) fn all_stand_still(still: &[Machine<'_>], language: Language) -> String {
     match still.iter().filter(|(_, node)| node.paused).count() {
         _ if still.len() == 1 => {
@@ -16,46 +16,46 @@ pub(crate) fn all_stand_still(still: &[Machine<'_>], language: Language) -> Stri
         }
         0 => word!(
             language,
-            "All machines stand still at 0 %: raise a speed and the work goes on",
-            "Todas as máquinas estão paradas a 0 %: basta aumentar uma velocidade"
+            "All machines are stopped (0 %): raise a speed, and the work continues",
+            "Todas as máquinas estão paradas (0 %): aumente uma velocidade, e o trabalho continua"
         )
         .into(),
         paused if paused == still.len() => word!(
             language,
-            "All machines are paused: let one go on, and so does the work",
-            "Todas as máquinas estão em pausa: basta uma continuar"
+            "All machines are paused: resume one, and the work continues",
+            "Todas as máquinas estão em pausa: retome uma, e o trabalho continua"
         )
         .into(),
         _ => word!(
             language,
-            "All machines stand still: raise a speed or let one go on, and so does the work",
-            "Todas as máquinas estão paradas: basta aumentar uma velocidade ou uma continuar"
+            "All machines stand still: raise a speed or resume one, and the work continues",
+            "Todas as máquinas estão paradas: aumente uma velocidade ou retome uma, e o trabalho continua"
         )
         .into(),
     }
 }
 
-/// Why a machine stands still.
+/// Says why a machine stands still.
 pub(crate) fn stop_reason(node: &NodeState, language: Language) -> &'static str {
     match node.condition {
         Condition::Hung => word!(language, "hangs", "travou"),
         _ if node.paused => word!(language, "is paused", "está em pausa"),
-        _ => word!(language, "stands still at 0 %", "está parada a 0 %"),
+        _ => word!(language, "is stopped (0 %)", "está parada (0 %)"),
     }
 }
 
-/// What makes machines that stand still go on.
+/// Says how machines that stand still can continue.
 pub(crate) fn restart_words(still: &[Machine<'_>], language: Language) -> &'static str {
     match (still.len(), still.iter().filter(|(_, node)| node.paused).count()) {
-        (1, 0) => word!(language, "raise its speed", "basta aumentar sua velocidade"),
-        (1, _) => word!(language, "let it go on", "basta retomá-la"),
-        (_, 0) => word!(language, "raise their speed", "basta aumentar sua velocidade"),
-        (all, paused) if all == paused => word!(language, "let them go on", "basta retomá-las"),
-        _ => word!(language, "let them go on, or raise their speed", "basta retomá-las, ou aumentar sua velocidade"),
+        (1, 0) => word!(language, "raise its speed", "aumente sua velocidade"),
+        (1, _) => word!(language, "resume it", "retome-a"),
+        (_, 0) => word!(language, "raise their speeds", "aumente suas velocidades"),
+        (all, paused) if all == paused => word!(language, "resume them", "retome-as"),
+        _ => word!(language, "resume them, or raise their speeds", "retome-as, ou aumente suas velocidades"),
     }
 }
 
-/// Machines stand still while others compute, or when nobody does any more.
+/// Says what happens to the atoms of machines that stand still, while others compute or at the end of a record.
 pub(crate) fn machines_stand_still(still: &[Machine<'_>], language: Language) -> String {
     let in_queues = atoms_in_queues(still);
     match still {
@@ -77,8 +77,8 @@ pub(crate) fn machines_stand_still(still: &[Machine<'_>], language: Language) ->
                 }
                 _ => say!(
                     language,
-                    "{name} {why}: its {left} go to whoever offers help",
-                    "{name} {why}: seus {left} vão para quem oferecer ajuda"
+                    "{name} {why}: its {left} go to machines that offer help",
+                    "{name} {why}: seus {left} vão para máquinas que oferecem ajuda"
                 ),
             }
         }
@@ -88,26 +88,26 @@ pub(crate) fn machines_stand_still(still: &[Machine<'_>], language: Language) ->
             if in_queues == 0 {
                 say!(
                     language,
-                    "{who} stand still and keep what is in their pipes",
-                    "{who} estão paradas e ficam com o que está em seus pipes"
+                    "{who} stand still and keep the atoms in their pipes",
+                    "{who} estão paradas e ficam com os átomos em seus pipes"
                 )
             } else {
                 say!(
                     language,
-                    "{who} stand still: their {left} go to whoever offers help",
-                    "{who} estão paradas: seus {left} vão para quem oferecer ajuda"
+                    "{who} stand still: their {left} go to machines that offer help",
+                    "{who} estão paradas: seus {left} vão para máquinas que oferecem ajuda"
                 )
             }
         }
     }
 }
 
-/// How many atoms machines have together.
+/// Returns how many atoms machines have together.
 pub(crate) fn atoms_left(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left()).sum()
 }
 
-/// How many of their atoms could be given away.
+/// Returns how many of their atoms are in queues and could be given away.
 pub(crate) fn atoms_in_queues(machines: &[Machine<'_>]) -> u32 {
     machines.iter().map(|(_, node)| node.left().saturating_sub(PIPE_ATOMS)).sum()
 }
