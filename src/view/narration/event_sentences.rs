@@ -1,6 +1,7 @@
 //! Sentences for the events of a run.
 
-use super::happening::{Giver, Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
+use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
+use super::transfer_sentences;
 use crate::balance::{NodeId, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::state::scheduler::Sharing;
@@ -43,14 +44,13 @@ impl Happening {
             Self::BandsDone(nodes) => bands_done(language, nodes),
             Self::Retired { nodes, reason } => retired(language, nodes, *reason),
             &Self::Offer { node, reason } => offer(language, node, reason),
-            &Self::Theft { thief, from, atoms } => {
-                let (thief, atoms, from) = (node_name(thief), atoms_words(atoms, language), node_name(from));
-                say!(language, "{thief} steals {atoms} from {from}", "{thief} rouba {atoms} de {from}")
+            &Self::Theft { thief, from, atoms } => transfer_sentences::theft(language, thief, from, atoms),
+            &Self::Takeover { from, to, atoms, giver } => {
+                transfer_sentences::takeover(language, from, to, atoms, giver)
             }
-            &Self::Takeover { from, to, atoms, giver } => takeover(language, from, to, atoms, giver),
-            &Self::Gift { from, to, atoms, slow_at } => gift(language, from, to, atoms, slow_at),
+            &Self::Gift { from, to, atoms, slow_at } => transfer_sentences::gift(language, from, to, atoms, slow_at),
             Self::SmallTransfers { from, to, transfers, atoms, is_theft } => {
-                small_transfers(language, (*from, to), (*transfers, *atoms), *is_theft)
+                transfer_sentences::small_transfers(language, (*from, to), (*transfers, *atoms), *is_theft)
             }
             &Self::Speed { node, speed, effect } => self::speed(language, node, speed, effect),
             &Self::Paused { node, atoms, effect } => paused(language, node, atoms, effect),
@@ -213,70 +213,6 @@ fn offer(language: Language, node: NodeId, reason: OfferReason) -> String {
             "{name} has no atoms left and offers help round the ring",
             "{name} não tem mais átomos e oferece ajuda pelo anel"
         ),
-    }
-}
-
-fn takeover(language: Language, from: NodeId, to: NodeId, atoms: u32, giver: Giver) -> String {
-    let state = match giver {
-        Giver::Paused => word!(language, "is paused", "está em pausa").into(),
-        Giver::Stopped => word!(language, "is stopped", "está parada").into(),
-        Giver::Slow(speed) => {
-            let speed = fraction(speed);
-            say!(language, "is slow ({speed})", "é lenta ({speed})")
-        }
-        Giver::Busy => word!(language, "is still busy", "ainda está ocupada").into(),
-    };
-    let (giver, offerer) = (node_name(from), node_name(to));
-    let atoms = if atoms == 1 { word!(language, "one atom", "um átomo").into() } else { atoms_words(atoms, language) };
-    say!(
-        language,
-        "{offerer} has finished and takes over {atoms} from {giver}, which {state}",
-        "{offerer} terminou e assume {atoms} de {giver}, que {state}"
-    )
-}
-
-fn gift(language: Language, from: NodeId, to: NodeId, atoms: u32, slow_at: Option<f64>) -> String {
-    let (giver, atoms, to) = (node_name(from), atoms_words(atoms, language), node_name(to));
-    let giver = slow_at.map_or(giver.to_string(), |speed| {
-        let speed = fraction(speed);
-        say!(language, "{giver}, slow at {speed},", "{giver}, lenta a {speed},")
-    });
-    say!(
-        language,
-        "{giver} gave {atoms} to {to}, which had finished",
-        "{giver} deu {atoms} a {to}, que tinha terminado"
-    )
-}
-
-fn small_transfers(
-    language: Language,
-    (from, to): (NodeId, &[NodeId]),
-    (transfers, all): (u32, u32),
-    is_theft: bool,
-) -> String {
-    let (giver, takers, words) = (node_name(from), names(to, language), atoms_words(all, language));
-    if is_theft && to.len() == 1 {
-        say!(
-            language,
-            "{takers} steals few atoms at a time from {giver}: {words}",
-            "{takers} rouba poucos átomos por vez de {giver}: {words}"
-        )
-    } else if is_theft {
-        say!(
-            language,
-            "{takers} steal few atoms at a time from {giver}: {words}",
-            "{takers} roubam poucos átomos por vez de {giver}: {words}"
-        )
-    } else if to.len() == 1 {
-        say!(language, "{giver} gave {words} to {takers}", "{giver} deu {words} a {takers}")
-    } else if all as usize == to.len() {
-        say!(language, "{giver} gave 1 atom to {takers}", "{giver} deu 1 átomo a {takers}")
-    } else {
-        say!(
-            language,
-            "{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels",
-            "{giver} deu poucos átomos por vez a {takers}: {all} em {transfers} pacotes"
-        )
     }
 }
 

@@ -8,3 +8,4 @@ pub mod happening;
 pub mod narrator;
 pub mod record_sentences;
 pub mod status;
+mod transfer_sentences;
