@@ -1,6 +1,6 @@
-//! The figures that the project is held to, each a median of five runs with rivals in turn: `cargo bench`.
+//! The figures that the project must reach, each a median of five runs in turn with its rivals: `cargo bench`.
 //!
-//! They say what this computer does while it does nothing else; none of them is asserted.
+//! They depend on the computer, which must be otherwise idle; none of them is asserted.
 
 use std::process::Command;
 
@@ -28,7 +28,7 @@ fn main() {
     let full = |nodes: &str| {
         number(&render("ten-objects", &["--nodes", nodes, "--pace", "full", "--samples", "2"]), "makespan_s")
     };
-    // What the computer itself gives: two programs at once that know nothing of each other.
+    // The limit of the computer: two independent programs at the same time.
     let at_once = || {
         std::thread::scope(|scope| {
             let other = scope.spawn(|| full("1"));
@@ -48,7 +48,7 @@ fn main() {
     }
 }
 
-/// Runs the program and returns what it says about the run.
+/// Renders a scene. Returns the JSON report of the run.
 fn render(scene: &str, out: &str, rest: &[&str]) -> Value {
     let output = Command::new(env!("CARGO_BIN_EXE_anel"))
         .args(["render", scene, "--out", out, "--size", SIZE, "--json"])
@@ -58,6 +58,7 @@ fn render(scene: &str, out: &str, rest: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON object")
 }
 
+/// Prints efficiency and overhead of paced runs.
 fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
     let rest = [nodes, &["--pace", "0.2"]].concat();
     let runs: Vec<_> = (0..RUNS).map(|_| render("ten-objects", &rest)).collect();
@@ -66,6 +67,7 @@ fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
     println!("  {what:<28} {:.4} (least {least:.4}), overhead {:.3}", of("efficiency"), of("overhead"));
 }
 
+/// Prints the rays per second of both programs.
 fn against_povray(scene: &str, directory: &std::path::Path, render: &impl Fn(&str, &[&str]) -> Value) {
     let pov = directory.join(format!("{scene}.pov"));
     let export = ["export", scene, "--size", SIZE, "--pov"];
@@ -102,7 +104,7 @@ fn against_povray(scene: &str, directory: &std::path::Path, render: &impl Fn(&st
     }
 }
 
-/// Rays of all kinds and seconds, from what POV-Ray says at the end.
+/// The number of rays of all kinds and the seconds, from POV-Ray's last output.
 fn povray_figures(said: &str) -> (f64, f64) {
     let after = |label: &str| {
         let rest = said.split_once(label).map_or("", |(_, rest)| rest);

@@ -1,4 +1,4 @@
-//! How fast runs go in virtual time: `cargo bench --bench simulator`.
+//! The speed of runs in virtual time: `cargo bench --bench simulator`.
 
 use std::time::{Duration, Instant};
 
@@ -27,30 +27,30 @@ fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
         ..plain
     };
     let start = Instant::now();
-    // As a picture's rows: dearer in the middle.
+    // Like the rows of a picture: the middle costs more.
     let atoms = f64::from(header.division.atoms());
     let cost = move |atom: u32| {
         Duration::from_secs_f64(1e-3 - 0.8e-3 * (std::f64::consts::TAU * f64::from(atom) / atoms).cos())
     };
     let mut sim = Sim::new(&header, &[], cost);
-    let mut tally = Metrics::new(&header);
+    let mut metrics = Metrics::new(&header);
     let mut records = 0u64;
     sim.run(&mut |record| {
         records += 1;
-        tally.add(&record);
+        metrics.add(&record);
     });
     let took = start.elapsed().as_secs_f64();
     println!(
-        "  {:<8} {took:6.2} s, {:.2} million events a second, {:.1} million records, {:.0} MiB at most, efficiency {:.4}",
+        "  {:<8} {took:6.2} s, {:.2} million events/s, {:.1} million records, {:.0} MiB at most, efficiency {:.4}",
         strategy.name(),
-        sim.happened() as f64 / took / 1e6,
+        sim.processed() as f64 / took / 1e6,
         records as f64 / 1e6,
         peak_mib(),
-        tally.efficiency().unwrap_or_default(),
+        metrics.efficiency().unwrap_or_default(),
     );
 }
 
-/// The most memory that this process has had so far, in MiB.
+/// The peak memory of this process in MiB.
 fn peak_mib() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -1,9 +1,9 @@
-//! What the window costs: `cargo bench --bench window`. The CPU of one frame while a run goes on and while one goes through
-//! a long record, what a run at full speed loses with the window open, and what the window takes at rest. The last two need
-//! Linux and Xvfb. `cargo bench --bench window frames` measures only frames; `… memory SECONDS` runs again and again, and
-//! prints what memory the window holds.
+//! The cost of the window: `cargo bench --bench window`. Measures the CPU of one frame of a running and of a recorded
+//! run, the loss of a run at full speed with the window open, and the CPU of a resting window. The last two need Linux
+//! and Xvfb. `cargo bench --bench window frames` measures only frames; `… memory SECONDS` repeats runs for this time
+//! and prints the memory of the window.
 //!
-//! The figures say what this computer does while it does nothing else; none of them is asserted.
+//! The figures depend on the computer, which must be otherwise idle; none of them is asserted.
 
 use std::fs;
 use std::path::Path;
@@ -23,9 +23,10 @@ use egui::Key;
 use egui_kittest::Harness;
 use tempfile::TempDir;
 
+/// Pairs of runs, with the window and without it.
 const PAIRS: usize = 5;
 
-/// What is set for the runs at full speed: eight equal machines, a picture of some seconds.
+/// Settings of the runs at full speed: eight equal machines, a picture that takes some seconds.
 const SETTINGS: &str = r#"(settings: (size: (width: 1280, height: 960), quality: (samples: 4), tempo: Full, latency: 0,
     speeds: [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]), scene: Some("ten-objects"))"#;
 
@@ -44,7 +45,7 @@ fn main() {
     }
 }
 
-/// Interface and tessellation of one frame, at 1280 × 800.
+/// Measures interface and tessellation of one frame, at 1280 × 800.
 fn frames_of_all() {
     println!("one frame, interface and tessellation, 1280x800 (ms of CPU):");
     running("eight nodes at full speed", SETTINGS, false);
@@ -59,7 +60,7 @@ fn frames_of_all() {
     }
     let length = window.state().session().stage().length();
     let scrub = |window: &mut Harness<'static, App>, times: &mut Vec<f64>| {
-        // To and fro in steps of all sizes, as a hand does.
+        // Back and forth in steps of all sizes, as by hand.
         for i in 0..400_u32 {
             let share = 0.5 + 0.5 * f64::from(i).mul_add(0.043, (f64::from(i) * 0.61).sin() * 0.1).sin();
             window.state_mut().seek(Time((share * length.0 as f64) as u64));
@@ -68,22 +69,22 @@ fn frames_of_all() {
     };
     let mut times = Vec::new();
     scrub(&mut window, &mut times);
-    tell("a log of 100,000 atoms, 32 nodes, scrubbed", times);
+    print_times("a log of 100,000 atoms, 32 nodes, scrubbed", times);
     window.key_press(Key::T);
     let mut times = Vec::new();
     scrub(&mut window, &mut times);
-    tell("the same with the timeline, all of it", times);
+    print_times("the same with the timeline, all of it", times);
     for _ in 0..7 {
         window.key_press_modifiers(egui::Modifiers::COMMAND, Key::ArrowUp);
         window.step();
     }
     let mut times = Vec::new();
     scrub(&mut window, &mut times);
-    tell("the same, 128 times nearer", times);
+    print_times("the same, 128 times nearer", times);
     window.key_press(Key::Home);
     window.key_press(Key::Space);
     let times = (0..400).map(|_| frame(&mut window)).collect();
-    tell("the same, played", times);
+    print_times("the same, played", times);
 }
 
 /// A run of 32 machines in virtual time, on a picture of 100,000 atoms.
@@ -97,7 +98,7 @@ fn long_log() -> std::sync::Arc<RunLog> {
     let header = Header { scene: names.0, scene_text: names.1, driver: Driver::Sim, pace: 0.05, link, ..plain };
     let mut log = RunLog::new(header.clone());
     let mut records = Vec::new();
-    // Atoms of many costs.
+    // Atoms of different costs.
     let cost = |atom: u32| Duration::from_micros(300 + u64::from(atom.wrapping_mul(2_654_435_761) >> 22));
     Sim::new(&header, &[], cost).run(&mut |record| records.push(record));
     log.add(records);
@@ -112,22 +113,22 @@ fn harness(settings: &str, opening: Opening) -> Harness<'static, App> {
     Harness::builder().with_size([1280.0, 800.0]).build_eframe(build)
 }
 
-/// Milliseconds of CPU for one frame.
+/// Draws one frame. Returns its CPU time in milliseconds.
 fn frame(window: &mut Harness<'static, App>) -> f64 {
     let before = ThreadTime::now();
     window.step();
     let interface = before.elapsed();
-    // The window itself gives its shapes away, and copies none.
+    // The real window moves its shapes; the copy is not measured.
     let shapes = window.output().shapes.clone();
     let scale = window.ctx.pixels_per_point();
     let before = ThreadTime::now();
     let meshes = window.ctx.tessellate(shapes, scale);
     let took = interface + before.elapsed();
-    assert!(!meshes.is_empty(), "something is drawn");
+    assert!(!meshes.is_empty(), "the frame is not empty");
     took.as_secs_f64() * 1e3
 }
 
-fn tell(what: &str, mut times: Vec<f64>) {
+fn print_times(what: &str, mut times: Vec<f64>) {
     times.sort_by(f64::total_cmp);
     let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
     let (count, median, most) = (times.len(), at(0.5), at(0.99));
@@ -152,11 +153,11 @@ fn running(what: &str, settings: &str, shows_timeline: bool) {
             Phase::Preparing | Phase::Failed(_) => {}
         }
     }
-    tell(what, times);
+    print_times(what, times);
 }
 
-/// Paced runs one after the other for so many seconds, gone through to and fro before the next begins; needs xdotool too.
-#[expect(clippy::disallowed_methods, reason = "for how long one waits")]
+/// Repeats paced runs for `seconds` seconds, scrubs through each of them, and prints the memory; needs xdotool too.
+#[expect(clippy::disallowed_methods, reason = "the time limit is in wall-clock time")]
 fn memory(seconds: u64) {
     let display = Display::open().expect("Xvfb");
     let directory = TempDir::new().expect("a temporary directory");
@@ -190,7 +191,7 @@ fn memory(seconds: u64) {
     }
 }
 
-/// The same run with the window and without it, in turn.
+/// Measures the same run with the window and without it, in turn.
 fn against_headless(display: &Display) {
     println!("\nthe same run at full speed, eight nodes, {PAIRS} pairs in turn (s):");
     let (mut losses, mut owns) = (Vec::new(), Vec::new());
@@ -198,11 +199,9 @@ fn against_headless(display: &Display) {
         let headless = headless();
         let (with, own) = with_window(display);
         let loss = with / headless - 1.0;
-        println!(
-            "  headless {headless:.3}, with the window {with:.3}: {:+.1} %; the window's own CPU {:.1} % of the computer",
-            100.0 * loss,
-            100.0 * own
-        );
+        let (loss_percent, own_percent) = (100.0 * loss, 100.0 * own);
+        print!("  headless {headless:.3}, with the window {with:.3}: {loss_percent:+.1} %; ");
+        println!("the window's own CPU {own_percent:.1} % of the computer");
         losses.push(loss);
         owns.push(own);
     }
@@ -225,14 +224,14 @@ fn headless() -> f64 {
     makespan(&log)
 }
 
-/// The makespan, and what part of the computer went into everything but the nodes.
+/// The makespan, and the CPU of everything but the nodes as a fraction of the computer.
 fn with_window(display: &Display) -> (f64, f64) {
     let directory = TempDir::new().expect("a temporary directory");
     let log = directory.path().join("run.anel");
     let mut window = Window::open(display, directory.path(), Some(&log));
     let mut cpu = None;
     while !log.exists() {
-        // Seldom, since looking costs the run something too.
+        // Seldom, since reading these figures slows the run too.
         sleep(Duration::from_millis(100));
         let now = [window.cpu_without_nodes(), display.cpu()];
         if cpu.is_none() && window.has_nodes() {
@@ -252,7 +251,7 @@ fn with_window(display: &Display) -> (f64, f64) {
     (makespan, used / makespan / cores as f64)
 }
 
-/// CPU of the window, its display included, while a finished run is shown, and while a run is paused.
+/// Measures the CPU of the window and its display while a finished run is shown.
 fn at_rest(display: &Display) {
     const REST: Duration = Duration::from_secs(10);
     let directory = TempDir::new().expect("a temporary directory");
@@ -261,7 +260,7 @@ fn at_rest(display: &Display) {
     while !log.exists() {
         sleep(Duration::from_millis(20));
     }
-    // What was said below the top bar has to go away, too.
+    // Waits until the notice below the top bar has disappeared.
     sleep(Duration::from_secs(10));
     let before = window.cpu() + display.cpu();
     sleep(REST);
@@ -284,7 +283,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// What an earlier window remembered.
+/// A storage with the settings of an earlier window.
 struct Storage(String);
 
 impl eframe::Storage for Storage {
@@ -299,7 +298,7 @@ impl eframe::Storage for Storage {
     fn flush(&mut self) {}
 }
 
-/// An X server without a screen.
+/// A virtual X server, closed on drop.
 struct Display {
     server: Child,
     name: String,
@@ -338,7 +337,7 @@ impl Window {
         Self::open_with(display, home, log, SETTINGS)
     }
 
-    /// A window that remembers these settings.
+    /// Opens a window with these stored settings.
     fn open_with(display: &Display, home: &Path, log: Option<&Path>, settings: &str) -> Self {
         let remembered = home.join("anel");
         fs::create_dir_all(&remembered).expect("a directory");
@@ -388,7 +387,7 @@ fn name(task: &Path) -> String {
     fs::read_to_string(task.join("comm")).unwrap_or_default()
 }
 
-/// User and system time in a `stat` file of Linux; its clock ticks a hundred times a second.
+/// The seconds of user and system time in a `stat` file of Linux, whose unit is 1/100 s.
 fn cpu_seconds(stat: &Path) -> f64 {
     let text = fs::read_to_string(stat).unwrap_or_default();
     let fields: Vec<_> = text.rsplit(')').next().unwrap_or_default().split_whitespace().collect();

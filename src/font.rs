@@ -3,5 +3,5 @@
 /// IBM Plex Sans (SIL Open Font License 1.1): one variable font of all weights.
 pub const PLEX: &[u8] = include_bytes!("../assets/fonts/IBMPlexSans.ttf");
 
-/// What the font calls itself.
+/// The name of the font's family.
 pub const PLEX_NAME: &str = "IBM Plex Sans";

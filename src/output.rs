@@ -1,4 +1,4 @@
-//! Files that are either whole or not there.
+//! Atomic writing of files: a file is complete or does not exist.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -10,38 +10,69 @@ use thiserror::Error;
 /// Why a file could not be written.
 #[derive(Debug, Error)]
 pub enum OutputError {
-    /// The path can never hold the file: found before the work of making what goes into it.
-    #[error("cannot write {path}: {why}")]
+    /// The path can never hold the file. This is found before the content is made.
+    #[error("cannot write {path}: {problem}")]
     Path {
-        /// Where it was to go.
+        /// The path of the file.
         path: PathBuf,
-        /// What is wrong with that.
-        why: String,
+        /// What is wrong with it.
+        problem: PathProblem,
     },
-    /// Writing failed, for instance because the disk is full; the partial file has been removed.
+    /// Writing failed, for instance because the disk is full. The partial file has been removed.
     #[error("writing {path} failed, nothing of it was kept: {source}")]
     Write {
-        /// Where it was to go.
+        /// The path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
 
-/// Makes sure that a file can be written to `path`, before the work of making what goes into it.
+/// Why a path can never hold the file.
+#[derive(Debug, PartialEq, Eq, Error)]
+pub enum PathProblem {
+    /// It ends in a separator, `.` or `..`.
+    #[error("it does not name a file")]
+    NoFileName,
+    /// No usual file system takes so long a name.
+    #[error("its name is longer than {MAX_NAME_BYTES} bytes")]
+    LongName,
+    /// It names a directory.
+    #[error("it is a directory; name a file in it")]
+    Directory,
+    /// It names a device, a pipe or a socket.
+    #[error("it is not a regular file")]
+    NotRegular,
+    /// The file is write-protected.
+    #[error("it is read-only")]
+    ReadOnly,
+    /// It is a symbolic link to nothing.
+    #[error("it is a link that leads nowhere")]
+    DanglingLink,
+    /// The file's directory is missing.
+    #[error("its directory does not exist")]
+    NoDirectory,
+    /// What else the system says. The kind alone: the error itself would name the temporary file.
+    #[error("{0}")]
+    System(io::ErrorKind),
+}
+
+/// The longest file name of all usual file systems.
+const MAX_NAME_BYTES: usize = 255;
+
+/// Checks that a file can be written to `path`, before its content is made.
 ///
 /// # Errors
-/// [`OutputError::Path`], if `path` is a directory or a device, its name is impossible, or its directory is missing or
-/// read-only.
+/// [`OutputError::Path`] if `path` is a directory or a device, its name is impossible, or its directory is
+/// missing or read-only.
 pub fn check_writable(path: &Path) -> Result<(), OutputError> {
     begin(path).map(drop)
 }
 
-/// Writes what `fill` writes to `path`. The file appears whole under its name or not at all; one that was there before
-/// stays until then.
+/// Writes the output of `fill` to `path`, atomically: the file appears complete, and until then an existing one stays.
 ///
 /// # Errors
-/// [`OutputError::Path`] as [`check_writable`]; [`OutputError::Write`] with what the system said.
+/// [`OutputError::Path`] as [`check_writable`]; [`OutputError::Write`] with the system's error.
 pub fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
@@ -52,11 +83,11 @@ pub fn write_whole(
         fill(&mut buffer)?;
         buffer.flush()?;
         drop(buffer);
-        // Whoever could read the file before can still, and nobody else.
+        // The permissions of an existing file stay.
         if let Ok(before) = fs::metadata(&target) {
             file.as_file().set_permissions(before.permissions())?;
         }
-        // A disk that fills may say so only here.
+        // Some systems report a full disk only here.
         file.as_file().sync_all()?;
         file.persist(&target)?;
         Ok(())
@@ -64,17 +95,18 @@ pub fn write_whole(
     write().map_err(|source| OutputError::Write { path: path.to_owned(), source })
 }
 
-/// A name as part of a file's: what might mean something to a file system becomes a hyphen, and it is not too long.
+/// Makes a name safe as part of a file name: replaces characters with a meaning to file systems by hyphens, and cuts
+/// off long names.
 pub fn as_file_name(name: &str) -> String {
-    const LONGEST: usize = 60;
+    const MAX_NAME_CHARS: usize = 60;
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' };
-    let name: String = name.chars().take(LONGEST).map(plain).collect();
+    let name: String = name.chars().take(MAX_NAME_CHARS).map(plain).collect();
     // Files whose names begin with a dot are hidden.
     let name = name.trim_start_matches('.');
     if name.is_empty() { "picture".into() } else { name.into() }
 }
 
-/// Whether two paths name the same file, as far as can be told before both exist.
+/// Whether two paths name the same file, as far as this is known before both exist.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         let whole = fs::canonicalize(path);
@@ -85,36 +117,33 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     matches!((place(a), place(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// A temporary file beside the place where `path` is to be put, and that place.
+/// A temporary file beside the final path of `path`, and that path.
 fn begin(path: &Path) -> Result<(NamedTempFile, PathBuf), OutputError> {
-    let refuse = |why: String| OutputError::Path { path: path.to_owned(), why };
+    let refuse = |problem| OutputError::Path { path: path.to_owned(), problem };
     let target = target(path).map_err(refuse)?;
     let file = temporary_beside(&target).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => refuse("its directory does not exist".into()),
-        // Without the name of the temporary file, which means nothing to anybody.
-        kind => refuse(kind.to_string()),
+        io::ErrorKind::NotFound => refuse(PathProblem::NoDirectory),
+        kind => refuse(PathProblem::System(kind)),
     })?;
     Ok((file, target))
 }
 
-/// Where a file of that name is to be put: behind a link, the file that it leads to. Or why there can be none.
-fn target(path: &Path) -> Result<PathBuf, String> {
-    /// Of a name, in bytes, on every usual file system.
-    const LONGEST: usize = 255;
+/// The final path of a file: `path`, or behind a symbolic link the file that it leads to.
+fn target(path: &Path) -> Result<PathBuf, PathProblem> {
     let ends_as_directory = path.to_string_lossy().ends_with(std::path::is_separator);
     let Some(name) = path.file_name().filter(|_| !ends_as_directory) else {
-        return Err("it does not name a file".into());
+        return Err(PathProblem::NoFileName);
     };
-    if name.len() > LONGEST {
-        return Err(format!("its name is longer than {LONGEST} bytes"));
+    if name.len() > MAX_NAME_BYTES {
+        return Err(PathProblem::LongName);
     }
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err("it is a directory; name a file in it".into()),
-        // Renaming over a device would replace it.
-        Ok(found) if !found.is_file() => Err("it is not a regular file".into()),
-        Ok(found) if found.permissions().readonly() => Err("it is read-only".into()),
-        Ok(_) => fs::canonicalize(path).map_err(|error| error.kind().to_string()),
-        Err(_) if path.is_symlink() => Err("it is a link that leads nowhere".into()),
+        Ok(found) if found.is_dir() => Err(PathProblem::Directory),
+        // Renaming a file onto a device would replace the device.
+        Ok(found) if !found.is_file() => Err(PathProblem::NotRegular),
+        Ok(found) if found.permissions().readonly() => Err(PathProblem::ReadOnly),
+        Ok(_) => fs::canonicalize(path).map_err(|error| PathProblem::System(error.kind())),
+        Err(_) if path.is_symlink() => Err(PathProblem::DanglingLink),
         Err(_) => Ok(path.to_owned()),
     }
 }
@@ -123,14 +152,14 @@ fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// A temporary file in the directory of `path`, so that it can be renamed to it; it removes itself when dropped.
+/// A temporary file in the directory of `path`, so that it can be renamed to it. It is removed when dropped.
 fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".anel-").suffix(".part");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // Readable by others as far as the user's umask allows, not the private mode of temporary files.
+        // The umask decides who can read it; temporary files are private by default.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(directory_of(path))
@@ -143,7 +172,7 @@ mod tests {
 
     #[test]
     #[cfg(unix)]
-    fn a_device_is_never_replaced_and_a_link_is_followed() {
+    fn devices_are_kept_and_links_are_followed() {
         let directory = TempDir::new().unwrap();
         let at = |name: &str| directory.path().join(name);
         let write = |path: &Path| write_whole(path, |file| file.write_all(b"new"));
@@ -160,7 +189,7 @@ mod tests {
 
     #[test]
     #[cfg(unix)]
-    fn who_could_read_a_file_can_read_what_replaces_it() {
+    fn permissions_of_replaced_file_stay() {
         use std::os::unix::fs::PermissionsExt;
         let directory = TempDir::new().unwrap();
         let path = directory.path().join("file");
@@ -173,14 +202,14 @@ mod tests {
     }
 
     #[test]
-    fn a_name_leads_nowhere_else() {
+    fn as_file_name_removes_separators() {
         assert_eq!(as_file_name("a b/../é\n.ron"), "a-b-..-é-.ron");
         assert_eq!((as_file_name("../x"), as_file_name("..")), ("-x".into(), "picture".into()));
         assert!(as_file_name(&"x".repeat(3000)).len() < 100);
     }
 
     #[test]
-    fn the_same_file_is_known_by_any_path() {
+    fn is_same_file_resolves_paths() {
         let directory = TempDir::new().unwrap();
         fs::create_dir(directory.path().join("inner")).unwrap();
         let straight = directory.path().join("file");

@@ -1,36 +1,36 @@
-//! The nodes' colours, and what is not coloured on a light ground.
+//! The colours of the nodes, and the neutral colours of light backgrounds.
 //!
-//! Eight hues after Okabe and Ito, with two changes: their black is lost on a dark ground and their yellow on a
-//! light one, so a wine red (after Tol) and a deeper yellow stand in. They are ordered so that neighbours on the
-//! ring are far apart for people with any common kind of colour blindness; further nodes take the same hues
-//! lighter, darker and greyer. From the 33rd node on the colours repeat; the node's number is always beside them.
+//! The eight hues follow Okabe and Ito, with two changes: their black is invisible on a dark background and their
+//! yellow on a light one, so a wine red (after Tol) and a deeper yellow replace them. The order keeps neighbours on the
+//! ring distinct for people with any common kind of colour blindness. Further nodes have the same hues, lighter, darker
+//! and greyer. From the 33rd node on the colours repeat; the node's number is always shown too.
 
 /// 8-bit sRGB.
 pub type Rgb = [u8; 3];
 
-/// So many nodes have colours of their own.
-pub const DISTINCT: usize = 32;
+/// The number of distinct node colours.
+pub const DISTINCT_COLOURS: usize = 32;
 
-/// Nodes, in a ring of [`DISTINCT`], whose colours can be told apart wherever they meet in a chart, on a light ground
-/// and on a dark one, for people with any common kind of colour blindness.
-pub const CHART: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
+/// Nodes, in a ring of [`DISTINCT_COLOURS`], whose colours are distinct wherever they meet in a chart, on a light and
+/// on a dark background, for people with any common kind of colour blindness.
+pub const CHART_NODES: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
 
-/// What has no colour of its own.
+/// The neutral colours, and the accent, of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Neutral {
-    /// What everything lies on.
+    /// The background.
     pub ground: Rgb,
-    /// What to press first, and what was chosen.
+    /// The main button, and selected items.
     pub accent: Rgb,
-    /// Lines that order.
+    /// Separating lines and axes.
     pub hairline: Rgb,
     /// Text.
     pub text: Rgb,
-    /// Text that explains.
+    /// Explaining text.
     pub quiet: Rgb,
 }
 
-/// On a light screen.
+/// A light screen.
 pub const LIGHT: Neutral = Neutral {
     ground: [0xfa, 0xfb, 0xfc],
     accent: [0x5a, 0x46, 0xd6],
@@ -39,14 +39,14 @@ pub const LIGHT: Neutral = Neutral {
     quiet: [0x5b, 0x66, 0x75],
 };
 
-/// On white paper.
+/// White paper.
 pub const PRINT: Neutral = Neutral { ground: [0xff; 3], ..LIGHT };
 
 /// The colour of node `node` (from 0) in a ring of `nodes`.
 pub fn node_colour(node: usize, nodes: usize) -> Rgb {
     let last = nodes.saturating_sub(1);
-    // The last node is the first one's neighbour: where both would have the same hue, it changes places with
-    // the one four before it.
+    // The last node is the first one's neighbour. If both had the same hue, it swaps colours with the fourth node
+    // before it.
     let place = match node {
         _ if nodes % HUES != 1 || nodes == 1 => node,
         _ if node == last => last - HUES / 2,
@@ -56,35 +56,35 @@ pub fn node_colour(node: usize, nodes: usize) -> Rgb {
     COLOURS[place / HUES % COLOURS.len()][place % HUES]
 }
 
-/// The colours of all nodes of a ring of so many.
+/// The colours of all nodes of a ring of `nodes`.
 pub fn node_colours(nodes: usize) -> Vec<Rgb> {
     (0..nodes).map(|node| node_colour(node, nodes)).collect()
 }
 
-/// Black or white, whichever can be read better on `ground`.
+/// Black or white, whichever is easier to read on `ground`.
 pub fn text_on(ground: Rgb) -> Rgb {
     const BLACK: Rgb = [0x10, 0x12, 0x16];
     const WHITE: Rgb = [0xff; 3];
     if contrast(ground, WHITE) >= 3.4 { WHITE } else { BLACK }
 }
 
-/// The colour, only so much darker or lighter that text in it can be read on `ground`.
+/// The colour, made darker or lighter until text in it is easy to read on `ground`.
 pub fn readable(colour: Rgb, ground: Rgb) -> Rgb {
     let ink = text_on(ground);
     let mut towards = (0..20).map(|i| mix(colour, ink, i as f32 / 20.0));
     towards.find(|&mixed| contrast(mixed, ground) >= 4.5).unwrap_or(ink)
 }
 
-/// The contrast of two colours, from 1 (none) to 21 (WCAG 2).
+/// The contrast ratio of two colours, from 1 (none) to 21 (WCAG 2).
 pub fn contrast(one: Rgb, other: Rgb) -> f32 {
     let (one, other) = (luminance(one) + 0.05, luminance(other) + 0.05);
     one.max(other) / one.min(other)
 }
 
-/// `share` of the way from `from` to `to`, in sRGB as screens blend.
+/// Blends two colours in sRGB, as screens do: `share` is the part of `to`, 0 to 1.
 pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
     let share = share.clamp(0.0, 1.0);
-    // None is negative, so that this rounds to nearest, and needs no call for each of a picture's pixels.
+    // No value is negative, so this rounds to nearest. It needs no function call for each pixel of a picture.
     std::array::from_fn(|i| (f32::from(from[i]) + (f32::from(to[i]) - f32::from(from[i])) * share + 0.5) as u8)
 }
 
@@ -127,8 +127,8 @@ mod tests {
 
     type Matrix = [[f32; 3]; 3];
 
-    /// How people see: in full colour, and without red or green cones (Machado et al. 2009, severity 1).
-    const EYES: [Matrix; 3] = [
+    /// Colour vision: normal, without red cones, and without green cones (Machado et al. 2009, severity 1).
+    const VISIONS: [Matrix; 3] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152_286, 1.052_583, -0.204_868], [0.114_503, 0.786_281, 0.099_216], [-0.003_882, -0.048_116, 1.051_998]],
         [[0.367_322, 0.860_646, -0.227_968], [0.280_085, 0.672_501, 0.047_413], [-0.011_82, 0.042_94, 0.968_881]],
@@ -138,8 +138,8 @@ mod tests {
         matrix.map(|row| row.iter().zip(vector).map(|(m, v)| m * v).sum())
     }
 
-    /// Oklab (Ottosson 2020), in which equal distances look about equal; white is 1 away from black.
-    fn oklab(colour: Rgb, eye: Matrix) -> [f32; 3] {
+    /// Oklab (Ottosson 2020), in which equal distances look about equal; white is at distance 1 from black.
+    fn oklab(colour: Rgb, vision: Matrix) -> [f32; 3] {
         const LMS: Matrix = [
             [0.412_221_46, 0.536_332_55, 0.051_445_995],
             [0.211_903_5, 0.680_699_5, 0.107_396_96],
@@ -150,21 +150,21 @@ mod tests {
             [1.977_998_5, -2.428_592_2, 0.450_593_7],
             [0.025_904_037, 0.782_771_77, -0.808_675_77],
         ];
-        let seen = times(eye, linear(colour)).map(|v| v.clamp(0.0, 1.0));
+        let seen = times(vision, linear(colour)).map(|v| v.clamp(0.0, 1.0));
         times(LAB, times(LMS, seen).map(f32::cbrt))
     }
 
-    /// The distance as the eye that tells them apart worst sees it.
+    /// The distance of two colours for the kind of vision that distinguishes them worst.
     fn distance(one: Rgb, other: Rgb) -> f32 {
-        let apart = |eye| {
-            let pairs = oklab(one, eye).into_iter().zip(oklab(other, eye));
+        let difference = |vision| {
+            let pairs = oklab(one, vision).into_iter().zip(oklab(other, vision));
             pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
         };
-        EYES.map(apart).into_iter().fold(f32::INFINITY, f32::min)
+        VISIONS.map(difference).into_iter().fold(f32::INFINITY, f32::min)
     }
 
     #[test]
-    fn neighbours_are_far_apart_for_every_eye() {
+    fn neighbours_are_distinct_for_all_vision() {
         for nodes in 2..=100 {
             let least = if nodes == 8 { 0.15 } else { 0.08 };
             for node in 0..nodes {
@@ -176,8 +176,8 @@ mod tests {
     }
 
     #[test]
-    fn lines_in_a_chart_are_told_apart() {
-        let colours = CHART.map(|node| node_colour(usize::from(node), DISTINCT));
+    fn chart_lines_are_distinct() {
+        let colours = CHART_NODES.map(|node| node_colour(usize::from(node), DISTINCT_COLOURS));
         for (i, &one) in colours.iter().enumerate() {
             let seen = [contrast(one, PRINT.ground), contrast(one, [0x11, 0x14, 0x19])];
             assert!(seen.into_iter().all(|contrast| contrast >= 2.2), "{one:?} {seen:?}");
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn names_can_be_read_in_every_colour() {
+    fn readable_text_has_contrast() {
         for colour in COLOURS.into_iter().flatten() {
             for ground in [PRINT.ground, LIGHT.ground, [0x11, 0x14, 0x19]] {
                 let found = readable(colour, ground);
@@ -199,8 +199,8 @@ mod tests {
     }
 
     #[test]
-    fn so_many_nodes_have_colours_of_their_own() {
-        for nodes in 1..=DISTINCT {
+    fn first_32_nodes_have_distinct_colours() {
+        for nodes in 1..=DISTINCT_COLOURS {
             let mut colours = node_colours(nodes);
             colours.sort_unstable();
             colours.dedup();
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_can_be_read_on_every_colour() {
+    fn text_on_every_colour_has_contrast() {
         for colour in COLOURS.into_iter().flatten() {
             let found = contrast(colour, text_on(colour));
             assert!(found >= 3.4, "{colour:?} {found}");
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mix_keeps_its_ends() {
+    fn mix_has_exact_ends() {
         let (one, other) = ([0, 10, 255], [255, 20, 1]);
         assert_eq!((mix(one, other, 0.0), mix(one, other, 1.0), mix(one, other, 7.0)), (one, other, other));
     }

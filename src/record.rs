@@ -1,4 +1,4 @@
-//! What can happen in a run. Everything that a view or a study shows comes from records.
+//! Records: the things that can happen in a run. Everything that a view or a study shows comes from records.
 
 use std::time::Duration;
 
@@ -11,133 +11,133 @@ use crate::time::Time;
 /// One entry of the run log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// When it happened.
+    /// The time.
     pub at: Time,
-    /// What happened.
+    /// The kind of record, with its details.
     pub what: RecordKind,
 }
 
-/// What happened.
+/// Kind of a record, with its details.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RecordKind {
-    /// A message left; it can be drawn in flight from [`Record::at`] to `arrives`.
+    /// A message was sent; it is in flight from [`Record::at`] to `arrives`.
     ///
-    /// An offer is *sent* where `from` is the node that offers, else *passed on* (a hop). A transfer says that
-    /// an offer was *taken*: its receiver is the node that offered.
+    /// An offer is *sent* if `from` is the node that offers, else *passed on* (a hop). A transfer means that an offer
+    /// was *taken*: its receiver is the node that offered.
     Sent {
-        /// Names this message in the run; [`RecordKind::Received`] has the same.
+        /// Id of the message, unique in the run; [`RecordKind::Received`] and [`RecordKind::Lost`] refer to it.
         id: u64,
         /// The sender.
         from: Party,
         /// The receiver.
         to: Party,
-        /// What it says.
+        /// The message.
         message: Message,
-        /// Its weight on the wire ([`Message::bytes`]).
+        /// Its size on the wire ([`Message::bytes`]).
         bytes: u64,
-        /// When the link delivers it, always after [`Record::at`]; the receiver may handle it a little later.
+        /// When the link delivers it, always after [`Record::at`]. The receiver may handle it a little later.
         arrives: Time,
     },
-    /// A message was handled by its receiver.
+    /// A receiver has handled a message.
     Received {
-        /// Which one.
+        /// Id of the message.
         id: u64,
         /// The receiver.
         by: Party,
     },
-    /// The parent begins to sample what the picture costs.
+    /// The parent began to sample the cost of the picture.
     Estimating,
-    /// The parent has sampled what the picture costs, and sends bands by it.
+    /// The parent has sampled the cost of the picture, and sends bands of about equal cost.
     Estimated {
-        /// What the sample of each stretch cost ([`estimate`](crate::balance::estimate)), in CPU time of this computer.
+        /// Cost of each stretch's sample ([`estimate`](crate::balance::estimate)), in CPU time of this computer.
         costs: Vec<Duration>,
     },
     /// A worker began an atom.
     AtomStarted {
-        /// Whose worker.
+        /// The worker's node.
         node: NodeId,
-        /// Which atom.
+        /// The atom.
         atom: Atom,
     },
     /// A worker has traced an atom.
     AtomDone {
-        /// Whose worker.
+        /// The worker's node.
         node: NodeId,
-        /// Which atom.
+        /// The atom.
         atom: Atom,
-        /// The CPU time that it took on this computer, not the emulated machine's.
+        /// The CPU time on this computer, not on the emulated machine.
         cost: Duration,
     },
-    /// A node's speed was changed while the run went on.
+    /// The speed of a node was changed during the run.
     SpeedSet {
-        /// Which node.
+        /// The node.
         node: NodeId,
-        /// The new speed as a fraction of the reference machine; 0 stops its worker, not its messages.
+        /// The new speed as a fraction of the reference machine's; 0 stops the worker, not the messages.
         speed: f64,
     },
-    /// A node's worker was made to stand still while the run goes on; the node still answers messages.
+    /// The worker of a node was paused; the node still answers messages.
     Paused {
-        /// Which node.
+        /// The node.
         node: NodeId,
     },
-    /// The worker of a paused node goes on, at the node's speed.
+    /// The worker of a paused node continues, at the node's speed.
     Resumed {
-        /// Which node.
+        /// The node.
         node: NodeId,
     },
-    /// Something has become of a node's machine.
+    /// The condition of a node's machine changed.
     Condition {
-        /// Whose.
+        /// The node.
         node: NodeId,
-        /// How it is from now on.
+        /// The new condition.
         condition: Condition,
     },
-    /// The link between two parties was cut, in both directions, or mended.
+    /// The link between two parties was cut or restored, in both directions.
     Link {
-        /// One of the two.
+        /// One end of the link.
         one: Party,
-        /// The other.
+        /// The other end.
         other: Party,
-        /// Whether it is cut now.
+        /// Whether the link is cut now.
         cut: bool,
     },
-    /// The way from one party to another was held up: what would have arrived after [`Record::at`] arrives at `until`, and
-    /// nothing arrives before.
+    /// The messages from one party to another were delayed: those that would arrive after [`Record::at`] arrive at
+    /// `until` or later.
     Delayed {
-        /// Who sends it.
+        /// The sender.
         from: Party,
-        /// Who waits for it.
+        /// The receiver.
         to: Party,
-        /// Until when.
+        /// End of the delay.
         until: Time,
     },
-    /// A message would have arrived now, and is lost: its link is cut, or its receiver is off.
+    /// A message would have arrived now, but is lost: its link is cut, or its receiver is off.
     Lost {
-        /// Which one.
+        /// Id of the message.
         id: u64,
     },
     /// A worker has failed to trace an atom.
     AtomFailed {
-        /// Whose worker.
+        /// The worker's node.
         node: NodeId,
-        /// Which atom.
+        /// The atom.
         atom: Atom,
     },
-    /// The latency of all links was changed, for the messages that leave from now on.
+    /// The latency of all links was changed, for messages that leave from now on.
     LatencySet {
-        /// How long a message travels.
+        /// The new latency.
         latency: Duration,
     },
-    /// A node's own offer came back: it makes no more, or sleeps until it is woken, in the ring that adapts.
+    /// A node's own offer came back: the node makes no more offers, or, in the adaptive ring, sleeps until it is woken.
     Retired {
-        /// Which node.
+        /// The node.
         node: NodeId,
     },
     /// The parent has placed the last atom: the picture is complete.
     Finished,
     /// The run has failed: this atom cannot be traced.
     GivenUp {
-        /// Which atom.
+        /// The atom.
         atom: Atom,
     },
 }

@@ -1,42 +1,43 @@
-//! Text files that people write, in RON, and errors that say where.
+//! RON files that people write, and errors that say where.
 
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
+use thiserror::Error;
 
 use crate::sentence::shown;
 
-/// Larger files are none that somebody wrote.
+/// The greatest size of a file: people write none that is larger.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// Longer messages are cut off, in characters.
-const LONGEST_MESSAGE: usize = 400;
+/// The greatest length of a message, in characters; longer ones are cut off.
+const MAX_MESSAGE_CHARS: usize = 400;
 
-/// Why a file cannot be had: one sentence, with line, column and field where there are such.
+/// An error in a file: one sentence, with file, line, column and field where they are known.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
-    /// The file, once it is known.
+    /// The file's path, if known.
     pub file: Option<String>,
     /// Line and column, from 1.
-    pub place: Option<(usize, usize)>,
+    pub position: Option<(usize, usize)>,
     /// What is wrong, and what would be right.
     pub message: String,
 }
 
 impl FileError {
-    /// An error at a place, if that is known, in a file that is not. What a message repeats of a file may be of any kind
-    /// and length.
-    pub fn new(place: Option<(usize, usize)>, message: &str) -> Self {
-        Self { file: None, place, message: shown(message, LONGEST_MESSAGE) }
+    /// An error without a file name. `message` may repeat text of the file, of any kind and length: it is put on one
+    /// line and cut off.
+    pub fn new(position: Option<(usize, usize)>, message: &str) -> Self {
+        Self { file: None, position, message: shown(message, MAX_MESSAGE_CHARS) }
     }
 
-    /// The same, of a file.
-    pub fn of(self, file: &str) -> Self {
+    /// The same error with the file's path.
+    pub fn in_file(self, file: &str) -> Self {
         Self { file: Some(file.to_owned()), ..self }
     }
 }
@@ -46,7 +47,7 @@ impl fmt::Display for FileError {
         if let Some(file) = &self.file {
             write!(f, "{}: ", file.escape_debug())?;
         }
-        if let Some((line, column)) = self.place {
+        if let Some((line, column)) = self.position {
             write!(f, "line {line}, column {column}: ")?;
         }
         f.write_str(&self.message)
@@ -55,42 +56,87 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
-/// The text of a file. `what` it is to be stands in errors, as does what is said if there is none.
+/// Why the text of a file could not be read.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// There is no file at the path, and no built-in one of that name.
+    #[error("there is no such file, and no built-in {what} of that name (the built-in names are {known})")]
+    Missing {
+        /// What the file was to be.
+        what: &'static str,
+        /// The names of the built-in ones.
+        known: String,
+    },
+    /// The path cannot be looked up.
+    #[error("the file cannot be found: {0}")]
+    Find(io::Error),
+    /// The path names a directory.
+    #[error("this is a directory, not a {0} file")]
+    Directory(&'static str),
+    /// The path names a device, a pipe or a socket.
+    #[error("this is not a regular file")]
+    NotRegular,
+    /// The file cannot be opened.
+    #[error("the file cannot be opened: {0}")]
+    Open(io::Error),
+    /// Reading failed.
+    #[error("the file cannot be read: {0}")]
+    Read(io::Error),
+    /// Larger than 16 MiB.
+    #[error("the file is larger than {max} MiB, which is too large for a {0}", max = MAX_BYTES >> 20)]
+    TooLarge(&'static str),
+    /// The line of this number, from 1, is not UTF-8.
+    #[error("line {0}: the file is not text (UTF-8)")]
+    NotText(usize),
+}
+
+impl From<ReadError> for FileError {
+    fn from(error: ReadError) -> Self {
+        Self::new(None, &error.to_string())
+    }
+}
+
+/// Reads the text of a file. `what` names the kind of file in errors, and `built_in` lists the built-in ones for the
+/// error that there is no such file.
 ///
 /// # Errors
-/// A sentence.
-pub fn read(path: &Path, what: &str, none: impl FnOnce() -> String) -> Result<String, String> {
-    // Looked at before it is opened, since opening a pipe waits for somebody to write.
+/// A [`ReadError`], without the file's path.
+pub fn read<'a>(
+    path: &Path,
+    what: &'static str,
+    built_in: impl IntoIterator<Item = &'a str>,
+) -> Result<String, ReadError> {
+    // The kind of file is checked before it is opened, since opening a pipe waits for a writer.
     let data = fs::metadata(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => none(),
-        _ => format!("the file cannot be found: {error}"),
+        ErrorKind::NotFound => ReadError::Missing { what, known: built_in.into_iter().collect::<Vec<_>>().join(", ") },
+        _ => ReadError::Find(error),
     })?;
     if data.is_dir() {
-        return Err(format!("this is a directory, not a {what} file"));
+        return Err(ReadError::Directory(what));
     }
     if !data.is_file() {
-        return Err("this is not a regular file".into());
+        return Err(ReadError::NotRegular);
     }
-    let file = File::open(path).map_err(|error| format!("the file cannot be opened: {error}"))?;
+    let file = File::open(path).map_err(ReadError::Open)?;
     let mut bytes = Vec::new();
     // A file may grow while it is read.
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| format!("the file cannot be read: {error}"))?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(ReadError::Read)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(format!("the file is larger than {} MiB; that is no {what}", MAX_BYTES >> 20));
+        return Err(ReadError::TooLarge(what));
     }
     String::from_utf8(bytes).map_err(|error| {
         let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
-        format!("line {line}: the file is not text (UTF-8)")
+        ReadError::NotText(line)
     })
 }
 
-/// Reads the text of a file: `what` it is stands in errors, `least` what such a file needs at least, and `deep` what is to
-/// be done if it is nested too deep.
+/// Parses the text of a file. `what` names the kind of file in errors, `least` the parts that it needs, and `deep` is
+/// the error if its nesting is too deep.
 ///
 /// # Errors
-/// The first thing that is wrong, with its line, its column and its field.
+/// The first mistake, with its line, column and field.
 pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &str) -> Result<T, FileError> {
-    // Some editors begin a file with this mark.
+    // Some editors put a byte order mark at the beginning of a file.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
         return Err(FileError::new(None, &format!("the file is empty; a {what} needs at least {least}")));
@@ -98,25 +144,25 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
     let at = |position: ron::error::Position| Some((position.line, position.col));
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
     let mut reader = ron::Deserializer::from_str_with_options(text, &options)
-        .map_err(|wrong| FileError::new(at(wrong.span.end), &wrong.code.to_string()))?;
-    let file = serde_path_to_error::deserialize(&mut reader).map_err(|wrong| {
-        let field = field(wrong.path());
-        let spanned = reader.span_error(wrong.into_inner());
-        let place = at(spanned.span.end);
+        .map_err(|error| FileError::new(at(error.span.end), &error.code.to_string()))?;
+    let file = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let field = field(error.path());
+        let spanned = reader.span_error(error.into_inner());
+        let position = at(spanned.span.end);
         if spanned.code == ron::Error::ExceededRecursionLimit {
-            return FileError::new(place, deep);
+            return FileError::new(position, deep);
         }
-        FileError::new(place, &format!("{field}{}", spanned.code))
+        FileError::new(position, &format!("{field}{}", spanned.code))
     })?;
-    reader.end().map_err(|wrong| {
-        let spanned = reader.span_error(wrong);
-        FileError::new(at(spanned.span.end), &format!("something follows the end of the {what}"))
+    reader.end().map_err(|error| {
+        let spanned = reader.span_error(error);
+        FileError::new(at(spanned.span.end), &format!("something follows the end of the {what}; remove it"))
     })?;
     Ok(file)
 }
 
-/// How long the comment or the string is that begins here, if one does.
-pub fn skipped(rest: &str) -> Option<usize> {
+/// The length in bytes of the comment or string at the beginning of `rest`, if there is one.
+pub fn comment_or_string_length(rest: &str) -> Option<usize> {
     if rest.starts_with("//") {
         return Some(rest.find('\n').unwrap_or(rest.len()));
     }
@@ -134,45 +180,46 @@ pub fn skipped(rest: &str) -> Option<usize> {
     Some(rest.len())
 }
 
-/// Line and column, from 1, of the first string `name` outside comments.
+/// Finds the first string `name` outside comments. Returns line and column, from 1.
 pub fn find_name(text: &str, name: &str) -> Option<(usize, usize)> {
     let quoted = format!("\"{name}\"");
     let mut rest = text;
     while !rest.is_empty() {
         if rest.starts_with(&quoted) {
-            return Some(place(text, text.len() - rest.len()));
+            return Some(line_and_column(text, text.len() - rest.len()));
         }
-        let skipped = skipped(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
-        rest = &rest[skipped..];
+        let comment_or_string_length =
+            comment_or_string_length(rest).or_else(|| rest.chars().next().map(char::len_utf8)).unwrap_or(1);
+        rest = &rest[comment_or_string_length..];
     }
     None
 }
 
-/// Line and column, from 1, of what stands at a path: names of fields and entries, and numbers of a list's items, from 0.
-/// What cannot be found is where its surroundings are.
+/// Finds the value at a path of field names, map keys and list indices (from 0). Returns line and column, from 1, of
+/// the deepest part of the path that exists.
 pub fn find_path(text: &str, path: &[String]) -> Option<(usize, usize)> {
-    let found = path.iter().try_fold(0, |from, step| item(text, from, step).ok_or(from));
+    let found = path.iter().try_fold(0, |from, step| find_item(text, from, step).ok_or(from));
     let (Ok(at) | Err(at)) = found;
-    (at > 0).then(|| place(text, at))
+    (at > 0).then(|| line_and_column(text, at))
 }
 
-/// Line and column, from 1.
-fn place(text: &str, at: usize) -> (usize, usize) {
+/// The line and column, from 1, of a byte offset.
+fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     let before = &text[..at];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// Where an item of the first brackets after `from` begins.
-fn item(text: &str, from: usize, step: &str) -> Option<usize> {
+/// Finds an item of the first brackets after `from`. Returns its byte offset.
+fn find_item(text: &str, from: usize, step: &str) -> Option<usize> {
     let (mut at, mut depth, mut number) = (from, 0_usize, 0_usize);
     let (mut is_list, mut begins) = (false, false);
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let is_comment = rest.starts_with("//") || rest.starts_with("/*");
         if begins && !is_comment && !c.is_whitespace() {
-            let is_it = if is_list { step == number.to_string() } else { is_named(rest, step) };
-            if is_it {
+            let is_match = if is_list { step == number.to_string() } else { is_named(rest, step) };
+            if is_match {
                 return Some(at);
             }
             begins = false;
@@ -189,31 +236,31 @@ fn item(text: &str, from: usize, step: &str) -> Option<usize> {
             ',' if depth == 1 => (number, begins) = (number + 1, true),
             _ => {}
         }
-        at += skipped(rest).unwrap_or(c.len_utf8());
+        at += comment_or_string_length(rest).unwrap_or(c.len_utf8());
     }
     None
 }
 
-/// Whether a field or an entry of this name begins here.
+/// Whether `rest` begins with a field or a map entry of this name.
 fn is_named(rest: &str, name: &str) -> bool {
     let after = rest.strip_prefix(name).or_else(|| rest.strip_prefix('"')?.strip_prefix(name)?.strip_prefix('"'));
     after.is_some_and(|after| after.trim_start().starts_with(':'))
 }
 
-/// A field for a sentence, as in `object 2, Sphere.radius: `; people count from 1. Empty if there is none.
+/// Formats a path for an error, as in `object 2, Sphere.radius: `, with numbers from 1. Empty for an empty path.
 fn field(path: &serde_path_to_error::Path) -> String {
     let mut field = String::new();
     for segment in path {
         let name = match segment {
             Segment::Seq { index } => {
-                // One of several.
+                // The singular, for one item of a list.
                 let one = field.strip_suffix('s').unwrap_or(&field);
                 field = format!("{one} {}", index + 1);
                 continue;
             }
             Segment::Map { key } => key,
             Segment::Enum { variant } => variant,
-            // What was not read to its end has no name yet.
+            // A part that was not read to its end has no name yet.
             Segment::Unknown => continue,
         };
         let between = match field.chars().last() {
@@ -231,7 +278,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_at_a_path_is_found_past_comments_and_strings() {
+    fn find_path_skips_comments_and_strings() {
         let text = "A(\n  title: \"steps: [(\", // steps: [\n  steps: [(run: \"x\"), /* , */ (run : \"y\", at: (1, 2))],\n  \
                     of: {\"a b\": (n: 1)},\n)";
         let found = |path: &[&str]| find_path(text, &path.iter().map(|&step| step.to_owned()).collect::<Vec<_>>());

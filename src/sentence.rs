@@ -1,6 +1,6 @@
-//! What stands in a file, where a sentence about the file repeats it.
+//! Text of a file, quoted in a sentence.
 
-/// `text` as it can stand in a sentence: on one line, and cut off after so many characters.
+/// Makes `text` fit for a sentence: escapes control characters, and cuts it off after `longest` characters.
 pub fn shown(text: &str, longest: usize) -> String {
     let mut shown = String::new();
     for c in text.chars().take(longest) {
@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_shown_is_on_one_line_and_not_too_long() {
+    fn shown_text_is_on_one_line_and_cut_off() {
         assert_eq!(shown("a \"wheel\"\nof\tgold", 40), "a \"wheel\"\\nof\\tgold");
         assert_eq!(shown("fünf", 4), "fünf");
         assert_eq!(shown("fünfzehn", 4), "fünf…");

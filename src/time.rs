@@ -1,29 +1,29 @@
-//! Time as an argument: nothing below the drivers reads a clock.
+//! Points in time as values: no module below the drivers reads a clock.
 
 use std::ops::{Add, AddAssign, Sub};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-/// An instant, in nanoseconds since the run began.
+/// A point in time, in nanoseconds since the beginning of the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Time(pub u64);
 
 impl Time {
-    /// When the run began.
+    /// The beginning of the run.
     pub const ZERO: Self = Self(0);
 
-    /// The instant `secs` seconds after the run began, to the nearest nanosecond; negative and NaN count as 0.
+    /// The time `secs` seconds after the beginning, to the nearest nanosecond; negative values and NaN become 0.
     pub fn from_secs(secs: f64) -> Self {
         Self((secs * 1e9).round() as u64)
     }
 
-    /// Seconds since the run began.
+    /// Seconds since the beginning of the run.
     pub fn secs(self) -> f64 {
         self.0 as f64 * 1e-9
     }
 
-    /// How long after `earlier` this is; nothing if it is not after it.
+    /// The time from `earlier` to this; 0 if this is not after `earlier`.
     pub fn since(self, earlier: Self) -> Duration {
         Duration::from_nanos(self.0.saturating_sub(earlier.0))
     }

@@ -1,5 +1,5 @@
-//! The real window, on a display of its own: Xvfb shows it, xdotool drags a slider in it, ImageMagick's `import` takes
-//! its picture. Without these programs the test is skipped, loudly; where `CI` is set that is a failure.
+//! The real window on a virtual display: Xvfb shows it, xdotool drags a slider in it, ImageMagick's `import` takes its
+//! picture. Without these programs the test is skipped with a message, or fails if `CI` is set.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -12,11 +12,11 @@ use anel::record::RecordKind;
 use anel::runlog::RunLog;
 use image::RgbImage;
 
-/// What the test needs of this computer.
+/// The programs that the test needs.
 const PROGRAMS: [&str; 3] = ["Xvfb", "xdotool", "import"];
 
 #[test]
-fn the_window_shows_the_run_and_obeys() {
+fn window_shows_the_run_and_obeys_the_mouse() {
     let missing: Vec<_> = PROGRAMS.into_iter().filter(|program| !is_installed(program)).collect();
     if !missing.is_empty() {
         assert!(std::env::var_os("CI").is_none(), "not installed: {missing:?}");
@@ -31,7 +31,7 @@ fn the_window_shows_the_run_and_obeys() {
     display.wait_for_window();
     std::thread::sleep(Duration::from_secs(1));
 
-    // Node 1 from full speed to about a third, in steps, as a hand does.
+    // Node 1 from full speed to about a third, in steps as by hand.
     let slider = window.place("Speed of node 1");
     let y = slider.middle()[1];
     let from = slider.x + slider.width - slider.height / 2;
@@ -86,7 +86,7 @@ fn pixels(shot: &RgbImage, place: Place) -> impl Iterator<Item = [u8; 3]> {
     (top..bottom).flat_map(move |y| (left..right).map(move |x| shot.get_pixel(x, y).0))
 }
 
-/// An X server without a screen; it ends with the test.
+/// A virtual X server, closed on drop.
 struct Display {
     server: Child,
     name: String,
@@ -94,7 +94,7 @@ struct Display {
 
 impl Display {
     fn new() -> Self {
-        // The server chooses a free number itself and writes it down.
+        // The server chooses a free display number and writes it to its output.
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -112,7 +112,10 @@ impl Display {
         assert!(done.is_ok_and(|status| status.success()), "xdotool {arguments:?}");
     }
 
-    /// Waits until the window is there to be clicked; a window that never comes fails here instead of hanging.
+    /// Waits until the window is visible.
+    ///
+    /// # Panics
+    /// If that takes longer than a minute.
     fn wait_for_window(&self) {
         for _ in 0..600 {
             let search = ["search", "--onlyvisible", "--name", "^anel$"];
@@ -139,7 +142,7 @@ impl Drop for Display {
     }
 }
 
-/// Where a widget is, in pixels.
+/// The place of a widget, in pixels.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     x: i32,
@@ -169,7 +172,7 @@ impl Window {
             .env("DISPLAY", &display.name)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
-            // What earlier windows remembered must not count.
+            // Settings of earlier windows must not count.
             .env("HOME", home)
             .env("XDG_DATA_HOME", home)
             .env("ANEL_PLACES", "1")
@@ -183,11 +186,12 @@ impl Window {
         Self { program, lines, places: Vec::new() }
     }
 
-    /// Where the widget of this accessible name is now.
+    /// The current place of the widget with this accessible name.
     fn place(&mut self, name: &str) -> Place {
         let limit = Duration::from_secs(30);
         loop {
-            // First everything that is already there, since widgets may have moved; then wait for the first place.
+            // All lines so far are read first, since widgets may have moved; without a place yet, the next line is
+            // awaited.
             let known = self.places.iter().rposition(|(known, _)| known == name);
             let line = match known {
                 Some(known) => match self.lines.try_recv() {
@@ -211,7 +215,7 @@ impl Window {
             }
             std::thread::sleep(Duration::from_millis(50));
         }
-        panic!("the window does not close");
+        panic!("the window has not closed within half a minute");
     }
 }
 

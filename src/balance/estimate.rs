@@ -1,8 +1,9 @@
-//! Static bands by an estimate (§6.1): a coarse sample of what the picture costs, and bands that cost about the same.
+//! Static bands by an estimate (§6.1): the parent samples the cost of the picture, and divides it into bands of about
+//! equal cost.
 //!
-//! The picture is looked at as up to 64 equal stretches in scan order; in each, every 199th pixel is sampled. That is half
-//! a per cent of the whole work, which the parent does alone while all nodes wait: more pixels would make the estimate
-//! better and the wait longer.
+//! The picture is divided into up to 64 equal stretches in scan order; in each, every 199th pixel is sampled. That is
+//! half a per cent of the whole work. The parent does it alone while all nodes wait: more pixels would make the
+//! estimate better and the wait longer.
 
 use std::mem;
 use std::ops::Range;
@@ -10,21 +11,22 @@ use std::time::Duration;
 
 use crate::picture::{Atom, Division};
 
-/// One pixel in so many is sampled: a prime, or the samples of a picture might all lie in a few of its columns.
-const EVERY: u32 = 199;
-const MOST_STRETCHES: u32 = 64;
+/// Pixels from one sample to the next. A prime; otherwise the samples of a picture might all lie in a few of its
+/// columns.
+const SAMPLE_STEP_PIXELS: u32 = 199;
+const MAX_STRETCHES: u32 = 64;
 
-/// The pixels to be sampled (positions in scan order), by stretch; each stretch has at least one unless the picture is
-/// empty.
+/// Returns the pixels to sample (positions in scan order), by stretch. Each stretch has at least one, unless the
+/// picture is empty.
 pub fn samples(division: Division) -> impl ExactSizeIterator<Item = impl Iterator<Item = u32> + Clone> {
     let pixels = division.pixels_in(&(0..division.atoms()));
-    let stretches = (pixels / (2 * EVERY)).clamp(1, MOST_STRETCHES);
+    let stretches = (pixels / (2 * SAMPLE_STEP_PIXELS)).clamp(1, MAX_STRETCHES);
     let start = move |stretch: u32| (u64::from(pixels) * u64::from(stretch) / u64::from(stretches)) as u32;
-    (0..stretches).map(move |stretch| (start(stretch)..start(stretch + 1)).step_by(EVERY as usize))
+    (0..stretches).map(move |stretch| (start(stretch)..start(stretch + 1)).step_by(SAMPLE_STEP_PIXELS as usize))
 }
 
-/// A band for each of `nodes` nodes, if the samples of equal stretches cost so much: consecutive, and together all atoms.
-/// Where nothing is known to cost anything, the bands are equal.
+/// Returns a band for each of `nodes` nodes, of about equal cost by the sampled `costs` of the stretches. The bands are
+/// consecutive and together hold all atoms. If all costs are 0, the bands have equal sizes.
 pub(super) fn bands(costs: &[Duration], division: Division, nodes: usize) -> Vec<Range<Atom>> {
     let total: Duration = costs.iter().sum();
     if total.is_zero() {
@@ -64,11 +66,11 @@ mod tests {
             prop_assert!(all.iter().all(|stretch| !stretch.is_empty()));
             let flat = all.concat();
             prop_assert!(flat.is_sorted_by(|a, b| a < b) && flat.iter().all(|&pixel| pixel < pixels));
-            prop_assert!(flat.len() as u32 <= pixels / EVERY + 64 + 1);
+            prop_assert!(flat.len() as u32 <= pixels / SAMPLE_STEP_PIXELS + 64 + 1);
         }
 
         #[test]
-        fn bands_hold_every_atom_once_and_cost_about_the_same(
+        fn bands_hold_every_atom_once_and_have_about_equal_cost(
             costs in prop::collection::vec(0u64..1000, 1..64), nodes in 1usize..40, pixels in 1u32..100_000,
         ) {
             let division = Division::new(pixels, 50);
@@ -77,7 +79,7 @@ mod tests {
             prop_assert_eq!(bands.len(), nodes);
             prop_assert_eq!((bands[0].start, bands[nodes - 1].end), (0, division.atoms()));
             prop_assert!(bands.windows(2).all(|pair| pair[0].end == pair[1].start));
-            // What a band costs, if each atom of a stretch costs the same.
+            // The cost of a band, if all atoms of a stretch cost the same.
             let total: f64 = costs.iter().map(Duration::as_secs_f64).sum();
             let a_stretch = f64::from(division.atoms()) / costs.len() as f64;
             let dearest = costs.iter().max().unwrap().as_secs_f64() / a_stretch;

@@ -1,62 +1,63 @@
-//! The parent's ledger, in the ring that adapts: who was heard of when, and when each atom was last known to be with somebody.
+//! The parent's ledger in the adaptive ring: when the parent last heard of each node, and when a node last vouched for
+//! each atom.
 //!
-//! One rule mends every loss, of a machine, of a message or of a machine's memory: an atom that is missing from the picture, and
-//! that nobody has vouched for during a lease, goes back to the pool, and whoever is idle gets some of it. Should it be traced
-//! twice after all, the first result counts.
+//! One rule repairs every loss, of a machine, of a message or of a machine's memory: an atom that is missing from the
+//! picture and that no node has vouched for during a lease goes back to the pool, and idle nodes get the atoms of the
+//! pool. If an atom is traced twice after all, the first result counts.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::time::Duration;
 
 use super::message::{Action, Message, NodeId, Party};
-use super::strategy::LEASE;
+use super::strategy::LEASE_BEATS;
 use crate::picture::{Atom, atoms_in, push_atom};
 use crate::time::Time;
 
-/// An atom that so many workers failed to trace makes the run fail.
-const MOST_FAILURES: u8 = 3;
+/// Failures to trace the same atom that make the run fail.
+const MAX_ATOM_FAILURES: u8 = 3;
 
-/// For so many beats a long delay is remembered, and up to twice as many.
-const MEMORY: u32 = 256;
+/// Beats for which a long delay is remembered at least; at most it is twice as many.
+const DELAY_MEMORY_BEATS: u32 = 256;
 
-/// What the parent knows of nodes and atoms.
+/// The parent's knowledge of nodes and atoms.
 #[derive(Debug)]
 pub(super) struct Ledger {
     beat: Duration,
     nodes: Vec<LedgerEntry>,
-    /// By atom: when somebody was last known to have it; `None` if nobody is known to.
+    /// By atom: when a node last vouched for it; `None` if a worker has failed to trace it.
     held: Vec<Option<Time>>,
-    /// What nobody has had for a lease, as far as was looked.
+    /// Atoms that no node has vouched for during a lease, as of the last search.
     pool: Vec<Range<Atom>>,
-    /// No other atom can be lost before this time.
+    /// No other atom can count as lost before this time.
     next_lost: Time,
     failures: BTreeMap<Atom, u8>,
-    /// How long messages have taken at most, in this stretch of time and in the one before: one that was held up for long does
-    /// not count for ever.
+    /// Longest delay of a beat in this period of [`DELAY_MEMORY_BEATS`] and in the period before, so that one long
+    /// delay does not count for ever.
     delays: [Duration; 2],
-    /// When the next stretch begins.
-    forgets: Time,
+    /// When the next period begins.
+    next_period: Time,
 }
 
 #[derive(Clone, Debug)]
 struct LedgerEntry {
-    /// `None` until the node's first beat.
+    /// When the parent last heard of the node; `None` until its first message.
     heard: Option<Time>,
     idle: bool,
     gone: bool,
-    /// When one that is gone was asked back last.
-    asked: Time,
-    /// One that was never there is not asked back.
+    /// When the parent last invited the node back, if it is gone.
+    invited: Time,
+    /// Whether the node was off from the start. It is not invited: it asks to be let in.
     spare: bool,
 }
 
 impl Ledger {
-    /// A ledger of so many nodes, of which the last are spares that are not there yet, and so many atoms, all of which are with
-    /// their nodes at the start.
+    /// Creates the ledger of `nodes` nodes and `atoms` atoms. The last `spares` nodes have not joined yet. At the start
+    /// all atoms are with their nodes.
     pub fn new(beat: Duration, (nodes, spares): (NodeId, NodeId), atoms: Atom) -> Self {
         let entry = |node| {
             let spare = node + spares >= nodes;
-            LedgerEntry { heard: None, idle: false, gone: spare, asked: Time::ZERO, spare }
+            LedgerEntry { heard: None, idle: false, gone: spare, invited: Time::ZERO, spare }
         };
         Self {
             beat,
@@ -66,34 +67,35 @@ impl Ledger {
             next_lost: Time::ZERO,
             failures: BTreeMap::new(),
             delays: [Duration::ZERO; 2],
-            forgets: Time::ZERO + beat * MEMORY,
+            next_period: Time::ZERO + beat * DELAY_MEMORY_BEATS,
         }
     }
 
-    /// The parent looks at its ledger at every beat.
-    pub fn next_look(&self, now: Time) -> Time {
+    /// Returns when the parent should next call [`Ledger::check`]: one beat later.
+    pub fn next_check(&self, now: Time) -> Time {
         now + self.beat
     }
 
-    /// The bands leave now.
+    /// Notes that the bands leave at `now`, and announces the spare nodes as gone.
     pub fn start(&mut self, now: Time, actions: &mut Vec<Action>) {
         self.held.fill(Some(now));
         if self.nodes.iter().any(|entry| entry.spare) {
-            self.tell_who_is_gone(actions);
+            self.announce_gone(actions);
         }
     }
 
-    /// A node has been heard of; if it was gone, it is back, and all are told.
-    pub fn hear(&mut self, now: Time, node: NodeId, actions: &mut Vec<Action>) {
+    /// Notes a message of `node`. If the node was gone, it is back, and all nodes are told.
+    pub fn note_heard(&mut self, now: Time, node: NodeId, actions: &mut Vec<Action>) {
         let entry = &mut self.nodes[usize::from(node)];
         entry.heard = Some(now);
         entry.spare = false;
         if std::mem::take(&mut entry.gone) {
-            self.tell_who_is_gone(actions);
+            self.announce_gone(actions);
         }
     }
 
-    /// A node says what it has and vouches for.
+    /// Notes a node's beat: the atoms that it `holds` and vouches for, and whether it is `idle`. Tells it which of
+    /// these atoms are in the picture already.
     pub fn beat(
         &mut self,
         now: Time,
@@ -115,28 +117,29 @@ impl Ledger {
         if !done.is_empty() {
             actions.push(Action::Send { to: Party::Node(node), message: Message::Placed(done) });
         }
-        self.look_for_lost(now, placed, actions);
+        self.reclaim_lost(now, placed, actions);
     }
 
-    /// A worker has failed to trace an atom: it is tried elsewhere, unless it has failed too often.
-    pub fn failed(&mut self, now: Time, atom: Atom, placed: &[bool], actions: &mut Vec<Action>) {
-        // A copy of it may have been traced all the same.
+    /// Notes that a worker has failed to trace an atom: another node gets it, or the run fails after
+    /// [`MAX_ATOM_FAILURES`].
+    pub fn atom_failed(&mut self, now: Time, atom: Atom, placed: &[bool], actions: &mut Vec<Action>) {
+        // A copy of the atom may have been traced by another node.
         if placed[atom as usize] {
             return;
         }
         let failures = self.failures.entry(atom).or_default();
         *failures += 1;
-        if *failures >= MOST_FAILURES {
+        if *failures >= MAX_ATOM_FAILURES {
             actions.push(Action::Fail(atom));
         } else {
             self.held[atom as usize] = None;
             self.pool.push(atom..atom + 1);
-            self.give_out(now, placed, actions);
+            self.hand_out_pool(now, placed, actions);
         }
     }
 
-    /// A machine has begun anew, or may have, and knows nothing.
-    pub fn ask_in(&mut self, node: NodeId, actions: &mut Vec<Action>) {
+    /// Lets `node` into the ring, or invites it back: a machine that has started afresh knows neither band nor ring.
+    pub fn invite(&mut self, node: NodeId, actions: &mut Vec<Action>) {
         let to = Party::Node(node);
         actions.push(Action::Send { to, message: Message::Band(0..0) });
         let gone = self.gone();
@@ -145,37 +148,37 @@ impl Ledger {
         }
     }
 
-    /// Looks who has been silent for too long, and which atoms nobody has.
-    pub fn look(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
-        if now > self.forgets {
+    /// Finds nodes that have been silent for a lease, which are gone, and atoms that no node vouches for.
+    pub fn check(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
+        if now > self.next_period {
             self.delays = [Duration::ZERO, self.delays[0]];
-            self.forgets = now + self.beat * MEMORY;
+            self.next_period = now + self.beat * DELAY_MEMORY_BEATS;
         }
         let lease = self.lease();
         let mut changed = false;
         for entry in self.nodes.iter_mut().filter(|entry| !entry.gone) {
-            // Until its first beat the scene may be on its way to it.
-            let patience = if entry.heard.is_some() { lease } else { lease * LEASE };
+            // Before a node's first beat the scene may still travel to it.
+            let patience = if entry.heard.is_some() { lease } else { lease * LEASE_BEATS };
             if now.since(entry.heard.unwrap_or_default()) > patience {
-                (entry.gone, entry.asked, changed) = (true, now, true);
+                (entry.gone, entry.invited, changed) = (true, now, true);
             }
         }
         if changed {
-            self.tell_who_is_gone(actions);
+            self.announce_gone(actions);
         }
-        // What made them gone may be over, and whoever begins anew may not have been heard.
+        // The failure may be over, and the request of a node that has started afresh may be lost.
         for node in 0..self.nodes.len() {
             let entry = &mut self.nodes[node];
-            if entry.gone && !entry.spare && now.since(entry.asked) > lease {
-                entry.asked = now;
-                self.ask_in(node as NodeId, actions);
+            if entry.gone && !entry.spare && now.since(entry.invited) > lease {
+                entry.invited = now;
+                self.invite(node as NodeId, actions);
             }
         }
-        self.look_for_lost(now, placed, actions);
+        self.reclaim_lost(now, placed, actions);
     }
 
-    /// If somebody is idle, looks for atoms that nobody has, and gives them out.
-    fn look_for_lost(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
+    /// If a node is idle, finds the atoms that no node has vouched for during a lease, and hands them out.
+    fn reclaim_lost(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
         if !self.nodes.iter().any(|entry| entry.idle && !entry.gone) {
             return;
         }
@@ -190,15 +193,16 @@ impl Ledger {
                 }
             }
         }
-        self.give_out(now, placed, actions);
+        self.hand_out_pool(now, placed, actions);
     }
 
+    /// Returns the lease: four beats and twice the longest delay seen lately.
     fn lease(&self) -> Duration {
-        self.beat * LEASE + self.delays[0].max(self.delays[1]) * 2
+        self.beat * LEASE_BEATS + self.delays[0].max(self.delays[1]) * 2
     }
 
-    /// Gives each idle node an equal part of the pool; the ring shares it on.
-    fn give_out(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
+    /// Hands each idle node an equal part of the pool; the ring shares it further.
+    fn hand_out_pool(&mut self, now: Time, placed: &[bool], actions: &mut Vec<Action>) {
         let mut idle = self.nodes.iter().filter(|entry| entry.idle && !entry.gone).count().max(1) as u32;
         for node in 0..self.nodes.len() {
             if self.pool.is_empty() {
@@ -207,7 +211,7 @@ impl Ledger {
             let LedgerEntry { idle: true, gone: false, .. } = self.nodes[node] else { continue };
             let count = atoms_in(&self.pool).div_ceil(idle);
             idle = (idle - 1).max(1);
-            let again = self.take(now, count, placed);
+            let again = self.take_from_pool(now, count, placed);
             if !again.is_empty() {
                 self.nodes[node].idle = false;
                 actions.push(Action::Send { to: Party::Node(node as NodeId), message: Message::Again(again) });
@@ -215,12 +219,11 @@ impl Ledger {
         }
     }
 
-    /// The first `count` atoms of the pool that are missing still.
-    fn take(&mut self, now: Time, count: u32, placed: &[bool]) -> Vec<Range<Atom>> {
+    /// Takes the first `count` atoms of the pool that are still missing and that no node has vouched for meanwhile.
+    fn take_from_pool(&mut self, now: Time, count: u32, placed: &[bool]) -> Vec<Range<Atom>> {
         let (mut taken, mut rest, mut left) = (Vec::new(), Vec::new(), count);
         let lease = self.lease();
         for atom in std::mem::take(&mut self.pool).into_iter().flatten() {
-            // Somebody may have got it meanwhile, or vouched for it.
             if placed[atom as usize] || self.held[atom as usize].is_some_and(|held| now.since(held) <= lease) {
                 continue;
             }
@@ -236,17 +239,18 @@ impl Ledger {
         taken
     }
 
+    /// Returns the nodes that are gone.
     fn gone(&self) -> Vec<NodeId> {
         (0..).zip(&self.nodes).filter(|(_, entry)| entry.gone).map(|(node, _)| node).collect()
     }
 
-    fn tell_who_is_gone(&self, actions: &mut Vec<Action>) {
-        tell_who_is_gone(self.nodes.len() as NodeId, &self.gone(), actions);
+    fn announce_gone(&self, actions: &mut Vec<Action>) {
+        announce_gone(self.nodes.len() as NodeId, &self.gone(), actions);
     }
 }
 
-/// Tells those who are there whom offers are to pass over.
-pub(super) fn tell_who_is_gone(nodes: NodeId, gone: &[NodeId], actions: &mut Vec<Action>) {
-    let there = (0..nodes).filter(|node| !gone.contains(node));
-    actions.extend(there.map(|node| Action::Send { to: Party::Node(node), message: Message::Gone(gone.to_vec()) }));
+/// Tells all nodes of the ring which nodes are gone, so that offers pass over these.
+pub(super) fn announce_gone(nodes: NodeId, gone: &[NodeId], actions: &mut Vec<Action>) {
+    let members = (0..nodes).filter(|node| !gone.contains(node));
+    actions.extend(members.map(|node| Action::Send { to: Party::Node(node), message: Message::Gone(gone.to_vec()) }));
 }

@@ -1,4 +1,5 @@
-//! What parties say to each other, what happens to them, and what they ask of their driver.
+//! The protocol's vocabulary: messages between parties, events that happen to a party, and actions that it asks of its
+//! driver.
 
 use std::ops::Range;
 use std::slice;
@@ -9,106 +10,110 @@ use serde::{Deserialize, Serialize};
 use crate::picture::{Atom, Division};
 use crate::time::Time;
 
-/// A node's place in the ring, from 0. The left neighbour of node `i` of `n` is `(i + n - 1) % n`.
+/// Number of a node: its place in the ring, from 0. The left neighbour of node `i` of `n` is `(i + n - 1) % n`.
 pub type NodeId = u16;
 
-/// Whoever can send and receive.
+/// A sender or receiver of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Party {
-    /// Hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm, and of what is lost.
+    /// Hands out bands once, assembles the picture and sends the shutdown. It decides nothing else, except in a farm
+    /// and about lost atoms.
     Parent,
-    /// One machine of the ring.
+    /// One node of the ring.
     Node(NodeId),
 }
 
-/// A message. Pixels are not part of it: the driver carries them along with [`Message::Results`].
+/// A message. Pixels are not part of it: the driver carries them with [`Message::Results`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Message {
-    /// The parent gives a node the scene and its first share; it may be empty.
+    /// From the parent: the scene, and the node's first atoms, which may be none.
     Band(Range<Atom>),
-    /// In a farm: the sender has no more atoms and asks the parent for some.
+    /// To the parent: in a farm, the sender has no more atoms and asks for some; in the adaptive ring, it has started
+    /// afresh and asks to be let in.
     Request,
-    /// In a farm: the parent's answer, consecutive atoms; an empty one says that there are no more.
+    /// In a farm: the parent's answer, consecutive atoms; an empty range says that there are no more.
     Part(Range<Atom>),
-    /// The token: `who` is done, and has traced `done` atoms since the start.
+    /// The token: node `who` has no more atoms, and has traced `done` atoms since the start.
     Offer {
-        /// The node that offers; the sender is another node where the offer is passed on.
+        /// The node that offers; the sender is another node if the offer is passed on.
         who: NodeId,
-        /// Atoms that it has traced since the start.
+        /// Number of atoms that it has traced since the start.
         done: u32,
-        /// What an offer says besides in the ring that adapts; nothing in the article's.
+        /// Details of an offer in the adaptive ring; `None` in the article's.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        help: Option<Helper>,
+        help: Option<OfferDetails>,
     },
     /// Atoms sent straight to the node that offered.
     Transfer(Vec<Range<Atom>>),
     /// Traced atoms on their way to the parent, in the order in which they were traced.
     Results(Vec<Range<Atom>>),
-    /// Adaptive: atoms to be traced once more, since whoever has them is late with them or lost. The sender does not know
-    /// that they are not being traced elsewhere; the first result counts.
+    /// Adaptive: atoms to trace once more, since the node that has them is late or lost. They may still be traced
+    /// there; the first result counts.
     Again(Vec<Range<Atom>>),
-    /// Adaptive: the sender has atoms to give, and knows that the receiver sleeps, or did.
+    /// Adaptive: the sender has atoms to give, and the receiver sleeps, as far as the sender knows.
     Wake,
-    /// Adaptive: what a node tells the parent at every beat.
+    /// Adaptive: a node's heartbeat to the parent.
     Beat {
-        /// The atoms that it has and vouches for: those that wait, those in the pipe, and those traced but not yet sent.
+        /// The atoms that the node holds and vouches for: those in the queue, those in the pipe, and those traced but
+        /// not sent.
         holds: Vec<Range<Atom>>,
-        /// Whether it has none at all.
+        /// Whether queue and pipe are empty.
         idle: bool,
         /// When it was sent, by the sender's clock.
         sent: Time,
     },
-    /// Adaptive: the parent says which nodes are not in the ring; all others are.
+    /// Adaptive, from the parent: the nodes that are not in the ring; all others are.
     Gone(Vec<NodeId>),
-    /// Adaptive: the parent says of atoms that the receiver still has that they are in the picture.
+    /// Adaptive, from the parent: atoms that the receiver holds and that are in the picture already.
     Placed(Vec<Range<Atom>>),
-    /// Adaptive: the sender's worker has failed to trace the atom, which has left it.
+    /// Adaptive: the sender's worker has failed to trace this atom; the sender does not hold it any more.
     Failed(Atom),
     /// The parent's last message.
     Shutdown,
 }
 
-/// What an offer says in the ring that adapts.
+/// Details of an offer in the adaptive ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Helper {
-    /// How fast the offerer is, in millionths of the reference machine; 0 if it has not traced anything yet.
+pub struct OfferDetails {
+    /// Speed of the offerer in millionths of the reference machine's; 0 if it has not traced any atom yet.
     pub speed: u32,
     /// When the offer was made, by the offerer's clock.
     pub sent: Time,
-    /// Which of its stops this is.
+    /// The number of this stop among the offerer's stops, from 0.
     pub stop: u16,
-    /// How many stops come after this one, before it is back; `None`: it stays here, and its node sleeps.
+    /// Number of stops after this one, before the offer is back; `None`: the offer stays here as a notice that its node
+    /// sleeps.
     pub left: Option<u16>,
 }
 
-impl Helper {
-    /// A speed in millionths: at least one, unless it is not known.
+impl OfferDetails {
+    /// Converts a speed to millionths: at least 1, or 0 if the speed is unknown.
     pub fn millionths(speed: f64) -> u32 {
         if speed > 0.0 { ((speed * 1e6).round() as u32).max(1) } else { 0 }
     }
 
-    /// How fast the offerer is; 0 if that is not known.
+    /// Returns the speed of the offerer as a fraction of the reference machine's; 0 if unknown.
     pub fn speed(self) -> f64 {
         f64::from(self.speed) * 1e-6
     }
 }
 
 impl Message {
-    /// The offer of the article's ring.
+    /// Creates an offer of the article's ring.
     pub fn offer(who: NodeId, done: u32) -> Self {
         Self::Offer { who, done, help: None }
     }
 
-    /// How many atoms `from` has traced, if this is its own offer, and not one that stays with its receiver.
+    /// Returns how many atoms `from` has traced, if this is its own offer and not a sleep notice.
     pub fn own_offer(&self, from: NodeId) -> Option<u32> {
         match *self {
-            Self::Offer { help: Some(Helper { left: None, .. }), .. } => None,
+            Self::Offer { help: Some(OfferDetails { left: None, .. }), .. } => None,
             Self::Offer { who, done, .. } => (who == from).then_some(done),
             _ => None,
         }
     }
 
-    /// The atoms that it is about: to be traced, or traced.
+    /// Returns the atoms that the message carries, to be traced or traced.
     pub fn ranges(&self) -> &[Range<Atom>] {
         match self {
             Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
@@ -118,19 +123,19 @@ impl Message {
         }
     }
 
-    /// What the message would weigh on a wire, in bytes: 16 for the envelope, 8 a range of atoms, 12 a traced
-    /// pixel (three 32-bit floats), and the scene's text with a band.
+    /// Returns the size of the message on a wire in bytes: 16 for the envelope, 8 for each range of atoms, 12 for each
+    /// traced pixel (three 32-bit floats), and the scene's text with a band.
     pub fn bytes(&self, division: Division, scene_bytes: u64) -> u64 {
         const ENVELOPE: u64 = 16;
         const RANGE: u64 = 8;
         const PIXEL: u64 = 12;
-        const HELP: u64 = 16;
+        const DETAILS: u64 = 16;
         const NODE: u64 = 2;
         ENVELOPE
             + match self {
                 Self::Band(_) => RANGE + scene_bytes,
                 Self::Part(_) => RANGE,
-                Self::Offer { help: Some(_), .. } => HELP,
+                Self::Offer { help: Some(_), .. } => DETAILS,
                 Self::Offer { .. } | Self::Request | Self::Wake | Self::Shutdown => 0,
                 Self::Transfer(ranges) | Self::Again(ranges) | Self::Placed(ranges) => RANGE * ranges.len() as u64,
                 Self::Beat { holds, .. } => RANGE * (1 + holds.len() as u64),
@@ -144,59 +149,60 @@ impl Message {
     }
 }
 
-/// What happens to a party.
+/// An event that happens to a party.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The run begins: the parent's first event. Of nodes only one whose machine begins anew while the run goes on is
-    /// handed it: it knows nothing of what was before.
+    /// The run starts: the parent's first event. A node gets this event only when its machine starts afresh during the
+    /// run; it then knows nothing of the time before.
     Started,
-    /// The parent has what it asked for with [`Action::Estimate`]: what the sample of each stretch costs
-    /// ([`estimate`](super::estimate)), in CPU time.
+    /// The answer to [`Action::Estimate`]: the cost of each stretch's sample ([`estimate`](super::estimate)), in CPU
+    /// time.
     Estimated(Vec<Duration>),
     /// A message has arrived.
     Message {
-        /// Who sent it (not who wrote it: an offer may have been passed on).
+        /// The sender; of an offer that was passed on, the node that passed it on.
         from: Party,
-        /// What it says.
+        /// The message.
         message: Message,
     },
     /// The node's worker has traced an atom.
     AtomDone {
-        /// Which one.
+        /// The atom.
         atom: Atom,
-        /// The CPU time that it took; at full speed only an estimate, since the record gets the final one.
+        /// The CPU time that it took; at full speed an estimate, since only the record gets the final value.
         cost: Duration,
     },
-    /// The node's worker has failed to trace an atom, which is out of its pipe: only a node of the ring that adapts goes on.
+    /// The node's worker has failed to trace an atom, which has left the pipe. Only a node of the adaptive ring handles
+    /// this.
     AtomFailed {
-        /// Which one.
+        /// The atom.
         atom: Atom,
     },
-    /// The time asked for with [`Action::SetTimer`] has come.
+    /// The time set with [`Action::SetTimer`] has come.
     Timer,
 }
 
-/// What a party asks of its driver.
+/// An action that a party asks of its driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Send a message.
     Send {
-        /// To whom; a node may be its own left neighbour.
+        /// The receiver; a node alone in the ring is its own left neighbour.
         to: Party,
-        /// What.
+        /// The message.
         message: Message,
     },
-    /// Only the parent's: trace a coarse sample of the picture to learn what it costs, and hand over
-    /// [`Event::Estimated`] when that is done. It takes the parent as long as it takes the reference machine.
+    /// Parent only: trace a coarse sample of the picture to estimate its cost, then hand over [`Event::Estimated`]. It
+    /// takes the parent as long as the reference machine.
     Estimate,
-    /// Put an atom into the worker's pipe; atoms are traced in the order in which they are put in.
+    /// Put an atom into the worker's pipe. The worker traces atoms in this order.
     Trace(Atom),
-    /// Hand the party [`Event::Timer`] at this time; a later one replaces it.
+    /// Hand the party [`Event::Timer`] at this time. A later `SetTimer` replaces this one.
     SetTimer(Time),
-    /// The node is retired (its own offer came back), or sleeps: a note for the records, nothing to do.
+    /// Record that the node has retired (its own offer came back), or sleeps. There is nothing else to do.
     Retire,
-    /// The party has nothing more to do: its thread may end.
+    /// End the party: it has nothing more to do.
     Finish,
-    /// Only the parent's: the run has failed, since this atom cannot be traced.
+    /// Parent only: end the run as failed, since this atom cannot be traced.
     Fail(Atom),
 }

@@ -1,7 +1,7 @@
-//! How atoms are shared among nodes, as a protocol that touches no thread, clock, channel or colour.
+//! The protocol that shares atoms among nodes. It does no I/O: it uses no thread, clock, channel or colour.
 //!
-//! A party is handed an [`Event`] and the time, and answers with [`Action`]s; a driver carries them out. The
-//! parties are one [`Parent`] and its nodes; what a node does is its [`Strategy`].
+//! The parties are one [`Parent`] and its nodes. A driver hands a party an [`Event`] and the time; the party answers
+//! with [`Action`]s, which the driver executes. The [`Strategy`] decides how nodes answer.
 
 pub mod adaptive;
 mod condition;
@@ -17,8 +17,9 @@ mod static_node;
 mod strategy;
 mod work;
 
-pub use condition::Condition;
-pub use message::{Action, Event, Helper, Message, NodeId, Party};
+pub use condition::{Condition, Transition};
+pub use message::{Action, Event, Message, NodeId, OfferDetails, Party};
 pub use parent::Parent;
-pub use remedy::{Remedies, Remedy};
-pub use strategy::{Node, Rules, Strategy};
+pub use remedy::{Remedies, Remedy, UnknownRemedy};
+pub use strategy::{Node, Rules, Strategy, UnknownStrategy};
+pub use work::PIPE_ATOMS;

@@ -1,11 +1,11 @@
-//! The parent (§8): hands out bands once, assembles the picture, sends shutdown; decides nothing else, but in a farm,
-//! and in the ring that adapts of what is lost.
+//! The parent (§8): it hands out bands once, assembles the picture and sends the shutdown. It decides nothing else,
+//! except in a farm, and about lost atoms in the adaptive ring.
 
 use std::ops::Range;
 
 use super::estimate;
 use super::farm::Parts;
-use super::ledger::{Ledger, tell_who_is_gone};
+use super::ledger::{Ledger, announce_gone};
 use super::message::{Action, Event, Message, NodeId, Party};
 use super::remedy::Remedy;
 use super::strategy::{Rules, Strategy};
@@ -15,44 +15,46 @@ use crate::time::Time;
 /// The parent of a run.
 #[derive(Debug)]
 pub struct Parent {
-    sharing: Assignment,
+    assignment: Assignment,
     division: Division,
     nodes: NodeId,
     spares: NodeId,
     /// By atom: whether its pixels are in the picture.
     placed: Vec<bool>,
+    /// Number of atoms that are not in the picture.
     missing: u32,
 }
 
-/// What the parent does to share the atoms.
+/// The parent's part in sharing the atoms, by strategy.
 #[derive(Debug)]
 enum Assignment {
-    /// The first node gets all.
+    /// The first node gets all atoms.
     Serial,
     /// Equal bands.
     Bands,
-    /// Bands of equal cost, as far as a sample tells.
+    /// Bands of about equal cost, by a sample.
     Estimate,
-    /// A part for whoever asks.
+    /// A part for each node that asks.
     Farm(Parts),
-    /// Equal bands, and a ledger, since machines may be lost.
-    Adaptive(Ledger),
-    /// The same without leases: nothing is known but who has not joined yet.
-    Trusting(Vec<NodeId>),
+    /// Equal bands, and a ledger of nodes and atoms, since machines may be lost.
+    WithLeases(Ledger),
+    /// Equal bands in an adaptive ring without leases. The parent knows only the nodes that have not joined yet.
+    WithoutLeases(Vec<NodeId>),
 }
 
 impl Parent {
-    /// The parent of `nodes` nodes (at least one), which are to trace the atoms of `division`.
+    /// Creates the parent of `nodes` nodes (at least one) that trace the atoms of `division`.
     pub fn new(rules: &Rules, division: Division, nodes: NodeId) -> Self {
         Self::with_spares(rules, division, nodes, 0)
     }
 
-    /// The same where the last `spares` of the nodes are off at first: they are given no band, and may join.
+    /// Creates the parent of `nodes` nodes, the last `spares` of which are off at first: they get no band, and may
+    /// join.
     pub fn with_spares(rules: &Rules, division: Division, nodes: NodeId, spares: NodeId) -> Self {
         assert!(nodes > spares, "a run needs a node");
         let missing = division.atoms();
         let farm = |by_speed| Assignment::Farm(Parts::new(missing, nodes, rules.part, by_speed));
-        let sharing = match rules.strategy {
+        let assignment = match rules.strategy {
             Strategy::Serial => Assignment::Serial,
             Strategy::Static | Strategy::Ring => Assignment::Bands,
             Strategy::StaticEstimate => Assignment::Estimate,
@@ -60,52 +62,53 @@ impl Parent {
             Strategy::FarmBySpeed => farm(true),
             Strategy::Adaptive => {
                 if rules.remedies.has(Remedy::Leases) {
-                    Assignment::Adaptive(Ledger::new(rules.beat, (nodes, spares), missing))
+                    Assignment::WithLeases(Ledger::new(rules.beat, (nodes, spares), missing))
                 } else {
-                    Assignment::Trusting((nodes - spares..nodes).collect())
+                    Assignment::WithoutLeases((nodes - spares..nodes).collect())
                 }
             }
         };
-        Self { sharing, division, nodes, spares, placed: vec![false; missing as usize], missing }
+        Self { assignment, division, nodes, spares, placed: vec![false; missing as usize], missing }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`; the time matters only in the ring that adapts.
+    /// Handles `event` at the time `now` and appends its answer to `actions`. The time matters only in the adaptive
+    /// ring.
     ///
     /// # Panics
-    /// If the event is impossible: an atom that has been placed before (but in the ring that adapts), or a message that no
-    /// node sends here.
+    /// If the event is impossible: an atom that is already placed (except in the adaptive ring), or a message that no
+    /// node of this strategy sends.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
-        if let (Assignment::Adaptive(ledger), Event::Message { from: Party::Node(node), .. }) =
-            (&mut self.sharing, &event)
+        if let (Assignment::WithLeases(ledger), Event::Message { from: Party::Node(node), .. }) =
+            (&mut self.assignment, &event)
         {
-            ledger.hear(now, *node, actions);
+            ledger.note_heard(now, *node, actions);
         }
         match event {
             Event::Started => {
                 let nodes = usize::from(self.nodes - self.spares);
-                match &mut self.sharing {
+                match &mut self.assignment {
                     Assignment::Serial => {
                         let all = self.division.atoms();
-                        hand_out((0..nodes).map(|node| if node == 0 { 0..all } else { all..all }), actions);
+                        hand_out_bands((0..nodes).map(|node| if node == 0 { 0..all } else { all..all }), actions);
                     }
-                    Assignment::Bands => hand_out(self.division.bands(nodes), actions),
+                    Assignment::Bands => hand_out_bands(self.division.bands(nodes), actions),
                     Assignment::Estimate => actions.push(Action::Estimate),
-                    Assignment::Farm(parts) => hand_out((0..self.nodes).map(|node| parts.next(node)), actions),
-                    Assignment::Adaptive(ledger) => {
-                        hand_out(self.division.bands(nodes), actions);
+                    Assignment::Farm(parts) => hand_out_bands((0..self.nodes).map(|node| parts.next(node)), actions),
+                    Assignment::WithLeases(ledger) => {
+                        hand_out_bands(self.division.bands(nodes), actions);
                         ledger.start(now, actions);
-                        actions.push(Action::SetTimer(ledger.next_look(now)));
+                        actions.push(Action::SetTimer(ledger.next_check(now)));
                     }
-                    Assignment::Trusting(gone) => {
-                        hand_out(self.division.bands(nodes), actions);
+                    Assignment::WithoutLeases(gone) => {
+                        hand_out_bands(self.division.bands(nodes), actions);
                         if !gone.is_empty() {
-                            tell_who_is_gone(self.nodes, gone, actions);
+                            announce_gone(self.nodes, gone, actions);
                         }
                     }
                 }
             }
             Event::Estimated(costs) => {
-                hand_out(estimate::bands(&costs, self.division, usize::from(self.nodes)), actions);
+                hand_out_bands(estimate::bands(&costs, self.division, usize::from(self.nodes)), actions);
             }
             Event::Message { message: Message::Results(ranges), .. } => {
                 ranges.into_iter().flatten().for_each(|atom| self.place(atom));
@@ -115,44 +118,46 @@ impl Parent {
             }
             Event::Message { from: Party::Node(node), message } => self.answer(now, node, message, actions),
             Event::Timer => {
-                if let Assignment::Adaptive(ledger) = &mut self.sharing {
-                    ledger.look(now, &self.placed, actions);
-                    actions.push(Action::SetTimer(ledger.next_look(now)));
+                if let Assignment::WithLeases(ledger) = &mut self.assignment {
+                    ledger.check(now, &self.placed, actions);
+                    actions.push(Action::SetTimer(ledger.next_check(now)));
                 }
             }
             other => unreachable!("a parent is never handed {other:?}"),
         }
     }
 
-    /// Answers what is not results.
+    /// Answers a message other than results.
     fn answer(&mut self, now: Time, node: NodeId, message: Message, actions: &mut Vec<Action>) {
-        match (&mut self.sharing, message) {
+        match (&mut self.assignment, message) {
             (Assignment::Farm(parts), Message::Request) => {
                 let message = Message::Part(parts.next(node));
                 actions.push(Action::Send { to: Party::Node(node), message });
             }
-            (Assignment::Adaptive(ledger), Message::Request) => ledger.ask_in(node, actions),
-            // Without a ledger what it had is lost; it may help all the same.
-            (Assignment::Trusting(gone), Message::Request) => {
-                hand_out_to(node, 0..0, actions);
+            (Assignment::WithLeases(ledger), Message::Request) => ledger.invite(node, actions),
+            // Without a ledger the atoms that it had stay lost, but it may help with the others.
+            (Assignment::WithoutLeases(gone), Message::Request) => {
+                hand_out_band(node, 0..0, actions);
                 gone.retain(|&other| other != node);
-                tell_who_is_gone(self.nodes, gone, actions);
+                announce_gone(self.nodes, gone, actions);
             }
-            (Assignment::Adaptive(ledger), Message::Beat { holds, idle, sent }) => {
+            (Assignment::WithLeases(ledger), Message::Beat { holds, idle, sent }) => {
                 ledger.beat(now, (node, sent), (&holds, idle), &self.placed, actions);
             }
-            (Assignment::Adaptive(ledger), Message::Failed(atom)) => ledger.failed(now, atom, &self.placed, actions),
-            (Assignment::Trusting(_), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
+            (Assignment::WithLeases(ledger), Message::Failed(atom)) => {
+                ledger.atom_failed(now, atom, &self.placed, actions)
+            }
+            (Assignment::WithoutLeases(_), Message::Failed(atom)) => actions.push(Action::Fail(atom)),
             (_, other) => unreachable!("node {node} sends {other:?} to a parent that has no use for it"),
         }
     }
 
-    /// Of an atom that was traced more than once the first result counts.
+    /// Marks an atom as placed. If it was traced more than once, the first result counts.
     fn place(&mut self, atom: Atom) {
         let placed = &mut self.placed[atom as usize];
         let again = std::mem::replace(placed, true);
         assert!(
-            !again || matches!(self.sharing, Assignment::Adaptive(_) | Assignment::Trusting(_)),
+            !again || matches!(self.assignment, Assignment::WithLeases(_) | Assignment::WithoutLeases(_)),
             "atom {atom} was traced twice"
         );
         self.missing -= u32::from(!again);
@@ -165,12 +170,12 @@ impl Parent {
     }
 }
 
-/// Gives each node its first share, and the scene with it.
-fn hand_out(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
-    (0..).zip(bands).for_each(|(node, band)| hand_out_to(node, band, actions));
+/// Sends each node its band, and the scene with it.
+fn hand_out_bands(bands: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
+    (0..).zip(bands).for_each(|(node, band)| hand_out_band(node, band, actions));
 }
 
-fn hand_out_to(node: NodeId, band: Range<Atom>, actions: &mut Vec<Action>) {
+fn hand_out_band(node: NodeId, band: Range<Atom>, actions: &mut Vec<Action>) {
     actions.push(Action::Send { to: Party::Node(node), message: Message::Band(band) });
 }
 
@@ -180,7 +185,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "atom 2 was traced twice")]
-    fn an_atom_is_placed_only_once() {
+    fn placing_an_atom_twice_panics_in_the_articles_ring() {
         let division = Division::new(100, 10);
         let mut parent = Parent::new(&Rules::usual(Strategy::Ring, division, 2), division, 2);
         let message = Message::Results(vec![1..3, 2..4]);

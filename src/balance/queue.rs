@@ -1,18 +1,18 @@
-//! The atoms that wait in a node.
+//! A node's queue of atoms.
 
 use std::collections::VecDeque;
 use std::ops::Range;
 
 use crate::picture::Atom;
 
-/// Atoms in the order in which they will be traced, as ranges none of which is empty.
+/// Waiting atoms in the order in which they will be traced, as non-empty ranges.
 #[derive(Debug, Default)]
 pub(super) struct Queue {
     ranges: VecDeque<Range<Atom>>,
 }
 
 impl Queue {
-    /// How many atoms wait.
+    /// Returns the number of atoms.
     pub fn len(&self) -> u32 {
         self.ranges.iter().map(|range| range.end - range.start).sum()
     }
@@ -24,7 +24,7 @@ impl Queue {
         }
     }
 
-    /// Takes the atom at the front.
+    /// Removes and returns the atom at the front.
     pub fn pop(&mut self) -> Option<Atom> {
         let front = self.ranges.front_mut()?;
         let atom = front.next();
@@ -34,25 +34,25 @@ impl Queue {
         atom
     }
 
-    /// The ranges, in their order.
+    /// Returns the ranges in their order.
     pub fn ranges(&self) -> impl Iterator<Item = &Range<Atom>> {
         self.ranges.iter()
     }
 
-    /// Takes out those of these atoms that are there.
+    /// Removes these atoms, as far as they are in the queue.
     pub fn remove(&mut self, atoms: &Range<Atom>) {
         if atoms.is_empty() {
             return;
         }
-        let apart = |range: &Range<Atom>| {
+        let remainder = |range: &Range<Atom>| {
             let before = range.start..range.end.min(atoms.start);
             let after = range.start.max(atoms.end)..range.end;
             [before, after].into_iter().filter(|rest| rest.start < rest.end)
         };
-        self.ranges = self.ranges.iter().flat_map(apart).collect();
+        self.ranges = self.ranges.iter().flat_map(remainder).collect();
     }
 
-    /// Takes the last `count` atoms, or all if there are fewer; they keep their order.
+    /// Removes and returns the last `count` atoms in their order, or all if there are fewer.
     pub fn split_off(&mut self, mut count: u32) -> Vec<Range<Atom>> {
         let mut taken = VecDeque::new();
         while count > 0
@@ -78,7 +78,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn splitting_moves_the_last_atoms_and_loses_none(
+        fn split_off_moves_the_last_atoms_and_loses_none(
             ranges in prop::collection::vec((0u32..1000, 0u32..20).prop_map(|(start, len)| start..start + len), 0..6),
             count in 0u32..80,
         ) {
@@ -93,7 +93,7 @@ mod tests {
         }
 
         #[test]
-        fn removing_takes_out_those_atoms_and_no_others(
+        fn remove_takes_out_these_atoms_and_no_others(
             ranges in prop::collection::vec((0u32..100, 0u32..20).prop_map(|(start, len)| start..start + len), 0..6),
             (start, len) in (0u32..100, 0u32..40),
         ) {

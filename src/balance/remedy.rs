@@ -1,36 +1,37 @@
-//! What the ring that adapts does otherwise than the article's, each a switch of its own.
+//! The remedies: the differences of the adaptive ring from the article's, each with its own switch.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-/// One weakness of the article's ring, mended.
+/// A remedy for one weakness of the article's ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Remedy {
-    /// Shares follow how fast nodes are now, by the work in their last atoms, not by the atoms since the start.
+    /// Shares follow the present speed of nodes, by the work in their last atoms, instead of the atoms since the start.
     Speed,
-    /// No transfer that would take longer to travel than it saves.
+    /// A node gives no transfer that would take longer to travel than it saves.
     Floor,
-    /// A node offers help so early that an answer comes when it is needed.
+    /// A node offers help before its atoms run out, so that the answer comes in time.
     Early,
-    /// A node that nobody needs sleeps, and whoever comes to need help wakes it.
+    /// A node that no other node needs sleeps, and a node that needs help later wakes it.
     Wake,
-    /// What waits too long in a node's pipe is traced by an idle node as well; the first result counts.
+    /// An atom that waits too long in a node's pipe is traced by an idle node as well; the first result counts.
     Copies,
-    /// An offer stops at a few nodes, near and far, and not at all.
+    /// An offer stops at a few nodes, near and far, instead of at all nodes.
     Shortcuts,
-    /// The parent hears of every node what it has; what nobody has had for a while is given out again, and whoever is silent
-    /// leaves the ring.
+    /// Every node tells the parent which atoms it holds. The parent hands out again the atoms that no node has held for
+    /// a lease, and a node that is silent for a lease leaves the ring.
     Leases,
 }
 
 impl Remedy {
-    /// Every remedy, in the order in which they are named to the user.
+    /// All remedies, in the order in which the user sees them.
     pub const ALL: [Self; 7] =
         [Self::Speed, Self::Floor, Self::Early, Self::Wake, Self::Copies, Self::Shortcuts, Self::Leases];
 
-    /// The name on the command line and in files.
+    /// Returns the name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Speed => "speed",
@@ -44,6 +45,11 @@ impl Remedy {
     }
 }
 
+/// A name that is not the name of a remedy.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("there is no remedy `{0}`; there are: {known}", known = Remedy::ALL.map(Remedy::name).join(", "))]
+pub struct UnknownRemedy(String);
+
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
@@ -51,43 +57,40 @@ impl fmt::Display for Remedy {
 }
 
 impl FromStr for Remedy {
-    type Err = String;
+    type Err = UnknownRemedy;
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|remedy| remedy.name() == text).ok_or_else(|| {
-            let known = Self::ALL.map(Self::name).join(", ");
-            format!("there is no remedy `{text}`; there are: {known}")
-        })
+    fn from_str(text: &str) -> Result<Self, UnknownRemedy> {
+        Self::ALL.into_iter().find(|remedy| remedy.name() == text).ok_or_else(|| UnknownRemedy(text.to_owned()))
     }
 }
 
-/// Some of the remedies: all, unless somebody wants otherwise.
+/// A set of remedies; all of them by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "Vec<String>", into = "Vec<String>")]
 pub struct Remedies(u8);
 
 impl Remedies {
-    /// All of them.
+    /// All remedies.
     pub const ALL: Self = Self(u8::MAX >> (8 - Remedy::ALL.len()));
-    /// None: the article's ring.
+    /// No remedy: the article's ring.
     pub const NONE: Self = Self(0);
 
-    /// Whether this one is among them.
+    /// Returns whether the set contains this remedy.
     pub fn has(self, remedy: Remedy) -> bool {
         self.0 & (1 << remedy as u8) != 0
     }
 
-    /// These and one more.
+    /// Returns the set with one more remedy.
     pub fn with(self, remedy: Remedy) -> Self {
         Self(self.0 | 1 << remedy as u8)
     }
 
-    /// These but one.
+    /// Returns the set without one remedy.
     pub const fn without(self, remedy: Remedy) -> Self {
         Self(self.0 & !(1 << remedy as u8))
     }
 
-    /// One after the other.
+    /// Iterates over the remedies of the set, in the order of [`Remedy::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Remedy> {
         Remedy::ALL.into_iter().filter(move |&remedy| self.has(remedy))
     }
@@ -106,7 +109,7 @@ impl FromIterator<Remedy> for Remedies {
 }
 
 impl From<Vec<String>> for Remedies {
-    /// A recorded run may name remedies that were taken out since.
+    /// Ignores unknown names: a recorded run may name remedies that no longer exist.
     fn from(names: Vec<String>) -> Self {
         names.iter().filter_map(|name| name.parse().ok()).collect()
     }
@@ -123,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_is_a_switch_of_its_own() {
+    fn each_remedy_is_switched_alone_and_unknown_names_are_ignored() {
         for remedy in Remedy::ALL {
             assert_eq!(remedy.name().parse(), Ok(remedy));
             assert!(Remedies::ALL.has(remedy) && !Remedies::NONE.has(remedy));
@@ -132,6 +135,6 @@ mod tests {
             assert_eq!(without.into_iter().collect::<Remedies>().with(remedy), Remedies::ALL);
         }
         let named = ["wake", "pipe"].map(str::to_owned).to_vec();
-        assert_eq!(Remedies::from(named), Remedies::NONE.with(Remedy::Wake), "one was taken out since");
+        assert_eq!(Remedies::from(named), Remedies::NONE.with(Remedy::Wake), "`pipe` no longer exists");
     }
 }

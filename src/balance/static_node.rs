@@ -1,22 +1,22 @@
-//! A node that traces what it is given and neither asks for more nor takes help: serial and static bands (§6.1).
+//! A node that traces its band and neither offers nor takes help: serial and static strategies (§6.1).
 
 use super::message::{Action, Event, Message};
 use super::work::Work;
 use crate::time::Time;
 
-/// A node on its own.
+/// A node that works alone.
 #[derive(Debug)]
 pub(super) struct StaticNode {
     pub work: Work,
 }
 
 impl StaticNode {
-    /// A node with this work, which is none yet.
+    /// Creates a node with this work, which has no atoms yet.
     pub fn new(work: Work) -> Self {
         Self { work }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    /// Handles `event` at the time `now` and appends its answer to `actions`.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
             Event::Message { message: Message::Band(band), .. } => self.work.add([band], actions),
@@ -28,7 +28,7 @@ impl StaticNode {
                 }
             }
             Event::Timer => self.work.send_results(actions),
-            other => unreachable!("a node on its own is never handed {other:?}"),
+            other => unreachable!("a static node is never handed {other:?}"),
         }
     }
 }

@@ -1,10 +1,12 @@
-//! The strategies, as arms of one enum: all answer the same events, so that every driver and chart serves them all.
+//! The strategies, as variants of one enum. All of them handle the same events, so that every driver and chart works
+//! with all of them.
 
 use std::fmt;
 use std::str::FromStr;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::message::{Action, Event, NodeId};
 use super::remedy::Remedies;
@@ -13,43 +15,44 @@ use super::{adaptive, farm, ring, static_node};
 use crate::picture::Division;
 use crate::time::Time;
 
-/// How the atoms are shared.
+/// A way to share the atoms among the nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strategy {
-    /// The first node traces all; the others, if there are any, do nothing.
+    /// The first node traces all atoms; the others do nothing.
     Serial,
-    /// A band for each node, as equal as can be, and no help (§6.1).
+    /// A band of equal size for each node, and no help (§6.1).
     Static,
-    /// A band for each node that costs about the same, by an estimate that costs time itself (§6.1).
+    /// A band of about equal cost for each node, by an estimate that takes time itself (§6.1).
     StaticEstimate,
-    /// Many equal parts; a free node asks the parent for the next (§6.2).
+    /// Many equal parts; a node without atoms asks the parent for the next part (§6.2).
     Farm,
-    /// A farm whose parts are smaller for nodes that prove slow (§6.2).
+    /// A farm with smaller parts for slower nodes (§6.2).
     FarmBySpeed,
     /// The article's ring (§7).
     Ring,
-    /// The ring as one would build it today: what [`Remedies`] says.
+    /// The adaptive ring: the article's ring with [`Remedies`] for its weaknesses.
     Adaptive,
 }
 
-/// After so many beats whoever is silent counts as gone, and what nobody vouches for as lost.
-pub(super) const LEASE: u32 = 4;
+/// Beats in a lease: a node that is silent for a lease counts as gone, and an atom that no node vouches for counts as
+/// lost.
+pub(super) const LEASE_BEATS: u32 = 4;
 
-/// The rules by which a run's atoms are shared.
+/// The strategy of a run and its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rules {
-    /// How the atoms are shared.
+    /// The strategy.
     pub strategy: Strategy,
-    /// In a ring, an offer is worth taking if it moves at least this many atoms. In a farm, the atoms of a part.
+    /// In a ring, the least number of atoms that are worth a transfer. In a farm, the number of atoms in a part.
     pub part: u32,
-    /// How long a traced atom waits at most for others to travel to the parent with; `None`: until its node has no atoms
-    /// left, as in the article (§7).
+    /// Longest time that a traced atom waits for others, to travel to the parent with them; `None`: until its node has
+    /// no atoms left, as in the article (§7).
     pub batch: Option<Duration>,
-    /// How often a node tells the parent what it has, in the ring that adapts.
+    /// Interval of a node's heartbeat in the adaptive ring.
     #[serde(default = "usual_beat")]
     pub beat: Duration,
-    /// What the ring that adapts does otherwise than the article's.
+    /// The remedies of the adaptive ring.
     #[serde(default)]
     pub remedies: Remedies,
 }
@@ -59,11 +62,11 @@ fn usual_beat() -> Duration {
 }
 
 impl Strategy {
-    /// Every strategy, in the order in which they are named to the user.
+    /// All strategies, in the order in which the user sees them.
     pub const ALL: [Self; 7] =
         [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring, Self::Adaptive];
 
-    /// The name on the command line and in files.
+    /// Returns the name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Serial => "serial",
@@ -76,48 +79,53 @@ impl Strategy {
         }
     }
 
-    /// Whether the parent is asked for parts of the picture.
+    /// Returns whether nodes ask the parent for parts.
     pub fn is_farm(self) -> bool {
         matches!(self, Self::Farm | Self::FarmBySpeed)
     }
 
-    /// Whether nodes that are done offer help round a ring.
+    /// Returns whether nodes offer help along a ring.
     pub fn is_ring(self) -> bool {
         matches!(self, Self::Ring | Self::Adaptive)
     }
 
-    /// What [`Rules::part`] is unless somebody wants otherwise: 1 in a ring; in a farm what makes about 16 parts a node.
+    /// Returns the default of [`Rules::part`]: 1 in a ring; in a farm the size that makes about 16 parts for each node.
     pub fn usual_part(self, division: Division, nodes: usize) -> u32 {
         let parts = 16 * nodes.max(1) as u64;
-        // No more than there are atoms, whose number is a u32.
+        // The cast is exact: the result is at most the number of atoms, a u32.
         if self.is_farm() { (u64::from(division.atoms()) / parts).max(1) as u32 } else { 1 }
     }
 }
 
 impl Rules {
-    /// How long a traced atom usually waits. *Ours:* in small batches the picture fills in while one watches.
+    /// Default of [`Rules::batch`]. *Ours:* with small batches the picture fills in while one watches.
     pub const BATCH: Duration = Duration::from_millis(15);
-    /// How often a node usually tells the parent what it has.
+    /// Default of [`Rules::beat`].
     pub const BEAT: Duration = Duration::from_millis(60);
 
-    /// How long a traced atom waits for others, where somebody looks on. A parent that takes so long for a message is sent
-    /// fewer of them: all nodes' results take at most half of its time.
+    /// Returns the batch time for a parent that is busy for `handling` with each message: long enough that the results
+    /// of all `nodes` take at most half of its time.
     pub fn batch_for(handling: Duration, nodes: usize) -> Duration {
         Self::BATCH.max(handling * 2 * nodes as u32)
     }
 
-    /// How often a node tells the parent what it has. A parent that takes so long for a message, or has many nodes, hears of
-    /// each less often: all of them take at most an eighth of its time, and half a millisecond is between two.
+    /// Returns the beat for a parent that is busy for `handling` with each message: long enough that the beats of all
+    /// `nodes` take at most an eighth of its time, and that there is at least half a millisecond from one to the next.
     pub fn beat_for(handling: Duration, nodes: usize) -> Duration {
         Self::BEAT.max((handling * 8).max(Duration::from_micros(500)) * nodes as u32)
     }
 
-    /// The rules of a strategy, unless somebody wants otherwise.
+    /// Returns the default rules of a strategy.
     pub fn usual(strategy: Strategy, division: Division, nodes: usize) -> Self {
         let (part, beat) = (strategy.usual_part(division, nodes), Self::beat_for(Duration::ZERO, nodes));
         Self { strategy, part, batch: Some(Self::BATCH), beat, remedies: Remedies::ALL }
     }
 }
+
+/// A name that is not the name of a strategy.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("there is no strategy `{0}`; there are: {known}", known = Strategy::ALL.map(Strategy::name).join(", "))]
+pub struct UnknownStrategy(String);
 
 impl fmt::Display for Strategy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -126,17 +134,14 @@ impl fmt::Display for Strategy {
 }
 
 impl FromStr for Strategy {
-    type Err = String;
+    type Err = UnknownStrategy;
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|strategy| strategy.name() == text).ok_or_else(|| {
-            let known = Self::ALL.map(Self::name).join(", ");
-            format!("there is no strategy `{text}`; there are: {known}")
-        })
+    fn from_str(text: &str) -> Result<Self, UnknownStrategy> {
+        Self::ALL.into_iter().find(|strategy| strategy.name() == text).ok_or_else(|| UnknownStrategy(text.to_owned()))
     }
 }
 
-/// One machine's part in sharing, as its strategy has it.
+/// A node's side of the protocol, by strategy.
 #[derive(Debug)]
 pub struct Node {
     role: Role,
@@ -144,19 +149,19 @@ pub struct Node {
 
 #[derive(Debug)]
 enum Role {
-    Solo(static_node::StaticNode),
+    Static(static_node::StaticNode),
     Farm(farm::FarmNode),
     Ring(ring::RingNode),
     Adaptive(Box<adaptive::AdaptiveNode>),
 }
 
 impl Node {
-    /// Node `id` of `nodes`.
+    /// Creates node `id` of `nodes`.
     pub fn new(rules: &Rules, id: NodeId, nodes: NodeId) -> Self {
         let work = Work::new(rules.batch);
         let role = match rules.strategy {
             Strategy::Serial | Strategy::Static | Strategy::StaticEstimate => {
-                Role::Solo(static_node::StaticNode::new(work))
+                Role::Static(static_node::StaticNode::new(work))
             }
             Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::FarmNode::new(work)),
             Strategy::Ring => Role::Ring(ring::RingNode::new(id, nodes, rules.part, work)),
@@ -165,15 +170,15 @@ impl Node {
         Self { role }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    /// Handles `event` at the time `now` and appends its answer to `actions`.
     ///
     /// # Panics
-    /// If the event is impossible: something that no parent or node of the same run can have sent.
+    /// If the event is impossible: no parent or node of the same run can have sent it.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match &mut self.role {
-            // Nobody else expects a machine that begins anew, and it has nothing to say.
-            Role::Solo(_) | Role::Farm(_) | Role::Ring(_) if event == Event::Started => {}
-            Role::Solo(node) => node.handle(now, event, actions),
+            // Only the adaptive ring lets a machine in that has started afresh.
+            Role::Static(_) | Role::Farm(_) | Role::Ring(_) if event == Event::Started => {}
+            Role::Static(node) => node.handle(now, event, actions),
             Role::Farm(node) => node.handle(now, event, actions),
             Role::Ring(node) => node.handle(now, event, actions),
             Role::Adaptive(node) => node.handle(now, event, actions),

@@ -1,4 +1,4 @@
-//! A node's atoms, from their arrival to the results: what every strategy's node does with its worker.
+//! A node's atoms, from their arrival to the results. Nodes of all strategies feed their workers in this way.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -9,11 +9,11 @@ use super::queue::Queue;
 use crate::picture::{Atom, push_atom};
 use crate::time::Time;
 
-/// How many atoms the worker's pipe holds while there are any, the one being traced included:
-/// two, so that neither worker nor node waits for the other (§8).
-const PIPE: usize = 2;
+/// Atoms in the worker's pipe while there are enough, including the one being traced: two, so that neither the worker
+/// nor the node waits for the other (§8).
+pub const PIPE_ATOMS: u32 = 2;
 
-/// The atoms of a node: those that wait, those in the pipe, and those traced but not yet sent.
+/// The atoms of a node: those in the queue, those in the pipe, and those traced but not sent.
 #[derive(Debug)]
 pub(super) struct Work {
     batch: Option<Duration>,
@@ -21,42 +21,43 @@ pub(super) struct Work {
     pipe: VecDeque<Atom>,
     traced: u32,
     unsent: Vec<Range<Atom>>,
-    /// When what is unsent has waited long enough.
+    /// When the unsent results have waited long enough.
     due: Option<Time>,
 }
 
 impl Work {
-    /// No atoms yet; traced ones leave after [`Rules::batch`](super::Rules::batch).
+    /// Creates a node's work without atoms. Results leave after `batch` ([`Rules::batch`](super::Rules::batch)).
     pub fn new(batch: Option<Duration>) -> Self {
         Self { batch, queue: Queue::default(), pipe: VecDeque::new(), traced: 0, unsent: Vec::new(), due: None }
     }
 
-    /// How many atoms wait in the queue; those in the pipe are the worker's and never leave it untraced.
+    /// Returns the number of atoms in the queue. Those in the pipe do not count: they belong to the worker and never
+    /// leave it untraced.
     pub fn waiting(&self) -> u32 {
         self.queue.len()
     }
 
-    /// The atoms in the worker's pipe, the one in hand first.
+    /// Returns the atoms in the worker's pipe; the first one is in hand.
     pub fn pipe(&self) -> &VecDeque<Atom> {
         &self.pipe
     }
 
-    /// How many atoms the worker has traced since the start.
+    /// Returns the number of atoms traced since the start.
     pub fn traced(&self) -> u32 {
         self.traced
     }
 
-    /// Whether queue and pipe are empty.
+    /// Returns whether queue and pipe are empty.
     pub fn is_idle(&self) -> bool {
         self.pipe.is_empty()
     }
 
-    /// When results are to be sent, if they are to before the last atom is traced.
+    /// Returns when the unsent results are due, if that is before the last atom is traced.
     pub fn due(&self) -> Option<Time> {
         self.due
     }
 
-    /// All atoms of the node: those that wait, those in the pipe, and those traced but not sent.
+    /// Returns all atoms of the node: those traced but not sent, those in the pipe, and those in the queue.
     pub fn held(&self) -> Vec<Range<Atom>> {
         let mut held = self.unsent.clone();
         self.pipe.iter().for_each(|&atom| push_atom(&mut held, atom));
@@ -75,7 +76,7 @@ impl Work {
         self.fill_pipe(actions);
     }
 
-    /// Queues those of these atoms that the node does not have, and fills the pipe.
+    /// Queues the atoms among these that the node does not hold, and fills the pipe.
     pub fn add_new(&mut self, ranges: impl IntoIterator<Item = Range<Atom>>, actions: &mut Vec<Action>) {
         for range in ranges {
             self.queue.remove(&range);
@@ -86,18 +87,18 @@ impl Work {
         self.fill_pipe(actions);
     }
 
-    /// Takes the last `count` atoms off the queue, to be given away.
+    /// Removes and returns the last `count` atoms of the queue, to be given away.
     pub fn give(&mut self, count: u32) -> Vec<Range<Atom>> {
         self.queue.split_off(count)
     }
 
-    /// Takes these atoms off the queue, if they are there.
+    /// Removes these atoms from the queue, as far as they are there.
     pub fn forget(&mut self, atoms: &Range<Atom>) {
         self.queue.remove(atoms);
     }
 
-    /// Counts a traced atom, keeps it for the parent, and puts one more into the pipe (§7). The results will leave
-    /// soon, unless it was the last atom: then its node sends them at once.
+    /// Moves a traced atom from the pipe to the unsent results, and refills the pipe (§7). Sets the timer for the
+    /// results, except after the last atom: the node sends those results at once.
     pub fn atom_done(&mut self, now: Time, atom: Atom, actions: &mut Vec<Action>) {
         self.leave_pipe(atom, actions);
         self.traced += 1;
@@ -111,12 +112,12 @@ impl Work {
         push_atom(&mut self.unsent, atom);
     }
 
-    /// The worker could not trace an atom: it goes, and one more comes into the pipe.
+    /// Removes an atom that the worker has failed to trace from the pipe, and refills the pipe.
     pub fn atom_failed(&mut self, atom: Atom, actions: &mut Vec<Action>) {
         self.leave_pipe(atom, actions);
     }
 
-    /// Sends the parent what is traced and unsent, if there is any.
+    /// Sends the unsent results to the parent, if there are any.
     pub fn send_results(&mut self, actions: &mut Vec<Action>) {
         self.due = None;
         if !self.unsent.is_empty() {
@@ -132,7 +133,7 @@ impl Work {
     }
 
     fn fill_pipe(&mut self, actions: &mut Vec<Action>) {
-        while self.pipe.len() < PIPE
+        while self.pipe.len() < PIPE_ATOMS as usize
             && let Some(atom) = self.queue.pop()
         {
             self.pipe.push_back(atom);

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Parser, Subcommand};
 
-use crate::balance::{Remedy, Strategy};
+use crate::balance::{Remedy, Strategy, UnknownStrategy};
 use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -223,7 +223,7 @@ pub(super) struct InspectArgs {
 #[derive(Debug, clap::Args)]
 pub(super) struct QualityArgs {
     /// Samples a pixel, n × n
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_SAMPLES)))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MAX_SAMPLES)))]
     pub samples: u32,
     /// Take no more samples of a pixel once the error of its colour is estimated as no more than this: for example 0.01
     /// [default: take them all]
@@ -231,7 +231,7 @@ pub(super) struct QualityArgs {
     pub threshold: f64,
     /// Levels of the tree of rays: 1 shows neither reflections nor what is behind glass
     #[arg(long, value_name = "LEVELS", default_value_t = Quality::default().max_depth,
-        value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MOST_DEPTH)))]
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(Quality::MAX_DEPTH)))]
     pub depth: u32,
     /// Leave out the weakest rays of the tree, as many as count no more than this together [default: 1/255]
     #[arg(long, value_name = "WEIGHT", default_value_t = Quality::default().cutoff, value_parser = part_of_1, hide_default_value = true)]
@@ -261,7 +261,7 @@ impl FromStr for SchedulerArg {
         if text == Driver::WorkStealing.name() {
             return Ok(Self::Rayon);
         }
-        text.parse().map(Self::By).map_err(|error: String| format!("{error}, rayon"))
+        text.parse().map(Self::By).map_err(|error: UnknownStrategy| format!("{error}, rayon"))
     }
 }
 

@@ -9,6 +9,7 @@ use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
 use super::{Failure, check_outputs, open, progress};
+use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
@@ -60,7 +61,7 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     match (&args.pov, others.first()) {
         (Some(pov), _) if others.len() == 1 => {
             // Neither side is 0.
-            let usual = || Size::new(640, 480).map_err(Failure::Refused);
+            let usual = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
             let size = args.size.map_or_else(usual, Ok)?;
             let text = to_pov(&opened.scene, size, &Quality::default());
             write(pov, |file| file.write_all(text.as_bytes()))
@@ -103,7 +104,8 @@ fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
 fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
     let tracer = Arc::new(Tracer::new(scene, size, quality));
     let bar = parts("tracing");
-    let rgb = trace_strips(&tracer, &|part| show(&bar, part), &|| false).map_err(Failure::Failed)?;
+    let rgb = trace_strips(&tracer, &|part| show(&bar, part), &CancelToken::default())
+        .map_err(|error| Failure::Failed(error.to_string()))?;
     bar.finish_and_clear();
     // Nobody has ended it.
     write_png(path, size, &rgb.unwrap_or_default()).map_err(|error| Failure::Failed(error.to_string()))
@@ -118,7 +120,7 @@ fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Fail
         bar.inc(atoms.into());
     });
     bar.finish_and_clear();
-    let frame = Frame::of(header.size, &whole.map_err(Failure::Failed)?.pixels);
+    let frame = Frame::of(header.size, &whole.map_err(|error| Failure::Failed(error.to_string()))?.pixels);
     let bar = parts("drawing");
     let written = write(path, |file| {
         film.write(file, log, &frame, &mut |part| {

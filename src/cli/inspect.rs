@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 
 use super::args::InspectArgs;
 use super::{Failure, open, print};
-use crate::csg::{SolidKind, SpanDiagram};
+use crate::csg::{MaterialTag, RootId, SolidKind, SpanDiagram};
 use crate::language::Language;
 use crate::picture::srgb8;
 use crate::scene::Scene;
-use crate::tracer::{Explained, Intersection, RayKind, RayNotes, Tracer};
+use crate::tracer::{ExplainedRay, ExplainedSample, Intersection, RayKind, Tracer};
 use crate::view::{Inspected, Term};
 
 pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
@@ -32,7 +32,7 @@ pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
 /// All that is known of the pixel. Colours are linear light, distances those of the scene; an infinite one is null.
 fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
     let colour = inspected.colour();
-    let sample = |sample: &Explained| sample_json(sample, sample.share(&inspected.samples), scene);
+    let sample = |sample: &ExplainedSample| sample_json(sample, sample.share(&inspected.samples), scene);
     let samples: Vec<_> = inspected.samples.iter().map(sample).collect();
     let term = |term: Term| {
         let colour = term.colour.to_array();
@@ -55,7 +55,7 @@ fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
     })
 }
 
-fn sample_json(sample: &Explained, share: f64, scene: &Scene) -> Value {
+fn sample_json(sample: &ExplainedSample, share: f64, scene: &Scene) -> Value {
     let rays: Vec<_> = sample.rays.iter().map(|ray| ray_json(ray, scene)).collect();
     json!({
         "part_of_pixel": share,
@@ -65,7 +65,7 @@ fn sample_json(sample: &Explained, share: f64, scene: &Scene) -> Value {
     })
 }
 
-fn ray_json(ray: &RayNotes, scene: &Scene) -> Value {
+fn ray_json(ray: &ExplainedRay, scene: &Scene) -> Value {
     let kind = match ray.path.kind {
         RayKind::Primary => "primary",
         RayKind::Shadow => "shadow",
@@ -96,21 +96,21 @@ fn ray_json(ray: &RayNotes, scene: &Scene) -> Value {
     })
 }
 
-fn solid_json(root: u32, figure: &SpanDiagram, scene: &Scene) -> Value {
+fn solid_json(root: RootId, figure: &SpanDiagram, scene: &Scene) -> Value {
     let mut solid = figure_json(figure, scene);
-    solid["solid"] = root.into();
+    solid["solid"] = json!(root);
     solid
 }
 
 fn figure_json(figure: &SpanDiagram, scene: &Scene) -> Value {
-    let (what, material) = match figure.what {
+    let (what, material) = match figure.kind {
         SolidKind::Primitive { tag, kind } => (kind.to_owned(), name(tag, scene)),
         SolidKind::Composition(operation) => (format!("{operation:?}").to_lowercase(), None),
     };
     let operands: Vec<_> = figure.operands.iter().map(|operand| figure_json(operand, scene)).collect();
-    json!({ "what": what, "material": material, "stays": figure.stays, "operands": operands })
+    json!({ "what": what, "material": material, "stays": figure.spans, "operands": operands })
 }
 
-fn name(tag: u32, scene: &Scene) -> Option<&str> {
-    scene.names.get(tag as usize).map(String::as_str).filter(|name| !name.is_empty())
+fn name(tag: MaterialTag, scene: &Scene) -> Option<&str> {
+    scene.names.get(tag.index()).map(String::as_str).filter(|name| !name.is_empty())
 }

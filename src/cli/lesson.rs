@@ -1,6 +1,7 @@
 //! `anel lesson`: what a lesson says, and whether what it claims is true of its runs.
 
 use super::{Failure, print, progress};
+use crate::cancel::CancelToken;
 use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
 
@@ -23,7 +24,7 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
 /// Plays a lesson's runs in virtual time and prints its steps and claims.
 pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
     let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
-    let performed = lesson.perform(&|more| bar.inc(more.into()), &|| false);
+    let performed = lesson.perform(&|more| bar.inc(more.into()), &CancelToken::default());
     bar.finish_and_clear();
     let performed = performed.map_err(Failure::Refused)?.unwrap_or_default();
     for (number, step) in (1..).zip(&lesson.steps) {

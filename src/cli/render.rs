@@ -11,7 +11,7 @@ use super::args::RenderArgs;
 use super::report::Report;
 use super::run_header;
 use super::{Failure, check_outputs, open, print, progress};
-use crate::driver::{Run, TracedPicture, Update, probe};
+use crate::driver::{Run, RunError, TracedPicture, Update, probe};
 use crate::picture::{Frame, write_png};
 use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
@@ -87,14 +87,14 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
             }
             Ok(Update::Rays(more)) => rays += more,
             Ok(Update::Finished) => break None,
-            Ok(Update::Failed(why)) => break Some(why),
-            Err(_) => break Some("the run ended without a result".into()),
+            Ok(Update::Failed(error)) => break Some(error),
+            Err(_) => break Some(RunError::NoResult),
         }
     };
     let wall = begun.elapsed();
     bar.finish_and_clear();
     match failure {
-        Some(why) => Err(Failure::Failed(why)),
+        Some(error) => Err(Failure::Failed(error.to_string())),
         None => {
             let mut log = RunLog::new(header.clone());
             log.add(told);
@@ -108,7 +108,8 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
 fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
-    let whole = TracedPicture::of(tracer, header.division, &|atoms| bar.inc(atoms.into())).map_err(Failure::Failed)?;
+    let whole = TracedPicture::of(tracer, header.division, &|atoms| bar.inc(atoms.into()))
+        .map_err(|error| Failure::Failed(error.to_string()))?;
     bar.finish_and_clear();
     let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {

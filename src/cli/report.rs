@@ -68,7 +68,7 @@ impl Report {
             atoms: header.division.atoms(),
             atoms_by_node: tally.atoms_by_node(),
             messages: tally.messages(),
-            compiled: tracer.compiled(),
+            compiled: tracer.scene_stats(),
             levels: Vec::new(),
         }
     }

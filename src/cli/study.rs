@@ -48,20 +48,21 @@ pub(super) fn study(
         bar.set_position(done as u64);
         bar.set_message(what.to_owned());
     };
+    let size = Size::new(320, 240).map_err(|error| Failure::Failed(error.to_string()))?;
     let study = match kind {
         StudyKind::Paper => paper(&scenes[0], &mut told),
         StudyKind::Scale => scale(&scenes[0], &mut told),
         StudyKind::Rivals => rivals(&scenes, &mut told),
-        StudyKind::Peer => Size::new(320, 240).and_then(|size| peer(&scenes, size, &mut told)),
+        StudyKind::Peer => peer(&scenes, size, &mut told),
         StudyKind::Needs => needs(&scenes, &mut told),
         StudyKind::Stability => stability(&mut told),
-        StudyKind::Accuracy => Size::new(320, 240).and_then(|size| accuracy(&scenes, size, &mut told)),
+        StudyKind::Accuracy => accuracy(&scenes, size, &mut told),
         StudyKind::Remedies => remedies(&scenes[0], &mut told),
         StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut told),
     };
     let took = bar.elapsed();
     bar.finish_and_clear();
-    let Study { name, rows, summary, files } = study.map_err(Failure::Failed)?;
+    let Study { name, rows, summary, files } = study.map_err(|error| Failure::Failed(error.to_string()))?;
     let mut written = Vec::new();
     for (file, bytes) in files {
         let path = out.join(file);

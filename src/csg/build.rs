@@ -1,37 +1,43 @@
-//! Solids are compiled: what can never be seen is left out, and every composition is brought into the form in which a
+//! Compilation of solids: drops parts that can never be seen, and brings every composition into the form in which a
 //! ray needs least work.
 
+use super::id::NodeIndex;
 use super::merge::Operation;
 use super::tree::{Node, NodeKind, Tree};
-use super::{Leaf, Pass, Passes, Solid};
+use super::{Leaf, LeafIndex, Pass, Passes, RootId, Solid};
 use crate::geometry::{Aabb, split};
 
-/// Of more operands a union is a tree.
-const FEW: usize = 4;
+/// A union of more operands than this becomes a tree of unions.
+const MAX_FLAT_OPERANDS: usize = 4;
 
 impl Tree {
-    /// Nothing yet; solids will be compiled by these reductions.
-    pub fn new(reductions: Passes) -> Self {
-        Self { reductions, ..Self::default() }
+    /// An empty tree, to which solids are added by these passes.
+    pub fn new(passes: Passes) -> Self {
+        Self { passes, ..Self::default() }
     }
 
-    /// Adds a solid. Gives its root and the box that holds it, or nothing if it can be proved empty.
-    pub fn add(&mut self, solid: &Solid) -> Option<(u32, Aabb)> {
+    /// Compiles a solid. Returns its root and a box around it, or nothing if the solid is proved empty.
+    pub fn add(&mut self, solid: &Solid) -> Option<(RootId, Aabb)> {
+        self.add_node(solid).map(|(node, bounds)| (RootId(node.0), bounds))
+    }
+
+    fn add_node(&mut self, solid: &Solid) -> Option<(NodeIndex, Aabb)> {
         let (operation, solids) = match solid {
-            Solid::Placed { primitive, scene_from_own, tag } => {
-                let shapes = self.reductions.has(Pass::Shapes);
-                let (leaf, bounds) = Leaf::new(primitive, scene_from_own, *tag, shapes);
+            Solid::Placed { primitive, scene_from_local, tag } => {
+                let shapes = self.passes.has(Pass::SceneShapes);
+                let (leaf, bounds) = Leaf::new(primitive, scene_from_local, *tag, shapes);
+                let index = LeafIndex(self.leaves.len() as u32);
                 self.leaves.push(leaf);
-                return Some((self.node(NodeKind::Leaf(self.leaves.len() as u32 - 1), bounds), bounds));
+                return Some((self.push(NodeKind::Leaf(index), bounds), bounds));
             }
             Solid::Union(solids) => (Operation::Union, solids),
             Solid::Intersection(solids) => (Operation::Intersection, solids),
             Solid::Difference(solids) => (Operation::Difference, solids),
         };
-        let mut children: Vec<u32> = Vec::new();
+        let mut children: Vec<NodeIndex> = Vec::new();
         let mut bounds = if operation == Operation::Intersection { Aabb::ALL } else { Aabb::EMPTY };
         for (index, solid) in solids.iter().enumerate() {
-            let child = self.add(solid);
+            let child = self.add_node(solid);
             match operation {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };
@@ -41,7 +47,7 @@ impl Tree {
                 Operation::Intersection => {
                     let (child, child_bounds) = child?;
                     bounds = bounds.intersection(child_bounds);
-                    if bounds.is_empty() && self.reductions.has(Pass::Reach) {
+                    if bounds.is_empty() && self.passes.has(Pass::CullEmpty) {
                         self.dropped.empty += 1;
                         return None;
                     }
@@ -54,7 +60,7 @@ impl Tree {
                 }
                 Operation::Difference => {
                     let Some((child, child_bounds)) = child else { continue };
-                    if bounds.intersection(child_bounds).is_empty() && self.reductions.has(Pass::Reach) {
+                    if bounds.intersection(child_bounds).is_empty() && self.passes.has(Pass::CullEmpty) {
                         self.dropped.out_of_reach += 1;
                     } else {
                         children.push(child);
@@ -67,8 +73,8 @@ impl Tree {
         }
         match operation {
             Operation::Union => return Some((self.union_of(&children), bounds)),
-            Operation::Intersection if self.reductions.has(Pass::Convex) => self.join_convex(&mut children),
-            Operation::Difference if children.len() - 1 > FEW && self.reductions.has(Pass::Neighbours) => {
+            Operation::Intersection if self.passes.has(Pass::ConvexSpans) => self.join_convex(&mut children),
+            Operation::Difference if children.len() - 1 > MAX_FLAT_OPERANDS && self.passes.has(Pass::UnionTrees) => {
                 let taken = self.union_of(&children[1..]);
                 children.splice(1.., [taken]);
             }
@@ -76,64 +82,65 @@ impl Tree {
         }
         match children[..] {
             [only] => {
-                self.nodes[only as usize].bounds = bounds;
+                self.nodes[only.index()].bounds = bounds;
                 Some((only, bounds))
             }
-            _ => Some((self.node(NodeKind::Composition { operation, children }, bounds), bounds)),
+            _ => Some((self.push(NodeKind::Composition { operation, children }, bounds), bounds)),
         }
     }
 
-    /// The union of at least one node. That of many is a tree of unions of neighbours: a ray looks only at those near
-    /// it, and their spans are merged in pairs and not one by one into all that were found before.
-    fn union_of(&mut self, parts: &[u32]) -> u32 {
-        let mut boxes: Vec<_> = parts.iter().map(|&part| (part, self.nodes[part as usize].bounds)).collect();
+    /// Makes the union of at least one node. A union of many becomes a tree of unions of neighbours: a ray visits only
+    /// those near it, and their spans are merged in pairs instead of one by one into all that were found before.
+    fn union_of(&mut self, parts: &[NodeIndex]) -> NodeIndex {
+        let mut boxes: Vec<_> = parts.iter().map(|&part| (part, self.nodes[part.index()].bounds)).collect();
         self.union_tree(&mut boxes, 0)
     }
 
-    fn union_tree(&mut self, parts: &mut [(u32, Aabb)], depth: u32) -> u32 {
+    fn union_tree(&mut self, parts: &mut [(NodeIndex, Aabb)], depth: u32) -> NodeIndex {
         if let [(only, _)] = parts {
             return *only;
         }
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let is_tree = parts.len() > FEW && self.reductions.has(Pass::Neighbours);
-        let place = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
-        let children = match parts.split_at_mut(place) {
+        let is_tree = parts.len() > MAX_FLAT_OPERANDS && self.passes.has(Pass::UnionTrees);
+        let middle = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
+        let children = match parts.split_at_mut(middle) {
             ([], all) => all.iter().map(|(part, _)| *part).collect(),
             (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
         };
-        self.node(NodeKind::Composition { operation: Operation::Union, children }, bounds)
+        self.push(NodeKind::Composition { operation: Operation::Union, children }, bounds)
     }
 
-    /// Makes the convex leaves with which the operands of an intersection begin one operand.
-    fn join_convex(&mut self, children: &mut Vec<u32>) {
+    /// Joins the convex leaves at the beginning of an intersection's operands into one operand.
+    fn join_convex(&mut self, children: &mut Vec<NodeIndex>) {
         let mut leaves = Vec::new();
         let mut bounds = Aabb::ALL;
         let mut joined = 0;
         for &child in &*children {
-            let Node { kind, bounds: own } = &self.nodes[child as usize];
+            let Node { kind, bounds: child_bounds } = &self.nodes[child.index()];
             match kind {
-                NodeKind::Leaf(leaf) if self.leaves[*leaf as usize].is_convex() => leaves.push(*leaf),
+                NodeKind::Leaf(leaf) if self.leaves[leaf.index()].is_convex() => leaves.push(*leaf),
                 NodeKind::Convex(inner) => leaves.extend(inner),
                 _ => break,
             }
-            bounds = bounds.intersection(*own);
+            bounds = bounds.intersection(*child_bounds);
             joined += 1;
         }
         if joined > 1 {
-            let convex = self.node(NodeKind::Convex(leaves), bounds);
+            let convex = self.push(NodeKind::Convex(leaves), bounds);
             children.splice(..joined, [convex]);
         }
     }
 
-    /// Gives up the boxes of all compositions, if they are not asked for.
+    /// Removes the bounds of all nodes unless [`Pass::CompositionBounds`] is on.
     pub fn finish(&mut self) {
-        if !self.reductions.has(Pass::Boxes) {
+        if !self.passes.has(Pass::CompositionBounds) {
             self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);
         }
     }
 
-    fn node(&mut self, kind: NodeKind, bounds: Aabb) -> u32 {
+    fn push(&mut self, kind: NodeKind, bounds: Aabb) -> NodeIndex {
+        let index = NodeIndex(self.nodes.len() as u32);
         self.nodes.push(Node { bounds, kind });
-        self.nodes.len() as u32 - 1
+        index
     }
 }

@@ -1,34 +1,34 @@
 //! The boolean operations on a ray's spans (Roth, *Ray Casting for Modeling Solids*, 1982).
 //!
-//! Spans are kept as sorted events: even ones enter, odd ones leave. Events of the two operands that differ by less
-//! than the ray's tolerance are one event, and only a change of the net state is kept: so faces that coincide, which
-//! rounding puts in any order, neither leave slivers of nothing nor of solid.
+//! Spans are stored as sorted crossings: those with even index enter, those with odd index leave. Crossings of the two
+//! operands that differ by less than the ray's tolerance are one crossing, and only a change of the combined state is
+//! kept. So coincident faces, which rounding puts in any order, leave no slivers, neither of solid nor of void.
 
 use super::Surface;
 use crate::geometry::Ray;
 
-/// A place where a ray enters or leaves a solid.
+/// A point where a ray enters or leaves a solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Distance along the ray; infinite where a solid has no end.
+    /// Distance along the ray; infinite where the solid is unbounded.
     pub t: f64,
-    /// The face that it crosses.
+    /// The face that the ray crosses.
     pub surface: Surface,
 }
 
 /// A boolean operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// What is in at least one of its operands.
+    /// The points in at least one operand.
     Union,
-    /// What is in all of them.
+    /// The points in all operands.
     Intersection,
-    /// What is in the first and in none of the others.
+    /// The points in the first operand and in none of the others.
     Difference,
 }
 
 impl Operation {
-    fn of(self, a: bool, b: bool) -> bool {
+    fn combine(self, a: bool, b: bool) -> bool {
         match self {
             Self::Union => a | b,
             Self::Intersection => a & b,
@@ -37,7 +37,7 @@ impl Operation {
     }
 }
 
-/// Combines the operands `stack[first..second]` and `stack[second..]`; the result takes their place.
+/// Combines the operands `stack[first..second]` and `stack[second..]`, and replaces them by the result.
 pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usize, second: usize, ray: &Ray) {
     let end = stack.len();
     match (first == second, second == end) {
@@ -61,17 +61,17 @@ pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usiz
             in_b = !in_b;
             b += 1;
         }
-        let now = operation.of(in_a, in_b);
+        let now = operation.combine(in_a, in_b);
         if now != state {
             state = now;
-            // Of faces that coincide, the first operand's is seen, if it changed anything at all. A union's operands
-            // need not be in the scene's order, but leaves are numbered in it.
+            // Of coincident faces the first operand's is seen, if it changed anything at all. A union's operands need
+            // not be in scene order, but their leaves are numbered in it.
             let (changed_a, changed_b) = ((a - group_a) % 2 == 1, (b - group_b) % 2 == 1);
             let is_first = !changed_b
                 || operation != Operation::Union
                 || stack[group_a].surface.leaf < stack[group_b].surface.leaf;
-            let event = stack[if changed_a && is_first { group_a } else { group_b }];
-            stack.push(event);
+            let crossing = stack[if changed_a && is_first { group_a } else { group_b }];
+            stack.push(crossing);
         }
         if a == second && !in_a && operation != Operation::Union {
             break;

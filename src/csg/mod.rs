@@ -1,8 +1,9 @@
-//! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and the spans of
-//! a ray inside it. A hit carries the number of a surface; this module knows no material and no light.
+//! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and a ray's spans in it.
+//! A hit carries the tag of a surface; this module knows no materials and no lights.
 
 mod build;
 mod coincidence;
+mod id;
 mod merge;
 mod passes;
 mod primitive;
@@ -12,12 +13,15 @@ mod solid;
 mod span;
 mod span_diagram;
 mod torus;
+mod traverse;
 mod tree;
 
+pub use id::{LeafIndex, MaterialTag, RootId};
 pub use merge::{Crossing, Operation};
 pub use passes::{Pass, Passes};
 pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
 pub use span_diagram::{SolidKind, SpanDiagram};
-pub use tree::{Dropped, Hit, RayStart, Stack, Tree, rank};
+pub use traverse::{Hit, RayStart, Stack, tie_break};
+pub use tree::{DroppedCounts, Tree};

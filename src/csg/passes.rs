@@ -1,67 +1,68 @@
-//! What compiling does to need less work for the same picture, piece by piece, so that it can be asked what each piece saves.
+//! The passes of the compiler: each saves work and keeps the picture, and each can be switched off to measure what it
+//! saves.
 
-/// One thing that compiling does for speed alone. None changes what is seen.
+/// A pass of the compiler, for speed alone: none changes the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pass {
-    /// What is proved empty is dropped, and what reaches none of that which it would be taken from.
-    Reach,
-    /// A union of many is a tree of unions of neighbours.
-    Neighbours,
-    /// Convex primitives that are intersected are one span.
-    Convex,
-    /// Balls, and boxes along the axes, are kept in the scene's coordinates.
-    Shapes,
-    /// Compositions are tested only by rays that meet their boxes.
-    Boxes,
-    /// An opaque union is as many solids as it has parts.
-    Apart,
-    /// Solids are in a hierarchy of boxes.
-    Hierarchy,
-    /// Whole exponents are powers by multiplication.
-    Powers,
+    /// Drops solids that are proved empty, and operands that lie outside the solid that they are subtracted from.
+    CullEmpty,
+    /// Makes a union of many operands a tree of unions of neighbours.
+    UnionTrees,
+    /// Computes the intersection of convex primitives as one span.
+    ConvexSpans,
+    /// Stores balls and axis-aligned boxes in scene coordinates.
+    SceneShapes,
+    /// Tests a composition only with rays that meet its bounding box.
+    CompositionBounds,
+    /// Splits an opaque union into its operands.
+    SplitUnions,
+    /// Puts the solids into a hierarchy of bounding boxes.
+    Bvh,
+    /// Computes integer powers by multiplication.
+    IntegerPowers,
 }
 
 impl Pass {
-    /// All of them.
+    /// All passes.
     pub const ALL: [Self; 8] = [
-        Self::Reach,
-        Self::Neighbours,
-        Self::Convex,
-        Self::Shapes,
-        Self::Boxes,
-        Self::Apart,
-        Self::Hierarchy,
-        Self::Powers,
+        Self::CullEmpty,
+        Self::UnionTrees,
+        Self::ConvexSpans,
+        Self::SceneShapes,
+        Self::CompositionBounds,
+        Self::SplitUnions,
+        Self::Bvh,
+        Self::IntegerPowers,
     ];
 
-    /// What it does, as a sentence.
-    pub fn says(self) -> &'static str {
+    /// What the pass does, for reports.
+    pub fn description(self) -> &'static str {
         match self {
-            Self::Reach => "what is empty or out of reach is dropped",
-            Self::Neighbours => "a union of many is a tree of unions of neighbours",
-            Self::Convex => "convex primitives that are intersected are one span",
-            Self::Shapes => "balls, and boxes along the axes, are kept in the scene's coordinates",
-            Self::Boxes => "compositions are tested only by rays that meet their boxes",
-            Self::Apart => "an opaque union is as many solids as it has parts",
-            Self::Hierarchy => "solids are in a hierarchy of boxes",
-            Self::Powers => "whole exponents are powers by multiplication",
+            Self::CullEmpty => "empty solids and subtrahends out of reach are dropped",
+            Self::UnionTrees => "a union of many is a tree of unions of neighbours",
+            Self::ConvexSpans => "an intersection of convex primitives is one span",
+            Self::SceneShapes => "balls and axis-aligned boxes are stored in scene coordinates",
+            Self::CompositionBounds => "a composition is tested only with rays that meet its box",
+            Self::SplitUnions => "an opaque union is split into its operands",
+            Self::Bvh => "solids are in a hierarchy of boxes",
+            Self::IntegerPowers => "integer powers are computed by multiplication",
         }
     }
 }
 
-/// Some of the reductions; all of them by default.
+/// A set of passes; all of them by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Passes(u16);
 
 impl Passes {
-    /// All but this one.
-    pub fn without(self, reduction: Pass) -> Self {
-        Self(self.0 & !(1 << reduction as u16))
+    /// The set without this pass.
+    pub fn without(self, pass: Pass) -> Self {
+        Self(self.0 & !(1 << pass as u16))
     }
 
-    /// Whether this one is among them.
-    pub fn has(self, reduction: Pass) -> bool {
-        self.0 >> reduction as u16 & 1 == 1
+    /// Whether the set contains this pass.
+    pub fn has(self, pass: Pass) -> bool {
+        self.0 >> pass as u16 & 1 == 1
     }
 }
 

@@ -1,17 +1,17 @@
-//! The solids that are not made of others.
+//! The primitives: solids that are not composed of others.
 
 use glam::DVec3;
 
 use super::torus;
 
-/// A solid that is not made of others, in its own coordinates. Sizes are positive.
+/// A primitive in its own coordinates. Sizes are positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Primitive {
-    /// The ball of radius 1 about the origin.
+    /// The ball of radius 1 around the origin.
     Sphere,
     /// All points with `normal · p ≤ offset` (the article's plane); `normal` has length 1.
     HalfSpace {
-        /// Points out of the solid.
+        /// Points out of the solid, with length 1.
         normal: DVec3,
         /// The boundary's distance from the origin along `normal`.
         offset: f64,
@@ -27,7 +27,7 @@ pub enum Primitive {
         /// Radius at y = 1.
         top: f64,
     },
-    /// The torus about the y axis: all points no farther than `tube` from the circle of radius 1 in the plane y = 0.
+    /// The torus about the y axis: all points at most `tube` away from the circle of radius 1 in the plane y = 0.
     Torus {
         /// The radius of the tube, below 1.
         tube: f64,
@@ -39,18 +39,18 @@ pub enum Primitive {
 /// The ten coefficients of [`Primitive::Quadric`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuadricCoefficients {
-    /// Of x², y², z².
+    /// Coefficients of x², y², z².
     pub squares: DVec3,
-    /// Of xy, yz, zx.
+    /// Coefficients of xy, yz, zx.
     pub products: DVec3,
-    /// Of x, y, z.
+    /// Coefficients of x, y, z.
     pub linear: DVec3,
-    /// Without a variable.
+    /// The constant term.
     pub constant: f64,
 }
 
 impl Primitive {
-    /// Whether `p`, in the primitive's own coordinates, is in it or on its boundary.
+    /// Whether `p`, in the primitive's own coordinates, lies in the primitive or on its boundary.
     pub fn contains(&self, p: DVec3) -> bool {
         let across = p.x * p.x + p.z * p.z;
         match self {
@@ -62,7 +62,7 @@ impl Primitive {
                 let radius = bottom + (top - bottom) * (p.y + 1.0) / 2.0;
                 across <= radius * radius && p.y.abs() <= 1.0
             }
-            Self::Torus { tube } => torus::side(*tube, p) <= 0.0,
+            Self::Torus { tube } => torus::implicit(*tube, p) <= 0.0,
             Self::Quadric(q) => {
                 let products = DVec3::new(p.x * p.y, p.y * p.z, p.z * p.x);
                 q.squares.dot(p * p) + q.products.dot(products) + q.linear.dot(p) + q.constant <= 0.0

@@ -1,32 +1,32 @@
-//! Where a quadratic is not positive.
+//! The quadratic inequality along a line.
 
-/// The part of a line on which a quadratic is ≤ 0.
+/// The part of a line on which a quadratic is ≤ 0. Bounds are distances along the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Intervals {
-    /// No part.
+    /// No part of the line.
     Never,
-    /// All of it.
+    /// The whole line.
     Always,
-    /// Between two distances.
+    /// Between the first bound and the second.
     Between(f64, f64),
-    /// Up to the first distance and from the second on.
+    /// Up to the first bound, and from the second on.
     Beyond(f64, f64),
 }
 
 impl Intervals {
-    /// Where `a t² + 2 b t + c ≤ 0`.
+    /// Solves a t² + 2 b t + c ≤ 0 for t.
     ///
     /// The roots come from the form that never subtracts nearly equal numbers (Kahan; Press et al., *Numerical
-    /// Recipes*, §5.6): with q = −(b ± √(b² − ac)) they are q / a and c / q, which stay right as a goes to 0.
-    pub fn of(a: f64, b: f64, c: f64) -> Self {
+    /// Recipes*, §5.6): with q = −(b ± √(b² − ac)) they are q / a and c / q, which stay accurate as a goes to 0.
+    pub fn solve(a: f64, b: f64, c: f64) -> Self {
         Self::with_discriminant(a, b, c, b * b - a * c)
     }
 
-    /// As [`Intervals::of`], for callers that know b² − ac more exactly.
+    /// Does the same for callers that know b² − ac more accurately.
     #[inline(always)]
     pub fn with_discriminant(a: f64, b: f64, c: f64, discriminant: f64) -> Self {
         if discriminant <= 0.0 || discriminant.is_nan() {
-            // A line that only touches has no stay inside, or none outside.
+            // A line that only touches the surface has no span on the other side of it.
             return if a < 0.0 || (a == 0.0 && c <= 0.0) { Self::Always } else { Self::Never };
         }
         let root = discriminant.sqrt();
@@ -41,7 +41,7 @@ impl Intervals {
         if a > 0.0 { Self::Between(first, last) } else { Self::Beyond(first, last) }
     }
 
-    /// Where `a t² + 2 b t ≤ 0`: the line starts on the surface, so that one root is exactly 0.
+    /// Solves a t² + 2 b t ≤ 0: the line starts on the surface, so that one root is exactly 0.
     pub fn from_surface(a: f64, b: f64) -> Self {
         let other = -2.0 * b / a;
         match a {
@@ -60,28 +60,28 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_vanishing_square_leaves_one_root_and_loses_nothing() {
-        assert_eq!(Intervals::of(0.0, 1.0, -4.0), Intervals::Between(f64::NEG_INFINITY, 2.0));
-        assert_eq!(Intervals::of(0.0, -1.0, -4.0), Intervals::Between(-2.0, f64::INFINITY));
-        let Intervals::Between(_, root) = Intervals::of(1e-30, 1.0, -4.0) else { panic!() };
+    fn vanishing_square_term_keeps_linear_root() {
+        assert_eq!(Intervals::solve(0.0, 1.0, -4.0), Intervals::Between(f64::NEG_INFINITY, 2.0));
+        assert_eq!(Intervals::solve(0.0, -1.0, -4.0), Intervals::Between(-2.0, f64::INFINITY));
+        let Intervals::Between(_, root) = Intervals::solve(1e-30, 1.0, -4.0) else { panic!() };
         assert_eq!(root, 2.0);
     }
 
     #[test]
-    fn a_constant_is_everywhere_or_nowhere() {
-        assert_eq!(Intervals::of(0.0, 0.0, -1.0), Intervals::Always);
-        assert_eq!(Intervals::of(0.0, 0.0, 1.0), Intervals::Never);
-        assert_eq!(Intervals::of(-1.0, 0.0, -1.0), Intervals::Always);
+    fn constant_is_whole_line_or_nothing() {
+        assert_eq!(Intervals::solve(0.0, 0.0, -1.0), Intervals::Always);
+        assert_eq!(Intervals::solve(0.0, 0.0, 1.0), Intervals::Never);
+        assert_eq!(Intervals::solve(-1.0, 0.0, -1.0), Intervals::Always);
     }
 
     proptest! {
         #[test]
-        fn the_sign_at_any_place_is_that_of_the_quadratic(
+        fn intervals_match_sign_of_quadratic(
             a in -3.0..3.0f64, b in -3.0..3.0f64, c in -3.0..3.0f64, t in -5.0..5.0f64
         ) {
             let value = (a * t + 2.0 * b) * t + c;
             prop_assume!(value.abs() > 1e-9);
-            let inside = match Intervals::of(a, b, c) {
+            let inside = match Intervals::solve(a, b, c) {
                 Intervals::Never => false,
                 Intervals::Always => true,
                 Intervals::Between(first, last) => first <= t && t <= last,
@@ -91,9 +91,9 @@ mod tests {
         }
 
         #[test]
-        fn starting_on_the_surface_is_the_case_of_no_constant(a in -3.0..3.0f64, b in -3.0..3.0f64) {
+        fn from_surface_equals_solve_with_constant_0(a in -3.0..3.0f64, b in -3.0..3.0f64) {
             prop_assume!(a.abs() > 1e-6 && b.abs() > 1e-6);
-            prop_assert_eq!(Intervals::from_surface(a, b), Intervals::of(a, b, 0.0));
+            prop_assert_eq!(Intervals::from_surface(a, b), Intervals::solve(a, b, 0.0));
         }
     }
 }

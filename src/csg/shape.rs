@@ -1,28 +1,29 @@
-//! Primitives with their transforms folded in: each is stored in the coordinates in which a ray meets it cheapest.
+//! Primitives with their transforms folded in: each is stored in the coordinates in which its intersection with a ray
+//! is cheapest.
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Primitive;
 use super::quadratic::Intervals;
-use super::span::{BOTTOM, CURVED, Spans};
+use super::span::{BOTTOM_CAP, CURVED, Spans};
 use super::torus;
+use super::{LeafIndex, MaterialTag, Primitive};
 use crate::geometry::{Aabb, Ray};
 
-/// A face of a leaf of the compiled tree: what a ray hit, and what a ray that goes on from there starts on.
+/// A face of a leaf of the compiled tree: what a ray hits, and where a secondary ray starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surface {
-    /// The leaf's number.
-    pub leaf: u32,
-    /// The leaf's face: 0 is the curved one, where there is one; the others are flat.
+    /// The leaf.
+    pub leaf: LeafIndex,
+    /// The face of the leaf: 0 is the curved one, if there is one; the others are flat.
     pub face: u8,
 }
 
-/// A placed primitive.
+/// A primitive with its transform folded in.
 #[derive(Clone, Debug)]
 pub struct Leaf {
     shape: Shape,
-    /// The caller's number for its surface.
-    pub tag: u32,
+    /// The caller's tag for its surface.
+    pub tag: MaterialTag,
 }
 
 #[derive(Clone, Debug)]
@@ -35,26 +36,26 @@ enum Shape {
         normal: DVec3,
         offset: f64,
     },
-    /// A box along the scene's axes. Its faces are numbered −x, +x, −y, +y, −z, +z.
+    /// An axis-aligned box. Its faces are numbered −x, +x, −y, +y, −z, +z.
     Block(Aabb),
-    /// The sphere, cube, cylinder, cone and torus in their own coordinates: the ray is carried there, where distances
-    /// along it stay the same since its direction is carried with it and not made 1 again.
+    /// Sphere, cube, cylinder, cone and torus are stored in local coordinates. The ray is transformed there; its
+    /// direction is not normalised again, so that distances along it stay the same.
     Ellipsoid(LocalFrame),
     Cube(LocalFrame),
     Cylinder(LocalFrame),
-    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, the tip if there is one: rays
-    /// are measured from there, since near a tip all is small that decides whether it is hit.
+    /// The radius at height y is `waist + slope (y − base)`. The base is the narrower end, which may be the apex:
+    /// coordinates are taken relative to it, since near an apex all quantities that decide about a hit are small.
     Cone {
-        own: LocalFrame,
+        frame: LocalFrame,
         base: f64,
         waist: f64,
         slope: f64,
     },
     Torus {
-        own: LocalFrame,
+        frame: LocalFrame,
         tube: f64,
     },
-    /// With q = p − centre: q · (square q) + 2 half_linear · q + constant ≤ 0.
+    /// q · (square q) + 2 half_linear · q + constant ≤ 0, with q = p − centre.
     Quadric {
         centre: DVec3,
         square: DMat3,
@@ -65,23 +66,29 @@ enum Shape {
 
 #[derive(Clone, Debug)]
 struct LocalFrame {
-    own_from_scene: DAffine3,
-    /// Outward normals of the faces at x = 1, y = 1, z = 1, in the scene and of length 1.
+    local_from_scene: DAffine3,
+    /// Outward unit normals of the faces at x = 1, y = 1, z = 1, in scene coordinates.
     axis_normals: [DVec3; 3],
 }
 
 impl Leaf {
-    /// Folds the transform into the primitive; also gives the least box along the axes that surely holds it. With
-    /// `shapes`, balls and boxes along the axes are stored as such.
-    pub(super) fn new(primitive: &Primitive, scene_from_own: &DAffine3, tag: u32, shapes: bool) -> (Self, Aabb) {
-        let own_from_scene = scene_from_own.inverse();
-        let to_own = own_from_scene.matrix3;
-        let columns = [scene_from_own.matrix3.x_axis, scene_from_own.matrix3.y_axis, scene_from_own.matrix3.z_axis];
-        let centre = scene_from_own.translation;
-        let own = || LocalFrame {
-            own_from_scene,
-            // Normals go by the inverse transpose, whose columns are the rows of the inverse.
-            axis_normals: [0, 1, 2].map(|axis| to_own.row(axis).normalize()),
+    /// Folds the transform into the primitive. Also returns an axis-aligned box that contains it in spite of rounding.
+    /// With `shapes`, balls and axis-aligned boxes are stored as such.
+    pub(super) fn new(
+        primitive: &Primitive,
+        scene_from_local: &DAffine3,
+        tag: MaterialTag,
+        shapes: bool,
+    ) -> (Self, Aabb) {
+        let local_from_scene = scene_from_local.inverse();
+        let to_local = local_from_scene.matrix3;
+        let columns =
+            [scene_from_local.matrix3.x_axis, scene_from_local.matrix3.y_axis, scene_from_local.matrix3.z_axis];
+        let centre = scene_from_local.translation;
+        let frame = || LocalFrame {
+            local_from_scene,
+            // Normals are transformed by the inverse transpose, whose columns are the rows of the inverse.
+            axis_normals: [0, 1, 2].map(|axis| to_local.row(axis).normalize()),
         };
         let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
         let about = |half: DVec3| Aabb { min: centre - half, max: centre + half };
@@ -90,21 +97,21 @@ impl Leaf {
                 Some(radius) => (Shape::Ball { centre, radius }, about(DVec3::splat(radius))),
                 None => {
                     let half = columns.iter().map(|&column| column * column).sum::<DVec3>().map(f64::sqrt);
-                    (Shape::Ellipsoid(own()), about(half))
+                    (Shape::Ellipsoid(frame()), about(half))
                 }
             },
             Primitive::HalfSpace { normal, offset } => {
-                let carried = to_own.transpose() * normal;
+                let carried = to_local.transpose() * normal;
                 let length = carried.length();
-                let (normal, offset) = (carried / length, (offset - normal.dot(own_from_scene.translation)) / length);
+                let (normal, offset) = (carried / length, (offset - normal.dot(local_from_scene.translation)) / length);
                 (Shape::HalfSpace { normal, offset }, half_space_bounds(normal, offset))
             }
             Primitive::Cube => {
-                let bounds = Aabb::of_cube(scene_from_own);
+                let bounds = Aabb::of_cube(scene_from_local);
                 let along_axes = shapes && (0..3).all(|i| (0..3).all(|j| i == j || columns[i][j] == 0.0));
-                (if along_axes { Shape::Block(bounds) } else { Shape::Cube(own()) }, bounds)
+                (if along_axes { Shape::Block(bounds) } else { Shape::Cube(frame()) }, bounds)
             }
-            Primitive::Cylinder => (Shape::Cylinder(own()), about(columns[1].abs() + round(columns[0], columns[2]))),
+            Primitive::Cylinder => (Shape::Cylinder(frame()), about(columns[1].abs() + round(columns[0], columns[2]))),
             Primitive::Cone { bottom, top } => {
                 let disc = |radius: f64, y: f64| {
                     let (middle, half) = (centre + columns[1] * y, round(columns[0], columns[2]) * radius);
@@ -112,15 +119,15 @@ impl Leaf {
                 };
                 let (base, waist) = if top < bottom { (1.0, top) } else { (-1.0, bottom) };
                 (
-                    Shape::Cone { own: own(), base, waist, slope: (top - bottom) / 2.0 },
+                    Shape::Cone { frame: frame(), base, waist, slope: (top - bottom) / 2.0 },
                     disc(bottom, -1.0).union(disc(top, 1.0)),
                 )
             }
             Primitive::Torus { tube } => {
-                // What a ball of the tube's radius covers whose centre goes round the circle.
+                // The volume swept by a ball of the tube's radius along the circle.
                 let [x, y, z] = columns;
                 let ball = (x * x + y * y + z * z).map(f64::sqrt) * tube;
-                (Shape::Torus { own: own(), tube }, about(round(x, z) + ball))
+                (Shape::Torus { frame: frame(), tube }, about(round(x, z) + ball))
             }
             Primitive::Quadric(q) => {
                 let [xy, yz, zx] = (q.products / 2.0).to_array();
@@ -131,8 +138,8 @@ impl Leaf {
                 );
                 let shape = Shape::Quadric {
                     centre,
-                    square: to_own.transpose() * square * to_own,
-                    half_linear: to_own.transpose() * q.linear / 2.0,
+                    square: to_local.transpose() * square * to_local,
+                    half_linear: to_local.transpose() * q.linear / 2.0,
                     constant: q.constant,
                 };
                 (shape, Aabb::ALL)
@@ -141,8 +148,8 @@ impl Leaf {
         (Self { shape, tag }, bounds.padded())
     }
 
-    /// The ray's stays inside, over the whole line. `start` is the face of this leaf that the ray starts on, if it
-    /// does: the root there is then 0 by definition, whatever rounding made of the origin.
+    /// Computes the spans of the whole line inside the leaf. `start` is the face of this leaf on which the ray starts,
+    /// if any: the root there is 0 by definition, whatever rounding did to the origin.
     #[inline(always)]
     pub(super) fn spans(&self, ray: &Ray, start: Option<u8>) -> Spans {
         match &self.shape {
@@ -152,8 +159,8 @@ impl Leaf {
                 let inside = if start.is_some() {
                     Intervals::from_surface(1.0, b)
                 } else {
-                    // The discriminant by the line's closest approach: exact for far and small balls
-                    // (Haines, Günther and Akenine-Möller, Ray Tracing Gems, ch. 7).
+                    // Discriminant from the line's closest approach to the centre: accurate for far and for small balls
+                    // (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7).
                     let closest = f - ray.direction * b;
                     let squared = radius * radius;
                     Intervals::with_discriminant(
@@ -178,12 +185,12 @@ impl Leaf {
             Shape::Block(block) => {
                 Spans::slabs(ray.origin, ray.direction, block.min.to_array(), block.max.to_array(), start)
             }
-            Shape::Cube(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Cube(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 Spans::slabs(o, d, [-1.0; 3], [1.0; 3], start)
             }
-            Shape::Ellipsoid(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Ellipsoid(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 let (a, b) = (d.length_squared(), o.dot(d));
                 Spans::curved(if start.is_some() {
                     Intervals::from_surface(a, b)
@@ -192,8 +199,8 @@ impl Leaf {
                     Intervals::with_discriminant(a, b, o.length_squared() - 1.0, a * (1.0 - closest.length_squared()))
                 })
             }
-            Shape::Cylinder(own) => {
-                let (o, d) = own.carry(ray);
+            Shape::Cylinder(frame) => {
+                let (o, d) = frame.ray_to_local(ray);
                 let (a, b) = (d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z);
                 let inside = if start == Some(CURVED) {
                     Intervals::from_surface(a, b)
@@ -203,8 +210,8 @@ impl Leaf {
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
-            Shape::Cone { own, base, waist, slope } => {
-                let (o, d) = own.carry(ray);
+            Shape::Cone { frame, base, waist, slope } => {
+                let (o, d) = frame.ray_to_local(ray);
                 let from_base = o - DVec3::Y * *base;
                 let rise = slope * d.y;
                 let a = d.x * d.x + d.z * d.z - rise * rise;
@@ -214,13 +221,13 @@ impl Leaf {
                 } else {
                     from_closest_approach(from_base, d, |o| {
                         let radius = waist + slope * o.y;
-                        Intervals::of(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
+                        Intervals::solve(a, half(o), o.x * o.x + o.z * o.z - radius * radius)
                     })
                 };
                 Spans::capped(inside, o.y, d.y, start)
             }
-            Shape::Torus { own, tube } => {
-                let (o, d) = own.carry(ray);
+            Shape::Torus { frame, tube } => {
+                let (o, d) = frame.ray_to_local(ray);
                 torus::spans(*tube, o, d, start.is_some())
             }
             Shape::Quadric { centre, square, half_linear, constant } => {
@@ -233,14 +240,14 @@ impl Leaf {
                 } else {
                     from_closest_approach(o, d, |o| {
                         let c = (*square * o + 2.0 * *half_linear).dot(o) + constant;
-                        Intervals::of(a, half(o), c)
+                        Intervals::solve(a, half(o), c)
                     })
                 })
             }
         }
     }
 
-    /// What kind of primitive it has become.
+    /// The name of the shape that the primitive has become.
     pub fn kind(&self) -> &'static str {
         match &self.shape {
             Shape::Ball { .. } => "ball",
@@ -255,35 +262,35 @@ impl Leaf {
         }
     }
 
-    /// Whether a ray has one stay inside at most.
+    /// Whether every ray has at most one span inside.
     pub(super) fn is_convex(&self) -> bool {
         !matches!(self.shape, Shape::Quadric { .. } | Shape::Torus { .. })
     }
 
-    /// The normal of length 1 that points out of the leaf, at a point of one of its faces.
+    /// The outward unit normal at a point of one of the faces.
     pub fn normal(&self, face: u8, point: DVec3) -> DVec3 {
         match &self.shape {
             Shape::Ball { centre, radius } => (point - *centre) / *radius,
             Shape::HalfSpace { normal, .. } => *normal,
-            Shape::Block(_) => DVec3::AXES[usize::from(face / 2)] * side(face),
-            Shape::Cube(own) => own.axis_normals[usize::from(face / 2)] * side(face),
-            Shape::Cylinder(own) | Shape::Cone { own, .. } if face != CURVED => {
-                own.axis_normals[1] * side(face - BOTTOM)
+            Shape::Block(_) => DVec3::AXES[usize::from(face / 2)] * face_sign(face),
+            Shape::Cube(frame) => frame.axis_normals[usize::from(face / 2)] * face_sign(face),
+            Shape::Cylinder(frame) | Shape::Cone { frame, .. } if face != CURVED => {
+                frame.axis_normals[1] * face_sign(face - BOTTOM_CAP)
             }
-            Shape::Ellipsoid(own) => own.carry_back(own.point(point)),
-            Shape::Cylinder(own) => {
-                let q = own.point(point);
-                own.carry_back(DVec3::new(q.x, 0.0, q.z))
+            Shape::Ellipsoid(frame) => frame.normal_to_scene(frame.point_to_local(point)),
+            Shape::Cylinder(frame) => {
+                let q = frame.point_to_local(point);
+                frame.normal_to_scene(DVec3::new(q.x, 0.0, q.z))
             }
-            Shape::Cone { own, base, waist, slope } => {
-                let q = own.point(point);
-                own.carry_back(DVec3::new(q.x, -slope * (waist + slope * (q.y - base)), q.z))
+            Shape::Cone { frame, base, waist, slope } => {
+                let q = frame.point_to_local(point);
+                frame.normal_to_scene(DVec3::new(q.x, -slope * (waist + slope * (q.y - base)), q.z))
             }
-            Shape::Torus { own, .. } => {
-                let q = own.point(point);
-                // From the nearest point of the circle.
+            Shape::Torus { frame, .. } => {
+                let q = frame.point_to_local(point);
+                // The direction from the nearest point of the circle.
                 let outward = 1.0 - 1.0 / q.x.hypot(q.z);
-                own.carry_back(DVec3::new(q.x * outward, q.y, q.z * outward))
+                frame.normal_to_scene(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
             Shape::Quadric { centre, square, half_linear, .. } => {
                 (*square * (point - *centre) + *half_linear).normalize_or(DVec3::Y)
@@ -293,23 +300,23 @@ impl Leaf {
 }
 
 impl LocalFrame {
-    fn carry(&self, ray: &Ray) -> (DVec3, DVec3) {
-        (self.own_from_scene.transform_point3(ray.origin), self.own_from_scene.transform_vector3(ray.direction))
+    fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        (self.local_from_scene.transform_point3(ray.origin), self.local_from_scene.transform_vector3(ray.direction))
     }
 
-    fn point(&self, point: DVec3) -> DVec3 {
-        self.own_from_scene.transform_point3(point)
+    fn point_to_local(&self, point: DVec3) -> DVec3 {
+        self.local_from_scene.transform_point3(point)
     }
 
-    /// A normal from own coordinates into the scene, by the inverse transpose of the way there.
-    fn carry_back(&self, normal: DVec3) -> DVec3 {
-        // The zero vector is the apex of a cone, where no normal is right.
-        (self.own_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
+    /// Transforms a normal from local to scene coordinates, by the inverse transpose of the transform of points.
+    fn normal_to_scene(&self, normal: DVec3) -> DVec3 {
+        // The zero vector belongs to the apex of a cone, where no normal is defined.
+        (self.local_from_scene.matrix3.transpose() * normal).normalize_or(self.axis_normals[1])
     }
 }
 
-/// Solves from the line's closest approach to the origin of `o` instead of from `o`, which may be far: there the
-/// coefficients are small and their differences exact. `d` need not have length 1.
+/// Solves relative to the line's closest approach to the origin instead of relative to `o`, which may be far away:
+/// there the coefficients are small and their differences accurate. `d` need not have length 1.
 fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals) -> Intervals {
     let shift = -o.dot(d) / d.length_squared();
     match solve(o + d * shift) {
@@ -320,11 +327,11 @@ fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals)
 }
 
 /// −1 for an even face, 1 for an odd one.
-fn side(face: u8) -> f64 {
+fn face_sign(face: u8) -> f64 {
     if face.is_multiple_of(2) { -1.0 } else { 1.0 }
 }
 
-/// The factor by which a map with these columns scales in every direction, if it is the same in all.
+/// The scale factor of a map with these columns, if it is the same in all directions.
 fn uniform_scale(columns: [DVec3; 3]) -> Option<f64> {
     const ROUNDING: f64 = 1e-14;
     let squared = columns[0].length_squared();
@@ -334,7 +341,7 @@ fn uniform_scale(columns: [DVec3; 3]) -> Option<f64> {
     (skew <= ROUNDING * squared && stretch <= ROUNDING * squared).then(|| squared.sqrt())
 }
 
-/// A half-space is bounded on one side if its normal lies along an axis.
+/// The bounds of a half-space: bounded on one side if its normal lies along an axis.
 fn half_space_bounds(normal: DVec3, offset: f64) -> Aabb {
     let mut bounds = Aabb::ALL;
     for axis in 0..3 {

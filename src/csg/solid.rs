@@ -1,35 +1,35 @@
-//! The tree of boolean operations, as a scene gives it.
+//! The tree of boolean operations as the scene states it.
 
 use glam::{DAffine3, DVec3};
 
-use super::Primitive;
+use super::{MaterialTag, Primitive};
 
 /// A solid: a placed primitive, or a composition of solids.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
-    /// A primitive at its place.
+    /// A primitive with its transform.
     Placed {
-        /// What it is, in its own coordinates.
+        /// The primitive in its own coordinates.
         primitive: Primitive,
-        /// Puts it into the scene; invertible.
-        scene_from_own: DAffine3,
-        /// The caller's number for its surface (which material it has).
-        tag: u32,
+        /// Transforms the primitive's coordinates to the scene's; invertible.
+        scene_from_local: DAffine3,
+        /// The caller's tag for its surface: in a scene, its material.
+        tag: MaterialTag,
     },
-    /// What is in at least one of them.
+    /// The points in at least one operand.
     Union(Vec<Solid>),
-    /// What is in all of them; nothing, if there are none.
+    /// The points in all operands; no points if there are no operands.
     Intersection(Vec<Solid>),
-    /// What is in the first and in none of the others.
+    /// The points in the first operand and in none of the others.
     Difference(Vec<Solid>),
 }
 
 impl Solid {
-    /// Whether `point` is in the solid; for points on its boundary the answer may be either.
+    /// Whether `point` lies in the solid. On its boundary either answer is possible.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
-            Self::Placed { primitive, scene_from_own, .. } => {
-                primitive.contains(scene_from_own.inverse().transform_point3(point))
+            Self::Placed { primitive, scene_from_local, .. } => {
+                primitive.contains(scene_from_local.inverse().transform_point3(point))
             }
             Self::Union(solids) => solids.iter().any(|solid| solid.contains(point)),
             Self::Intersection(solids) => !solids.is_empty() && solids.iter().all(|solid| solid.contains(point)),

@@ -1,4 +1,4 @@
-//! A ray's stays inside one leaf.
+//! A ray's spans inside one leaf.
 
 use glam::DVec3;
 
@@ -7,9 +7,9 @@ use super::quadratic::Intervals;
 /// The curved face of a ball, cylinder, cone, torus or quadric.
 pub(super) const CURVED: u8 = 0;
 /// The lower cap of a cylinder or cone; the upper one follows.
-pub(super) const BOTTOM: u8 = 1;
+pub(super) const BOTTOM_CAP: u8 = 1;
 
-/// A ray's stay inside a leaf: it enters through one face and leaves through another.
+/// A span of a ray inside a leaf, from the face where it enters to the face where it leaves; distances along the ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub from: f64,
@@ -18,7 +18,7 @@ pub(super) struct Span {
     pub to_face: u8,
 }
 
-/// A leaf's spans in order: at most two, as a quadric and a torus may have.
+/// The spans of a ray in a leaf, in order: at most two, as quadrics and tori may have.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spans {
     pub first: Option<Span>,
@@ -26,7 +26,7 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// One face bounds the whole leaf.
+    /// The spans in a leaf with a single, curved face.
     #[inline(always)]
     pub fn curved(inside: Intervals) -> Self {
         let span = |from: f64, to: f64| (from < to).then_some(Span { from, from_face: CURVED, to, to_face: CURVED });
@@ -40,11 +40,11 @@ impl Spans {
         }
     }
 
-    /// What of `inside` lies between the caps at y = −1 and y = 1. The leaf is convex, so this is one span: where
-    /// rounding at an apex leaves two, the longer.
+    /// Clips `inside` to the slab between the caps at y = −1 and y = 1. The leaf is convex, so the result is one span:
+    /// if rounding at an apex leaves two, the longer.
     pub fn capped(inside: Intervals, y: f64, speed: f64, start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
-        if !span.cut([-1.0, 1.0], y, speed, BOTTOM, start) {
+        if !span.clip_slab([-1.0, 1.0], y, speed, BOTTOM_CAP, start) {
             return Self::default();
         }
         let clip = |from: f64, to: f64| {
@@ -69,12 +69,12 @@ impl Spans {
         Self { first, second: None }
     }
 
-    /// A box in the coordinates of `o` and `d`.
+    /// The span in a box, in the coordinates of `o` and `d`.
     #[inline]
     pub fn slabs(o: DVec3, d: DVec3, min: [f64; 3], max: [f64; 3], start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
         for axis in 0..3 {
-            if !span.cut([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
+            if !span.clip_slab([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
                 return Self::default();
             }
         }
@@ -83,15 +83,15 @@ impl Spans {
 }
 
 impl Span {
-    /// Keeps what lies between two parallel faces at `places`, numbered `face` and `face + 1`; false if that is
-    /// nothing.
+    /// Clips the span to the slab between two parallel planes, whose faces are `face` and `face + 1`. Returns false if
+    /// nothing is left.
     #[inline(always)]
-    fn cut(&mut self, places: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
+    fn clip_slab(&mut self, planes: [f64; 2], position: f64, speed: f64, face: u8, start: Option<u8>) -> bool {
         if speed == 0.0 {
-            return places[0] < position && position < places[1];
+            return planes[0] < position && position < planes[1];
         }
         let distance = |side: u8| {
-            if start == Some(face + side) { 0.0 } else { (places[usize::from(side)] - position) / speed }
+            if start == Some(face + side) { 0.0 } else { (planes[usize::from(side)] - position) / speed }
         };
         let (near, far) = if speed > 0.0 { (0, 1) } else { (1, 0) };
         let (from, to) = (distance(near), distance(far));

@@ -1,29 +1,30 @@
-//! A ray's stays in a solid and in all that it is made of (the article's Figure 2).
+//! A ray's spans in a solid and in all its operands (the article's Figure 2).
 
 use super::coincidence::{coincide, without_slivers};
+use super::id::NodeIndex;
 use super::tree::NodeKind;
-use super::{Crossing, Operation, RayStart, Surface, Tree};
+use super::{Crossing, LeafIndex, MaterialTag, Operation, RayStart, RootId, Surface, Tree};
 use crate::geometry::Ray;
 
-/// A ray's stays in a solid as it was compiled, and in its operands.
+/// A ray's spans in a compiled solid, and in its operands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpanDiagram {
-    /// What the solid is.
-    pub what: SolidKind,
+    /// The kind of solid.
+    pub kind: SolidKind,
     /// Where the ray enters and leaves it, in order; distances along the ray, which may be infinite or negative.
-    pub stays: Vec<[f64; 2]>,
-    /// What it is made of.
+    pub spans: Vec<[f64; 2]>,
+    /// The operands; none for a primitive.
     pub operands: Vec<SpanDiagram>,
 }
 
-/// What a solid is.
+/// The kind of a solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SolidKind {
     /// A primitive.
     Primitive {
-        /// Of its surface (which material it has).
-        tag: u32,
-        /// What kind it is.
+        /// The tag of its surface: in a scene, its material.
+        tag: MaterialTag,
+        /// The name of its shape.
         kind: &'static str,
     },
     /// A composition.
@@ -31,52 +32,53 @@ pub enum SolidKind {
 }
 
 impl Tree {
-    /// The stays of a whole line, of which `ray` is a part, in the solid `root` and in its operands. `start` is where the
-    /// ray starts, if it starts on a solid.
-    pub fn figure(&self, root: u32, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
+    /// The spans of the whole line through `ray` in the solid `root` and in its operands. `start` is the surface on
+    /// which the ray starts, if it starts on one.
+    pub fn span_diagram(&self, root: RootId, ray: &Ray, start: Option<RayStart>) -> SpanDiagram {
         let start = start.filter(|start| start.root == root).map(|start| start.surface);
-        let mut events = self.node_events(root, ray, start);
-        // As a ray meets them.
-        let is_leaf = matches!(self.nodes[root as usize].kind, NodeKind::Leaf(_));
+        let mut crossings = self.node_crossings(root.node(), ray, start);
+        // Slivers are dropped, as for a ray.
+        let is_leaf = matches!(self.nodes[root.node().index()].kind, NodeKind::Leaf(_));
         if start.is_none() && !is_leaf {
-            let are_one = |earlier, later| coincide(&self.leaves, earlier, later, ray);
-            events = without_slivers(&events, are_one).collect();
+            let is_sliver = |earlier, later| coincide(&self.leaves, earlier, later, ray);
+            crossings = without_slivers(&crossings, is_sliver).collect();
         }
-        self.figure_of(root, &events, ray, start)
+        self.node_diagram(root.node(), &crossings, ray, start)
     }
 
-    fn node_events(&self, node: u32, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
+    fn node_crossings(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
         const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-        let mut events = Vec::new();
-        self.events(node, ray, start, EVERYWHERE, &mut events);
-        events
+        let mut crossings = Vec::new();
+        self.push_crossings(node, ray, start, EVERYWHERE, &mut crossings);
+        crossings
     }
 
-    /// The figure of a node with these events.
-    fn figure_of(&self, node: u32, events: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
-        let (what, operands) = match &self.nodes[node as usize].kind {
+    /// The diagram of a node with these crossings.
+    fn node_diagram(&self, node: NodeIndex, crossings: &[Crossing], ray: &Ray, start: Option<Surface>) -> SpanDiagram {
+        let (kind, operands) = match &self.nodes[node.index()].kind {
             NodeKind::Leaf(leaf) => (self.primitive(*leaf), Vec::new()),
             NodeKind::Convex(leaves) => {
-                let operand = |&leaf: &u32| {
-                    let spans = self.leaf_stays(leaf, ray, start);
-                    SpanDiagram { what: self.primitive(leaf), stays: stays(&spans), operands: Vec::new() }
+                let operand = |&leaf: &LeafIndex| {
+                    let crossings = self.leaf_crossings(leaf, ray, start);
+                    SpanDiagram { kind: self.primitive(leaf), spans: spans_of(&crossings), operands: Vec::new() }
                 };
                 (SolidKind::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
             }
             NodeKind::Composition { operation, children } => {
-                let operand = |&child: &u32| self.figure_of(child, &self.node_events(child, ray, start), ray, start);
+                let operand =
+                    |&child: &NodeIndex| self.node_diagram(child, &self.node_crossings(child, ray, start), ray, start);
                 (SolidKind::Composition(*operation), children.iter().map(operand).collect())
             }
         };
-        SpanDiagram { what, stays: stays(events), operands }
+        SpanDiagram { kind, spans: spans_of(crossings), operands }
     }
 
-    fn primitive(&self, leaf: u32) -> SolidKind {
-        let leaf = &self.leaves[leaf as usize];
+    fn primitive(&self, leaf: LeafIndex) -> SolidKind {
+        let leaf = &self.leaves[leaf.index()];
         SolidKind::Primitive { tag: leaf.tag, kind: leaf.kind() }
     }
 }
 
-fn stays(events: &[Crossing]) -> Vec<[f64; 2]> {
-    events.chunks_exact(2).map(|pair| [pair[0].t, pair[1].t]).collect()
+fn spans_of(crossings: &[Crossing]) -> Vec<[f64; 2]> {
+    crossings.chunks_exact(2).map(|pair| [pair[0].t, pair[1].t]).collect()
 }

@@ -1,13 +1,15 @@
-//! Where a line is inside a torus.
+//! The spans of a line in a torus.
 //!
-//! The torus lies about the y axis; its ring has radius 1, its tube a radius below 1. A line's place q(τ) is inside where
+//! The torus lies about the y axis; its ring has radius 1, its tube a radius below 1. The point q(τ) of a line is
+//! inside where
 //!
 //! F = (|q|² + 1 − tube²)² − 4 (x² + z²) ≤ 0,
 //!
-//! a quartic in τ. Closed forms lose its roots from afar. Here the line is taken from where it comes closest to the centre,
-//! so that all coefficients are small; a root of the quartic lies between two places where its derivative vanishes, and
-//! those lie between the roots of the second derivative: in each piece there is one root or none, and Newton's method that
-//! never leaves the piece finds it (C. Yuksel, *High-Performance Polynomial Root Finding for Graphics*, 2022).
+//! a quartic in τ. Closed forms lose its roots when the origin is far away. Here τ is measured from the line's closest
+//! approach to the centre, so that all coefficients are small. A root of the quartic lies between two roots of its
+//! derivative, and those lie between the roots of the second derivative: each interval holds one root or none, and
+//! Newton's method, kept inside the interval, finds it (C. Yuksel, *High-Performance Polynomial Root Finding for
+//! Graphics*, 2022).
 
 use std::ops::Range;
 
@@ -15,79 +17,79 @@ use glam::DVec3;
 
 use super::span::{CURVED, Span, Spans};
 
-/// The stays of the line `o + d t` inside the torus. If it `starts` on the torus, one root is exactly 0, whatever rounding
-/// made of `o`.
-pub(super) fn spans(tube: f64, o: DVec3, d: DVec3, starts: bool) -> Spans {
+/// Computes the spans of the line `o + d t` in the torus. If it starts `on_surface`, one root is exactly 0, whatever
+/// rounding did to `o`.
+pub(super) fn spans(tube: f64, o: DVec3, d: DVec3, on_surface: bool) -> Spans {
     let length = d.length();
     let direction = d / length;
-    if starts {
+    if on_surface {
         return from_surface(tube, o, direction).spans(0.0, length);
     }
-    // In one rounding: afar, d · shift would lose what o + d · shift is left with.
+    // Fused, with one rounding: from afar, d · shift alone would lose the digits that o + d · shift is left with.
     let shift = -o.dot(direction);
     let [x, y, z] = [0, 1, 2].map(|axis| direction[axis].mul_add(shift, o[axis]));
     from_closest_approach(tube, DVec3::new(x, y, z), direction).spans(shift, length)
 }
 
-/// Where a place lies: below 0 inside the torus, above 0 outside. It has the sign of F, of which it is a factor, and is
-/// exact where F, for a thin tube, is a difference of nearly equal numbers.
-pub(super) fn side(tube: f64, q: DVec3) -> f64 {
+/// The implicit function of the torus: below 0 inside, above 0 outside. It is a factor of F with F's sign, and accurate
+/// where F, for a thin tube, is a difference of nearly equal numbers.
+pub(super) fn implicit(tube: f64, q: DVec3) -> f64 {
     let from_ring = q.x.hypot(q.z) - 1.0;
     from_ring * from_ring + q.y * q.y - tube * tube
 }
 
-/// The places where a line crosses the torus, in order, an even number.
+/// Roots along a line, in order. Those of the quartic are even in number.
 #[derive(Default)]
-struct Crossings {
-    places: [f64; 4],
+struct Roots {
+    values: [f64; 4],
     count: usize,
 }
 
-impl Crossings {
+impl Roots {
     fn add(&mut self, place: f64) {
-        if let Some(free) = self.places.get_mut(self.count) {
+        if let Some(free) = self.values.get_mut(self.count) {
             *free = place;
             self.count += 1;
         }
     }
 
-    /// With distances for places: each is `shift` more, and `length` of them are one.
+    /// Turns roots into spans, with t = (τ + `shift`) / `length`.
     fn spans(&self, shift: f64, length: f64) -> Spans {
         let span = |first: usize| {
-            let [from, to] = [first, first + 1].map(|index| (shift + self.places[index]) / length);
-            let is_one = first + 1 < self.count && from < to;
-            is_one.then_some(Span { from, from_face: CURVED, to, to_face: CURVED })
+            let [from, to] = [first, first + 1].map(|index| (shift + self.values[index]) / length);
+            let is_span = first + 1 < self.count && from < to;
+            is_span.then_some(Span { from, from_face: CURVED, to, to_face: CURVED })
         };
         Spans { first: span(0), second: span(2) }
     }
 }
 
-/// Of the line `p + u τ`, `u` of length 1, whose closest approach to the centre is near τ = 0.
-fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Crossings {
-    let mut crossings = Crossings::default();
-    let Some(range) = near(tube, p, u) else { return crossings };
-    // F = τ⁴ + 4 along τ³ + square τ² + …; `along` is 0 but for rounding.
+/// The roots along the line `p + u τ`, `u` of length 1, whose closest approach to the centre is near τ = 0.
+fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
+    let mut roots = Roots::default();
+    let Some(range) = bounding_range(tube, p, u) else { return roots };
+    // F = τ⁴ + 4 along τ³ + square τ² + …; `along` is 0 up to rounding.
     let along = p.dot(u);
     let k = p.length_squared() + 1.0 - tube * tube;
     let square = 4.0 * along * along + 2.0 * k - 4.0 * (u.x * u.x + u.z * u.z);
     let linear = 4.0 * along * k - 8.0 * (p.x * u.x + p.z * u.z);
     let slope = Cubic([3.0 * along, square / 2.0, linear / 4.0]);
-    let turns = slope.roots(&range, false);
+    let extrema = slope.roots(&range, false);
     let value = |place: f64| {
         let q = p + u * place;
         let ring = q.x.hypot(q.z);
         let outward = (q.x * u.x + q.z * u.z) / ring;
-        (side(tube, q), 2.0 * ((ring - 1.0) * outward + q.y * u.y))
+        (implicit(tube, q), 2.0 * ((ring - 1.0) * outward + q.y * u.y))
     };
-    for_each_root(&range, &turns.places[..turns.count], [1.0, 1.0], value, |place| crossings.add(place));
-    crossings
+    for_each_root(&range, &extrema.values[..extrema.count], [1.0, 1.0], value, |place| roots.add(place));
+    roots
 }
 
-/// Of the line `o + u τ`, `u` of length 1, where `o` is on the torus: F / τ is a cubic, and 0 the other root.
-fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Crossings {
-    let mut crossings = Crossings::default();
-    // Whatever the range, it holds the start.
-    let range = near(tube, o, u).map_or(0.0..0.0, |range| range.start.min(0.0)..range.end.max(0.0));
+/// The roots along the line `o + u τ`, `u` of length 1, where `o` is on the torus: 0, and those of the cubic F / τ.
+fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Roots {
+    let mut roots = Roots::default();
+    // The range contains the start, whatever rounding says.
+    let range = bounding_range(tube, o, u).map_or(0.0..0.0, |range| range.start.min(0.0)..range.end.max(0.0));
     let (along, ring) = (o.dot(u), o.x.hypot(o.z));
     // On the torus |o|² + 1 − tube² is twice the distance from the axis.
     let outward = (o.x * u.x + o.z * u.z) / ring;
@@ -97,27 +99,27 @@ fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Crossings {
         8.0 * ring * ((ring - 1.0) * outward + o.y * u.y),
     ]);
     let others = cubic.roots(&range, true);
-    let mut places = [others.places[0], others.places[1], others.places[2], 0.0];
+    let mut values = [others.values[0], others.values[1], others.values[2], 0.0];
     let count = others.count + 1;
-    places[others.count] = 0.0;
-    places[..count].sort_unstable_by(f64::total_cmp);
-    // The cubic changes its sign once or three times.
-    places[..count & !1].iter().for_each(|&place| crossings.add(place));
-    crossings
+    values[others.count] = 0.0;
+    values[..count].sort_unstable_by(f64::total_cmp);
+    // An odd number with 0 is even: the cubic changes its sign once or three times.
+    values[..count & !1].iter().for_each(|&place| roots.add(place));
+    roots
 }
 
-/// The part of the line `p + u τ` outside of which there is no torus: it lies in a ball, and between two planes.
-fn near(tube: f64, p: DVec3, u: DVec3) -> Option<Range<f64>> {
-    /// Rounding must not cut off anything.
-    const MORE: f64 = 1.0 + 1e-9;
+/// A range of the line `p + u τ` that contains its part in the torus: the torus lies in a ball and between two planes.
+fn bounding_range(tube: f64, p: DVec3, u: DVec3) -> Option<Range<f64>> {
+    /// Keeps rounding from cutting off a part of the torus.
+    const MARGIN: f64 = 1.0 + 1e-9;
     let along = p.dot(u);
-    let reach = (1.0 + tube) * MORE;
+    let reach = (1.0 + tube) * MARGIN;
     let half = (reach * reach - (p - u * along).length_squared()).max(-1.0);
     if half <= 0.0 {
         return None;
     }
     let (mut from, mut to) = (-along - half.sqrt(), half.sqrt() - along);
-    let high = tube * MORE;
+    let high = tube * MARGIN;
     if u.y == 0.0 {
         return (p.y.abs() < high).then_some(from..to);
     }
@@ -130,16 +132,16 @@ fn near(tube: f64, p: DVec3, u: DVec3) -> Option<Range<f64>> {
 struct Cubic([f64; 3]);
 
 impl Cubic {
-    /// The roots in `range`. If its ends are beyond all roots by definition, whatever rounding says of them, there is an odd
-    /// number.
-    fn roots(&self, range: &Range<f64>, beyond: bool) -> Crossings {
+    /// The roots in `range`. With `beyond` the ends of the range count as beyond all roots, whatever rounding says of
+    /// them, so that the number of roots is odd.
+    fn roots(&self, range: &Range<f64>, beyond: bool) -> Roots {
         let Self([b, c, e]) = *self;
         let value = |place: f64| (((place + b) * place + c) * place + e, (3.0 * place + 2.0 * b) * place + c);
         let ends = if beyond { [-1.0, 1.0] } else { [range.start, range.end].map(|end| value(end).0) };
-        // 3 τ² + 2 b τ + c, without the difference of nearly equal numbers.
+        // Solves 3 τ² + 2 b τ + c = 0 without subtracting nearly equal numbers.
         let discriminant = b * b - 3.0 * c;
-        let mut roots = Crossings::default();
-        let mut add = |turns: &[f64]| for_each_root(range, turns, ends, value, |place| roots.add(place));
+        let mut roots = Roots::default();
+        let mut add = |extrema: &[f64]| for_each_root(range, extrema, ends, value, |place| roots.add(place));
         if discriminant > 0.0 {
             let q = -b - discriminant.sqrt().copysign(b);
             let (one, other) = (q / 3.0, c / q);
@@ -151,37 +153,38 @@ impl Cubic {
     }
 }
 
-/// Calls `each` with every place in `range`, in order, where a function changes its sign. It has one sign change at most
-/// between two of `turns`; its signs at the `ends` are given. `value` is the function with its derivative.
+/// Visits the roots with a change of sign in `range`, in order. Between two neighbouring `extrema` there is at most
+/// one. `ends` gives the function's signs at the ends of the range; `value` returns the function and its derivative.
 fn for_each_root(
     range: &Range<f64>,
-    turns: &[f64],
+    extrema: &[f64],
     ends: [f64; 2],
     value: impl Fn(f64) -> (f64, f64),
     mut each: impl FnMut(f64),
 ) {
     let (mut from, mut is_below) = (range.start, ends[0] < 0.0);
-    let inside = turns.iter().copied().filter(|turn| range.start < *turn && *turn < range.end);
-    for (to, given) in inside.map(|turn| (turn, None)).chain([(range.end, Some(ends[1]))]) {
+    let inside = extrema.iter().copied().filter(|extremum| range.start < *extremum && *extremum < range.end);
+    for (to, given) in inside.map(|extremum| (extremum, None)).chain([(range.end, Some(ends[1]))]) {
         let height = given.unwrap_or_else(|| value(to).0);
         if height == 0.0 {
-            // Who only touches goes on on the side where it was.
+            // A function that only touches 0 keeps its sign.
             continue;
         }
-        let ends_below = height < 0.0;
-        if ends_below != is_below {
+        let is_below_at_end = height < 0.0;
+        if is_below_at_end != is_below {
             each(root_between(from, to, is_below, &value));
         }
-        (from, is_below) = (to, ends_below);
+        (from, is_below) = (to, is_below_at_end);
     }
 }
 
-/// The root between `from` and `to`, where the function changes its sign once; `rises` if it is below 0 at `from`.
+/// Finds the root between `from` and `to`, where the function changes its sign once; it `rises` if it is below 0 at
+/// `from`.
 fn root_between(mut from: f64, mut to: f64, rises: bool, value: &impl Fn(f64) -> (f64, f64)) -> f64 {
-    /// Newton's method needs a few steps, halving as many as there are bits.
-    const STEPS: usize = 64;
+    /// Newton's method needs a few steps; bisection needs as many as there are bits.
+    const MAX_STEPS: usize = 64;
     let mut place = from.midpoint(to);
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let (height, slope) = value(place);
         if height == 0.0 {
             return place;
@@ -218,9 +221,9 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(5000))]
 
         #[test]
-        fn a_line_is_inside_where_its_places_are(
+        fn spans_match_implicit_function(
             tube in 0.001..0.999f64, aim in vectors(-1.5..1.5), from in vectors(-1.0..1.0), away in 0.0..6.0f64,
-            places in prop::collection::vec(-3.0..3.0f64, 20),
+            values in prop::collection::vec(-3.0..3.0f64, 20),
         ) {
             prop_assume!(from.length() > 0.1);
             // Not of length 1.
@@ -229,26 +232,26 @@ mod tests {
             let ends = ends(spans(tube, o, d, false));
             prop_assert!(ends.is_sorted());
             let rounding = 1e-15 * o.length() / d.length();
-            for place in places {
+            for place in values {
                 let t = (aim - o).dot(d) / d.length_squared() + place;
                 if ends.iter().any(|end| (t - end).abs() < 1e-6 + 100.0 * rounding) {
                     continue;
                 }
                 let (q, is_inside) = (o + d * t, ends.iter().filter(|&&end| end < t).count() % 2 == 1);
-                let depth = side(tube, q);
+                let depth = implicit(tube, q);
                 if depth.abs() > 1e-6 + 100.0 * rounding {
                     prop_assert_eq!(is_inside, depth < 0.0, "at {} of {:?}", t, ends);
                 }
             }
             for end in ends {
-                let off = side(tube, o + d * end).abs();
+                let off = implicit(tube, o + d * end).abs();
                 prop_assert!(off < 1e-13 + 100.0 * rounding, "{off:e} off the surface");
             }
         }
 
-        /// A ray that goes on from where another has met the torus meets the rest of what that one has.
+        /// A secondary ray that starts where a ray has hit the torus crosses it at that ray's other roots.
         #[test]
-        fn whoever_starts_on_the_surface_meets_the_rest(
+        fn ray_from_surface_finds_other_roots(
             tube in 0.01..0.99f64, aim in vectors(-1.2..1.2), from in vectors(-1.0..1.0),
         ) {
             prop_assume!(from.length() > 0.1);
@@ -268,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_along_the_planes_and_axes_of_symmetry() {
+    fn lines_along_planes_and_axes_of_symmetry_have_exact_roots() {
         let close = |o: DVec3, d: DVec3, expected: &[f64]| {
             let ends = ends(spans(0.25, o, d, false));
             assert_eq!(ends.len(), expected.len(), "{ends:?}");
@@ -283,16 +286,16 @@ mod tests {
     }
 
     #[test]
-    fn a_quartic_that_is_hard_for_closed_forms_has_two_roots() {
+    fn quartic_hard_for_closed_forms_has_two_roots() {
         // u⁴ − 240 u³ + 25449 u² − 1325880 u + 26471900.25, by Horner's rule.
         let value = |u: f64| {
             let height = (((u - 240.0) * u + 25_449.0) * u - 1_325_880.0) * u + 26_471_900.25;
             (height, ((4.0 * u - 720.0) * u + 50_898.0) * u - 1_325_880.0)
         };
         let range = 0.0..200.0;
-        let turns = Cubic([-180.0, 50_898.0 / 4.0, -331_470.0]).roots(&range, false);
+        let extrema = Cubic([-180.0, 50_898.0 / 4.0, -331_470.0]).roots(&range, false);
         let mut roots = Vec::new();
-        for_each_root(&range, &turns.places[..turns.count], [1.0, 1.0], value, |root| roots.push(root));
+        for_each_root(&range, &extrema.values[..extrema.count], [1.0, 1.0], value, |root| roots.push(root));
         assert_eq!(roots.len(), 2, "{roots:?}");
         // Of (u² − 120 u)² + 11049 (u² − 120 u) + 26471900.25, with u = 60 ± √(3600 + v).
         assert!((roots[0] + roots[1] - 120.0).abs() < 1e-9, "{roots:?}");

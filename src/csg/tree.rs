@@ -1,74 +1,29 @@
-//! A scene's solids, compiled: what can never be seen is gone, and every composition knows its bounds.
+//! The compiled tree: solids without their invisible parts, and bounds for every node.
 
 use serde::Serialize;
 
-use super::coincidence::{coincide, without_slivers};
-use super::merge::{Operation, merge};
-use super::span::Span;
-use super::{Crossing, Leaf, Passes, Surface};
-use crate::geometry::{Aabb, Ray, fast_max, fast_min};
+use super::id::NodeIndex;
+use super::merge::Operation;
+use super::{Leaf, LeafIndex, Passes, RootId, Surface};
+use crate::geometry::Aabb;
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
 #[derive(Debug, Default)]
 pub struct Tree {
     pub(super) leaves: Vec<Leaf>,
     pub(super) nodes: Vec<Node>,
-    pub(super) reductions: Passes,
-    pub(super) dropped: Dropped,
+    pub(super) passes: Passes,
+    pub(super) dropped: DroppedCounts,
 }
 
-/// What was left out of solids, since nothing of it can be seen.
+/// The number of parts that were dropped because they cannot be seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Dropped {
+pub struct DroppedCounts {
     /// Compositions that were proved empty.
     pub empty: usize,
-    /// Operands of differences that take nothing away.
+    /// Operands of differences that subtract nothing.
     pub out_of_reach: usize,
 }
-
-/// Where a ray first crosses the boundary of a solid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance along the ray, at least 0.
-    pub t: f64,
-    /// The face that it crosses.
-    pub surface: Surface,
-    /// The solid (not the leaf) is entered; else left.
-    pub enters: bool,
-}
-
-/// Where a ray that does not come from the camera starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayStart {
-    /// The root that was hit.
-    pub root: u32,
-    /// Its face.
-    pub surface: Surface,
-    /// Whether the solid is left there, as seen along the ray that came.
-    pub leaves: bool,
-    /// Whether this ray turns back to where that one came from.
-    pub turned: bool,
-}
-
-/// Where in the scene's own order a crossing stands among those at the same place.
-///
-/// Boundaries of solids that touch lie at one place, and rounding puts them in any order along a ray. If a ray took
-/// them as they came it would cross some twice and some never, so they have one order: what is entered comes before
-/// what is left, and then what stands first in the scene. A ray that turns back there passes them in reverse.
-pub fn rank(root: u32, enters: bool, turned: bool) -> (bool, u32) {
-    (enters == turned, root)
-}
-
-impl RayStart {
-    /// Whether the ray has yet to cross the boundary of another solid at the same place.
-    fn has_before_it(&self, root: u32, enters: bool) -> bool {
-        let (here, other) = ((self.leaves, self.root), rank(root, enters, self.turned));
-        if self.turned { other < here } else { other > here }
-    }
-}
-
-/// Scratch memory for the spans of one ray.
-pub type Stack = Vec<Crossing>;
 
 #[derive(Debug)]
 pub(super) struct Node {
@@ -78,265 +33,80 @@ pub(super) struct Node {
 
 #[derive(Debug)]
 pub(super) enum NodeKind {
-    Leaf(u32),
-    /// The intersection of convex leaves: one span at most, found without merging.
-    Convex(Vec<u32>),
+    Leaf(LeafIndex),
+    /// The intersection of convex leaves: at most one span, found without merging.
+    Convex(Vec<LeafIndex>),
     Composition {
         operation: Operation,
-        children: Vec<u32>,
+        children: Vec<NodeIndex>,
     },
 }
 
 impl Tree {
-    /// What was left out.
-    pub fn dropped(&self) -> Dropped {
+    /// The number of parts that were dropped.
+    pub fn dropped(&self) -> DroppedCounts {
         self.dropped
     }
 
-    /// How many boolean operations the solid `root` is made by: as few as it could be written with, since unions of unions
-    /// are one, and so is a difference with the union that it takes away.
-    pub fn operations_of(&self, root: u32) -> usize {
-        match &self.nodes[root as usize].kind {
+    /// Counts the boolean operations of the solid `root`, at the least number that can express it: nested unions count
+    /// as one, and a difference and the union that it subtracts count as one.
+    pub fn operations_of(&self, root: RootId) -> usize {
+        self.operations_in(root.node())
+    }
+
+    fn operations_in(&self, node: NodeIndex) -> usize {
+        match &self.nodes[node.index()].kind {
             NodeKind::Leaf(_) => 0,
             NodeKind::Convex(_) => 1,
             NodeKind::Composition { operation, children } => {
-                let counted = |(index, &child): (usize, &u32)| {
+                let counted = |(index, &child): (usize, &NodeIndex)| {
                     let takes_unions = match operation {
                         Operation::Union => true,
                         Operation::Intersection => false,
                         Operation::Difference => index > 0,
                     };
-                    let child_kind = &self.nodes[child as usize].kind;
+                    let child_kind = &self.nodes[child.index()].kind;
                     let is_union = matches!(child_kind, NodeKind::Composition { operation: Operation::Union, .. });
-                    self.operations_of(child) - usize::from(takes_unions && is_union)
+                    self.operations_in(child) - usize::from(takes_unions && is_union)
                 };
                 1 + children.iter().enumerate().map(counted).sum::<usize>()
             }
         }
     }
 
-    /// The leaf that a surface belongs to.
+    /// The leaf to which a surface belongs.
     pub fn leaf(&self, surface: Surface) -> &Leaf {
-        &self.leaves[surface.leaf as usize]
+        &self.leaves[surface.leaf.index()]
     }
 
-    /// Every leaf of the solid `root`.
-    pub fn leaves_of(&self, root: u32) -> Vec<&Leaf> {
-        match &self.nodes[root as usize].kind {
-            NodeKind::Leaf(leaf) => vec![&self.leaves[*leaf as usize]],
-            NodeKind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf as usize]).collect(),
+    /// All leaves of the solid `root`.
+    pub fn leaves_of(&self, root: RootId) -> Vec<&Leaf> {
+        self.leaves_in(root.node())
+    }
+
+    fn leaves_in(&self, node: NodeIndex) -> Vec<&Leaf> {
+        match &self.nodes[node.index()].kind {
+            NodeKind::Leaf(leaf) => vec![&self.leaves[leaf.index()]],
+            NodeKind::Convex(leaves) => leaves.iter().map(|&leaf| &self.leaves[leaf.index()]).collect(),
             NodeKind::Composition { children, .. } => {
-                children.iter().flat_map(|&child| self.leaves_of(child)).collect()
+                children.iter().flat_map(|&child| self.leaves_in(child)).collect()
             }
         }
     }
 
-    /// The box of every leaf of the solid `root`, cut down to where the leaf can matter: the bounds of all
-    /// compositions around it. Leaves that matter nowhere have none.
-    pub fn boxes_of(&self, root: u32) -> Vec<Aabb> {
-        let Node { bounds, kind } = &self.nodes[root as usize];
+    /// The box of every leaf of the solid `root`, clipped to the bounds of all compositions around the leaf: elsewhere
+    /// the leaf cannot matter. Leaves whose clipped box is empty are left out.
+    pub fn boxes_of(&self, root: RootId) -> Vec<Aabb> {
+        self.boxes_in(root.node())
+    }
+
+    fn boxes_in(&self, node: NodeIndex) -> Vec<Aabb> {
+        let Node { bounds, kind } = &self.nodes[node.index()];
         let boxes: Vec<Aabb> = match kind {
             NodeKind::Leaf(_) => vec![*bounds],
             NodeKind::Convex(leaves) => vec![*bounds; leaves.len()],
-            NodeKind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_of(child)).collect(),
+            NodeKind::Composition { children, .. } => children.iter().flat_map(|&child| self.boxes_in(child)).collect(),
         };
         boxes.into_iter().map(|inner| inner.intersection(*bounds)).filter(|inner| !inner.is_empty()).collect()
     }
-
-    /// Where `ray` first crosses the boundary of the solid `root` before `t_max`.
-    #[inline]
-    pub fn nearest(&self, root: u32, ray: &Ray, start: Option<RayStart>, t_max: f64, stack: &mut Stack) -> Option<Hit> {
-        let mut found = None;
-        self.crossings(root, ray, start, t_max, stack, |hit| {
-            found = Some(hit);
-            false
-        });
-        found
-    }
-
-    /// Hands over every crossing of the boundary of the solid `root` between the ray's start and `t_max`, in order,
-    /// until `visit` answers false.
-    #[inline]
-    pub fn crossings(
-        &self,
-        root: u32,
-        ray: &Ray,
-        start: Option<RayStart>,
-        t_max: f64,
-        stack: &mut Stack,
-        mut visit: impl FnMut(Hit) -> bool,
-    ) {
-        let slack = ray.tolerance(0.0);
-        // A ray that starts on this solid does not meet it there again. On any other solid it may: of what touches
-        // the solid that it starts on, it meets at 0 what it has not passed, on whichever side of 0 rounding puts it.
-        let on_this = start.is_some_and(|start| start.root == root);
-        let is_met_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.has_before_it(root, enters));
-        let counts = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_met_at_0(enters)));
-        let start = start.filter(|_| on_this).map(|start| start.surface);
-        let mut meet = |event: Crossing, enters: bool| {
-            !counts(event.t, enters) || visit(Hit { t: event.t.max(0.0), surface: event.surface, enters })
-        };
-        // What rounding alone makes a stay, at an edge or where faces coincide, is none; so is such a gap. A ray that
-        // starts on this solid starts there exactly, and may be inside as briefly as it likes.
-        let are_one =
-            |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
-        match &self.nodes[root as usize].kind {
-            NodeKind::Leaf(leaf) => {
-                let [first, second] = self.leaf_spans(*leaf, ray, start);
-                let mut go_on = true;
-                if let Some([enter, leave]) = first {
-                    go_on = meet(enter, true) && meet(leave, false);
-                }
-                if let Some([enter, leave]) = second.filter(|_| go_on)
-                    && meet(enter, true)
-                {
-                    meet(leave, false);
-                }
-            }
-            NodeKind::Convex(leaves) => {
-                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
-                    && !are_one(enter, leave)
-                    && meet(enter, true)
-                {
-                    meet(leave, false);
-                }
-            }
-            NodeKind::Composition { operation, children } => {
-                stack.clear();
-                let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
-                // Whoever asks has looked at the bounds.
-                self.composition_events(*operation, children, ray, start, window, stack);
-                let mut enters = true;
-                for event in without_slivers(stack, are_one) {
-                    if !meet(event, enters) {
-                        return;
-                    }
-                    enters = !enters;
-                }
-            }
-        }
-    }
-
-    /// Pushes the events of a node. Spans that lie outside `window` may be left out.
-    #[inline(always)]
-    pub(super) fn events(&self, node: u32, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
-        let Node { bounds, kind } = &self.nodes[node as usize];
-        if bounds.entry(ray, window[0], window[1]).is_some() {
-            self.events_within_bounds(kind, ray, start, window, stack);
-        }
-    }
-
-    /// As [`Tree::events`], for a ray that is known to meet the node's bounds.
-    #[inline(always)]
-    fn events_within_bounds(
-        &self,
-        kind: &NodeKind,
-        ray: &Ray,
-        start: Option<Surface>,
-        window: [f64; 2],
-        stack: &mut Stack,
-    ) {
-        let mut push = |[enter, leave]: [Crossing; 2]| {
-            if leave.t >= window[0] && enter.t <= window[1] {
-                stack.extend([enter, leave]);
-            }
-        };
-        match kind {
-            NodeKind::Leaf(leaf) => {
-                let [first, second] = self.leaf_spans(*leaf, ray, start);
-                if let Some(span) = first {
-                    push(span);
-                }
-                if let Some(span) = second {
-                    push(span);
-                }
-            }
-            NodeKind::Convex(leaves) => {
-                if let Some(span) = self.convex_span(leaves, ray, start) {
-                    push(span);
-                }
-            }
-            NodeKind::Composition { operation, children } => {
-                self.composition_events(*operation, children, ray, start, window, stack);
-            }
-        }
-    }
-
-    fn composition_events(
-        &self,
-        operation: Operation,
-        children: &[u32],
-        ray: &Ray,
-        start: Option<Surface>,
-        mut window: [f64; 2],
-        stack: &mut Stack,
-    ) {
-        let first = stack.len();
-        for (index, &child) in children.iter().enumerate() {
-            let second = stack.len();
-            if index == 0 && operation == Operation::Difference {
-                // The bounds of a difference are those of its first operand.
-                self.events_within_bounds(&self.nodes[child as usize].kind, ray, start, window, stack);
-            } else {
-                self.events(child, ray, start, window, stack);
-                if index > 0 {
-                    merge(operation, stack, first, second, ray);
-                }
-            }
-            if operation != Operation::Union {
-                // Nothing outside the first operand's spans can matter any more.
-                let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
-                if enter.t.is_finite() {
-                    window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
-                }
-                if leave.t.is_finite() {
-                    window[1] = fast_min(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
-                }
-            }
-        }
-    }
-
-    /// The events of a leaf.
-    pub(super) fn leaf_stays(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
-        self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
-    }
-
-    #[inline(always)]
-    fn leaf_spans(&self, leaf: u32, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
-        let spans = self.leaves[leaf as usize].spans(ray, face_of(start, leaf));
-        [spans.first, spans.second].map(|span| span.map(|span| span_events(leaf, span)))
-    }
-
-    /// The one stay of a ray in the intersection of convex leaves. As in [`merge`], of faces that coincide the
-    /// first leaf's is seen, and a stay shorter than the tolerance is none.
-    fn convex_span(&self, leaves: &[u32], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
-        let mut stay: Option<[Crossing; 2]> = None;
-        for &leaf in leaves {
-            let span = self.leaves[leaf as usize].spans(ray, face_of(start, leaf)).first?;
-            let [enter, leave] = span_events(leaf, span);
-            let [first, last] = stay.get_or_insert([enter, leave]);
-            if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
-                *first = enter;
-            }
-            if leave.t < last.t - ray.tolerance(leave.t) || last.t == f64::INFINITY {
-                *last = leave;
-            }
-            if last.t <= first.t + ray.tolerance(first.t) {
-                return None;
-            }
-        }
-        stay
-    }
-}
-
-#[inline(always)]
-fn span_events(leaf: u32, span: Span) -> [Crossing; 2] {
-    let event = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
-    [event(span.from, span.from_face), event(span.to, span.to_face)]
-}
-
-/// The face of `leaf` that a ray starts on.
-#[inline(always)]
-fn face_of(start: Option<Surface>, leaf: u32) -> Option<u8> {
-    start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
 }

@@ -1,44 +1,45 @@
-//! The run's clock: the only place in the driver that reads the computer's.
+//! The run's clock: the only place in the driver that reads the computer's clock.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
+use crate::cancel::CancelToken;
 use crate::time::Time;
 
-/// What [`Clock::frozen`] holds while the clock runs.
+/// Value of [`Clock::frozen`] while the clock runs.
 const RUNNING: u64 = u64::MAX;
 
-/// A clock that can be paused. Reading it takes no lock, since nodes at full speed read it twice an atom.
+/// A clock that can be paused. Reading it takes no lock, since nodes at full speed read it twice for each atom.
 #[derive(Debug)]
 pub(super) struct Clock {
     start: Instant,
-    /// Nanoseconds spent in pauses that are over.
+    /// Nanoseconds spent in past pauses.
     lost: AtomicU64,
-    /// The time at which the clock stands still, or [`RUNNING`].
+    /// The time at which the clock is paused, or [`RUNNING`].
     frozen: AtomicU64,
-    /// The run is over: nobody may be made to wait any more.
-    ended: AtomicBool,
+    /// Cancelled when the run is over: the clock cannot be paused any more, and all threads end.
+    ended: CancelToken,
     /// Held while a pause begins or ends.
     change: Mutex<()>,
     resumed: Condvar,
 }
 
 impl Clock {
-    /// A clock that starts now, at [`Time::ZERO`].
+    /// Starts a clock at [`Time::ZERO`].
     #[expect(clippy::disallowed_methods, reason = "the run's clock")]
     pub fn start() -> Self {
         Self {
             start: Instant::now(),
             lost: AtomicU64::new(0),
             frozen: AtomicU64::new(RUNNING),
-            ended: AtomicBool::new(false),
+            ended: CancelToken::default(),
             change: Mutex::new(()),
             resumed: Condvar::new(),
         }
     }
 
-    /// The time since the start, without the pauses.
+    /// Returns the time since the start, without the pauses.
     pub fn now(&self) -> Time {
         loop {
             let frozen = self.frozen.load(Ordering::SeqCst);
@@ -47,14 +48,14 @@ impl Clock {
             }
             let lost = self.lost.load(Ordering::SeqCst);
             let now = self.elapsed() - lost;
-            // A pause that began meanwhile would have this reading lie beyond it.
+            // Read again if a pause has begun meanwhile: this time would be later than the pause.
             if self.frozen.load(Ordering::SeqCst) == RUNNING && self.lost.load(Ordering::SeqCst) == lost {
                 return Time(now);
             }
         }
     }
 
-    /// Makes the clock stand still, unless it does or the run is over.
+    /// Pauses the clock, unless it is paused or the run is over.
     pub fn pause(&self) {
         let _change = self.lock();
         if !self.is_paused() && !self.has_ended() {
@@ -62,11 +63,11 @@ impl Clock {
         }
     }
 
-    /// Lets the clock go on.
+    /// Lets the clock continue.
     pub fn resume(&self) {
         let _change = self.lock();
         if self.is_paused() {
-            // The frozen time is left last: whoever sees the clock run again also sees what the pause took.
+            // `frozen` is stored last: a reader that sees the clock run also sees the length of the pause.
             let frozen = self.frozen.load(Ordering::SeqCst);
             self.lost.store(self.elapsed() - frozen, Ordering::SeqCst);
             self.frozen.store(RUNNING, Ordering::SeqCst);
@@ -74,20 +75,25 @@ impl Clock {
         self.resumed.notify_all();
     }
 
-    /// Lets the clock go on for good: the run is over, and it cannot be paused any more.
+    /// Ends the run: the clock continues and cannot be paused any more.
     pub fn end(&self) {
-        self.ended.store(true, Ordering::SeqCst);
+        self.ended.cancel();
         self.resume();
     }
 
-    /// Whether the clock stands still.
+    /// Returns whether the clock is paused.
     pub fn is_paused(&self) -> bool {
         self.frozen.load(Ordering::SeqCst) != RUNNING
     }
 
-    /// Whether the run is over: [`Clock::end`] was called.
+    /// Returns whether [`Clock::end`] was called.
     pub fn has_ended(&self) -> bool {
-        self.ended.load(Ordering::SeqCst)
+        self.ended.is_cancelled()
+    }
+
+    /// Returns the token that [`Clock::end`] cancels.
+    pub fn ended(&self) -> &CancelToken {
+        &self.ended
     }
 
     /// Blocks until the clock runs.
@@ -95,12 +101,12 @@ impl Clock {
         let _running = self.resumed.wait_while(self.lock(), |()| self.is_paused());
     }
 
-    /// The lock has nothing to protect but the waiting, so that a panic elsewhere does no harm to it.
+    /// Takes the lock, also after a panic of another thread: the lock protects no data.
     fn lock(&self) -> MutexGuard<'_, ()> {
         self.change.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Nanoseconds since the start, pauses included: enough for 584 years.
+    /// Returns the nanoseconds since the start, pauses included: enough for 584 years.
     fn elapsed(&self) -> u64 {
         self.start.elapsed().as_nanos() as u64
     }
@@ -112,7 +118,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn stands_still_while_paused_and_goes_on_from_there() {
+    fn paused_clock_stands_still_and_continues_from_there() {
         let clock = Clock::start();
         clock.pause();
         let paused = clock.now();
@@ -122,13 +128,13 @@ mod tests {
         clock.resume();
         let resumed = clock.now();
         assert!(paused <= resumed);
-        // The 30 ms of the pause have passed on the computer's clock only.
+        // The 30 ms of the pause have passed only on the computer's clock.
         let both = Time(clock.elapsed());
         assert!(both.since(resumed) >= Duration::from_millis(30));
     }
 
     #[test]
-    fn a_run_that_is_over_cannot_be_paused() {
+    fn ended_clock_cannot_be_paused() {
         let clock = Clock::start();
         clock.pause();
         clock.end();

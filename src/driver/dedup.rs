@@ -1,22 +1,22 @@
-//! Of an atom that is traced twice, only the first result counts: the picture takes each atom once.
+//! Drops results of atoms that are placed already: only the first result of an atom counts.
 
 use std::ops::Range;
 
 use crate::picture::{Atom, Division, push_atom};
 
-/// Which atoms are in the picture.
+/// The set of atoms that are in the picture.
 #[derive(Debug)]
 pub(super) struct PlacedOnce {
     placed: Vec<bool>,
 }
 
 impl PlacedOnce {
-    /// Of a picture that is cut so; none is in it.
+    /// Creates an empty set for a picture with this division.
     pub fn new(division: Division) -> Self {
         Self { placed: vec![false; division.atoms() as usize] }
     }
 
-    /// Those of these atoms that come for the first time, in as few ranges as possible.
+    /// Inserts these atoms. Returns those that are new, in as few ranges as possible.
     pub fn take(&mut self, atoms: Range<Atom>) -> Vec<Range<Atom>> {
         let mut new = Vec::new();
         for atom in atoms {
@@ -34,11 +34,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_atom_comes_once() {
-        let mut firsts = PlacedOnce::new(Division::new(100, 10));
-        assert_eq!(firsts.take(2..4), [2..4]);
-        assert_eq!(firsts.take(0..6), [0..2, 4..6]);
-        assert_eq!(firsts.take(1..6), []);
-        assert_eq!(firsts.take(5..10), [6..10]);
+    fn each_atom_is_new_only_once() {
+        let mut placed_once = PlacedOnce::new(Division::new(100, 10));
+        assert_eq!(placed_once.take(2..4), [2..4]);
+        assert_eq!(placed_once.take(0..6), [0..2, 4..6]);
+        assert_eq!(placed_once.take(1..6), []);
+        assert_eq!(placed_once.take(5..10), [6..10]);
     }
 }

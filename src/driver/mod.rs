@@ -1,24 +1,27 @@
-//! Executes the protocol: each party a thread, each node an emulated machine, each message on a link.
+//! Executes the protocol on threads: each party is a thread, each node an emulated machine, each message travels on a
+//! link.
 //!
-//! The threads of a run: one a node (its handler and its worker), one for the parent, and one that started them, waits
-//! for their end, and says how it went. Parties share nothing but the clock and each other's inboxes.
+//! The threads of a run are one for each node (its handler and its worker), one for the parent, and a supervisor that
+//! starts them, waits for their end and reports the outcome. Parties share only the clock, the network and each other's
+//! inboxes.
 //!
-//! Each party has a time of its own, at which it acts and which its records bear. It is that of the emulated machine: a
-//! thread may wake a little late, or work a little ahead of the clock, but what it does is dated to when the machine
-//! would have done it, and what comes of it is due accordingly. Machines at full speed are not emulated: their times
-//! are the clock's.
+//! Each party has its own time, at which it acts and which its records bear: the time of the emulated machine. A thread
+//! may wake a little late, or work a little ahead of the clock, but its actions are dated to the time at which the
+//! machine would have done them, and their consequences are due accordingly. Machines at full speed are not emulated:
+//! their times are those of the clock.
 //!
-//! Two kinds of runs are there to be compared with this one: that with two threads a node, as the article has it, and
-//! that in which rayon shares the atoms by work stealing. Their workers, their parent and their ports are the same.
+//! Two other kinds of runs serve for comparison: two threads for each node, as in the article, and rayon's work
+//! stealing. They use the same workers, parent and endpoints.
 //!
-//! Machines and links may fail, as they do in virtual time (`sim`): a node's thread goes on while its machine hangs or is
-//! off, since it is the machine. A node that cannot hear that the run is over ends with it all the same.
+//! Machines and links may fail, as in virtual time (`sim`). A node's thread continues while its machine hangs or is
+//! off, since the thread emulates the machine. A node that the shutdown cannot reach ends with the run all the same.
 //!
 //! A recorded run has no parties any more: its records are known, and threads trace its picture again.
 
 mod clock;
 mod dedup;
 mod endpoint;
+mod error;
 mod failures;
 mod meter;
 mod node_thread;
@@ -41,9 +44,10 @@ mod stealing;
 mod supervisor;
 mod worker;
 
+pub use error::{RunError, ThreadError, UntraceableAtom};
 pub use pace::{auto_pace, cores};
 pub use probe::{Probe, probe};
-pub use render_all::{RAY, TracedPicture};
+pub use render_all::{RAY_COST, TracedPicture};
 pub use render_tiled::trace_strips;
 pub use render_timed::TimedPicture;
 pub use retrace::Retrace;
@@ -56,25 +60,25 @@ use crate::picture::{Atom, Colour};
 use crate::record::Record;
 use crate::tracer::{RayCounts, Scratch};
 
-/// What a run tells whoever started it, in merged batches; the channel is unbounded, but each atom crosses
-/// it once.
+/// An update of a run for its owner, in merged batches. The channel is unbounded, but each atom crosses it once.
 #[derive(Debug)]
 pub enum Update {
     /// Records of one party, in the order of their times; those of different parties may interleave.
     Records(Vec<Record>),
-    /// Pixels that the parent has placed.
+    /// Pixels that the parent has placed in the picture.
     Placed {
         /// The atoms, in the order of `pixels`.
         atoms: Vec<Range<Atom>>,
         /// Their pixels, one atom after the other.
         pixels: Vec<Colour>,
     },
-    /// How many rays a node's worker has traced; its thread has ended.
+    /// The number of rays that a worker has traced; its thread has ended.
     Rays(RayCounts),
-    /// All threads have ended, and the picture is complete (or as complete as the log of a recorded run); the last update.
+    /// All threads have ended, and the picture is complete, or as complete as the log of a recorded run; the last
+    /// update.
     Finished,
-    /// It cannot go on (a sentence says why); the last update.
-    Failed(String),
+    /// The run cannot go on, for this reason; the last update.
+    Failed(RunError),
 }
 
 /// Appends the colours of pixels (positions in scan order) to a vector, as

@@ -1,6 +1,7 @@
-//! A node and its worker on one thread: the node's handler runs between two pieces of the worker's, and while it waits.
+//! A node and its worker on one thread: the node's handler runs between two pieces of the worker's, and while the
+//! worker waits.
 //!
-//! One thread and not two, since the article's own complaint (§10) is that child and grandchild compete for the
+//! One thread instead of two, since the article itself complains (§10) that child and grandchild compete for the
 //! processor.
 
 use std::mem;
@@ -18,25 +19,25 @@ use crate::runlog::Header;
 
 /// Starts a thread for each node, and the parent's.
 pub(super) fn start<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
-    setting: RunContext<'run>,
+    context: RunContext<'run>,
     inboxes: Inboxes,
     threads: &mut Threads<'scope, '_, Stop>,
 ) {
     for (id, inbox) in (0..).zip(inboxes.nodes) {
-        let node = move || run(setting.header, setting.worker(id, inbox));
+        let node = move || run(context.header, context.worker(id, inbox));
         threads.start(&format!("node {id}"), node);
     }
-    setting.start_parent(inboxes.parent, threads);
+    context.start_parent(inboxes.parent, threads);
 }
 
 /// Runs a node on this thread until its shutdown, or until the run is stopped.
 fn run(header: &Header, mut worker: Worker) {
-    let _ = worker.work(&mut Handler::new(header, worker.id));
+    let _ = worker.work(&mut NodeHandler::new(header, worker.id));
     worker.end();
 }
 
-/// A node's handler: it hands the node what happens, and carries out what that asks for.
-pub(super) struct Handler {
+/// A node's handler: it hands events to the node and executes its actions.
+pub(super) struct NodeHandler {
     id: NodeId,
     nodes: NodeId,
     rules: Rules,
@@ -46,25 +47,25 @@ pub(super) struct Handler {
     finished: bool,
 }
 
-impl Handler {
-    /// The handler of node `id`.
+impl NodeHandler {
+    /// Creates the handler of node `id`.
     pub fn new(header: &Header, id: NodeId) -> Self {
         let (nodes, rules) = (header.speeds.len() as NodeId, header.rules);
         let node = Node::new(&rules, id, nodes);
         Self { id, nodes, rules, node, division: header.division, actions: Vec::new(), finished: false }
     }
 
-    /// Hands the node an event. `pixels` are those of the atoms that are traced and not sent; the atoms that are to be
-    /// traced go to `pipe`.
-    pub fn hand_over(
+    /// Hands an event to the node and executes its actions. `pixels` are those of the atoms that are traced and not
+    /// sent; atoms to trace go to `pipe`.
+    pub fn handle_event(
         &mut self,
         event: Event,
-        port: &mut Endpoint,
+        endpoint: &mut Endpoint,
         pixels: &mut Vec<Colour>,
         mut pipe: impl FnMut(Atom),
     ) {
         let mut actions = mem::take(&mut self.actions);
-        self.node.handle(port.time(), event, &mut actions);
+        self.node.handle(endpoint.time(), event, &mut actions);
         for action in actions.drain(..) {
             match action {
                 Action::Send { to, message } => {
@@ -72,11 +73,11 @@ impl Handler {
                         Message::Results(atoms) => take_pixels(pixels, self.division, atoms),
                         _ => Vec::new(),
                     };
-                    port.send(to, message, pixels);
+                    endpoint.send(to, message, pixels);
                 }
                 Action::Trace(atom) => pipe(atom),
-                Action::SetTimer(at) => port.set_timer(at),
-                Action::Retire => _ = port.record(RecordKind::Retired { node: self.id }),
+                Action::SetTimer(at) => endpoint.set_timer(at),
+                Action::Retire => _ = endpoint.record(RecordKind::Retired { node: self.id }),
                 Action::Finish => self.finished = true,
                 Action::Estimate | Action::Fail(_) => unreachable!("only the parent asks for {action:?}"),
             }
@@ -84,16 +85,16 @@ impl Handler {
         self.actions = actions;
     }
 
-    /// Whether the node has nothing more to do.
+    /// Returns whether the node has ended.
     pub fn has_finished(&self) -> bool {
         self.finished
     }
 }
 
-impl WorkerHandler for Handler {
+impl WorkerHandler for NodeHandler {
     fn event(&mut self, event: Event, worker: &mut Worker) {
-        let (now, pipe) = (worker.port.time(), &mut worker.pipe);
-        self.hand_over(event, &mut worker.port, &mut worker.pixels, |atom| pipe.push_back((atom, now)));
+        let (now, pipe) = (worker.endpoint.time(), &mut worker.pipe);
+        self.handle_event(event, &mut worker.endpoint, &mut worker.pixels, |atom| pipe.push_back((atom, now)));
     }
 
     fn traced(&mut self, atom: Atom, cost: Duration, worker: &mut Worker) {
@@ -104,7 +105,7 @@ impl WorkerHandler for Handler {
         self.event(Event::AtomFailed { atom }, worker);
     }
 
-    fn lose_all(&mut self) {
+    fn lose_memory(&mut self) {
         self.node = Node::new(&self.rules, self.id, self.nodes);
     }
 
@@ -112,7 +113,7 @@ impl WorkerHandler for Handler {
         self.finished
     }
 
-    fn is_void(&self) -> bool {
+    fn is_atom_unneeded(&self) -> bool {
         self.finished
     }
 }

@@ -1,4 +1,4 @@
-//! A worker's tracer, which may panic: whoever can do something about that goes on.
+//! A tracer that may panic: the adaptive ring catches the panic and continues.
 
 use std::mem;
 use std::ops::Range;
@@ -13,17 +13,17 @@ use crate::tracer::{RayCounts, Scratch};
 pub(super) struct GuardedTracer {
     trace: Arc<TracePixels>,
     scratch: Scratch,
-    /// Whether a panic is caught; else it ends the thread.
+    /// Whether to catch a panic; else it ends the thread.
     catches: bool,
 }
 
 impl GuardedTracer {
-    /// A tracer that has not traced anything.
+    /// Creates a guard around `trace`.
     pub fn new(trace: Arc<TracePixels>, catches: bool) -> Self {
         Self { trace, scratch: Scratch::default(), catches }
     }
 
-    /// Appends the colours of `pixels` to `out`. Whether it could; if not, `out` is as before.
+    /// Appends the colours of `pixels` to `out`. Returns false if the tracer has panicked; `out` is then unchanged.
     pub fn trace(&mut self, pixels: Range<u32>, out: &mut Vec<Colour>) -> bool {
         let before = out.len();
         let trace = || (self.trace)(pixels, &mut self.scratch, out);
@@ -31,14 +31,14 @@ impl GuardedTracer {
             trace();
         } else if panic::catch_unwind(AssertUnwindSafe(trace)).is_err() {
             out.truncate(before);
-            // What else is in the scratch may be half done.
+            // The rest of the scratch may be in an inconsistent state.
             self.scratch.rays = mem::take(&mut self.scratch).rays;
             return false;
         }
         true
     }
 
-    /// All rays that it has traced.
+    /// Returns the number of rays traced, by kind.
     pub fn rays(&self) -> RayCounts {
         self.scratch.rays
     }
@@ -49,11 +49,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn after_a_panic_all_is_as_before_but_for_the_rays() {
+    fn panic_leaves_the_output_and_counts_the_rays() {
         let trace = |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| {
             for pixel in pixels {
                 scratch.rays.primary += 1;
-                assert!(pixel != 13, "it brings bad luck");
+                assert!(pixel != 13, "pixel 13 panics");
                 out.push([pixel as f32; 3]);
             }
         };

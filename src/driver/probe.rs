@@ -1,4 +1,4 @@
-//! A look at what the picture will cost, before it is traced.
+//! Estimates the cost of the whole picture from a sample, before it is traced.
 
 use std::thread;
 use std::time::Duration;
@@ -7,35 +7,35 @@ use super::meter::Meter;
 use crate::picture::{Atom, Division};
 use crate::tracer::{Scratch, Tracer};
 
-/// The budget is checked after at most this many pixels.
-const PIECE: usize = 64;
+/// Pixels between two checks of the budget.
+const PIECE_PIXELS: usize = 64;
 
-/// What a sample of the atoms costs, serially.
+/// The measured costs of a sample of atoms, and estimates for the whole picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
-    /// The atoms that were traced whole, spread evenly over the picture, with their CPU times.
+    /// The atoms that were traced completely, spread evenly over the picture, with their CPU times.
     pub atoms: Vec<(Atom, Duration)>,
     /// The estimated CPU time of the whole picture.
     pub whole: Duration,
-    /// The estimated rays of the whole picture, of all kinds: what it takes in virtual time.
+    /// The estimated number of rays of the whole picture, of all kinds; they are its cost in virtual time.
     pub rays: u64,
 }
 
-/// Traces atoms spread evenly over the picture, on this thread, until `budget` of CPU time is used up or every atom
-/// is traced. At least a few pixels are traced in any case.
+/// Traces atoms spread evenly over the picture on this thread, until the CPU time `budget` is used or all atoms are
+/// traced. It traces a few pixels in any case.
 pub fn probe(tracer: &Tracer, division: Division, budget: Duration) -> Probe {
     let (mut meter, mut scratch, mut pixels) = (Meter::new(), Scratch::default(), Vec::new());
     let (mut atoms, mut used, mut traced) = (Vec::new(), Duration::ZERO, 0u64);
     'atoms: for atom in spread(division.atoms()) {
         let range = division.pixels(atom);
         let mut cost = Duration::ZERO;
-        for start in range.clone().step_by(PIECE) {
+        for start in range.clone().step_by(PIECE_PIXELS) {
             if traced > 0 && used >= budget {
                 break 'atoms;
             }
             pixels.clear();
             meter.lap();
-            tracer.trace(start..range.end.min(start + PIECE as u32), &mut scratch, &mut pixels);
+            tracer.trace(start..range.end.min(start + PIECE_PIXELS as u32), &mut scratch, &mut pixels);
             let piece = meter.lap();
             (cost, used, traced) = (cost + piece, used + piece, traced + pixels.len() as u64);
         }
@@ -48,8 +48,9 @@ pub fn probe(tracer: &Tracer, division: Division, budget: Duration) -> Probe {
 }
 
 impl Probe {
-    /// What the whole picture costs threads that rest after each atom, as those of slow machines do: they find their
-    /// caches cold and the processor asleep. Some of the probe's atoms are traced once more, with a rest before each.
+    /// Estimates the cost of the whole picture for threads that sleep after each atom, as those of slow machines do:
+    /// their caches are cold and the processor has slowed down. Traces some of the probe's atoms once more, with a
+    /// sleep before each.
     pub fn whole_with_rests(&self, tracer: &Tracer, division: Division) -> Duration {
         const ATOMS: usize = 63;
         const REST: Duration = Duration::from_millis(2);
@@ -64,13 +65,13 @@ impl Probe {
         let mut times: Vec<f64> =
             self.atoms.iter().filter(|(_, cost)| !cost.is_zero()).take(ATOMS).map(rested).collect();
         times.sort_by(f64::total_cmp);
-        // The middle one, since others use the processor too.
+        // The median, since other programs use the processor too.
         let middle = times.get(times.len() / 2).copied().unwrap_or(1.0);
         self.whole.mul_f64(middle.clamp(1.0, 4.0))
     }
 }
 
-/// Every atom once, in van der Corput's order: however many are taken, they are spread evenly.
+/// Returns every atom once, in van der Corput's order: any number of first atoms is spread evenly.
 fn spread(atoms: u32) -> impl Iterator<Item = Atom> {
     let bits = atoms.next_power_of_two().trailing_zeros();
     // With 0 bits there is one atom at most, and the shift by 32 would overflow.
@@ -91,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn every_atom_comes_once_and_any_beginning_is_spread_evenly() {
+    fn every_atom_comes_once_and_any_prefix_is_spread_evenly() {
         for atoms in [0, 1, 2, 3, 100, 1000] {
             let mut order: Vec<_> = spread(atoms).collect();
             order.sort_unstable();
@@ -104,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn without_limit_the_estimate_is_the_sum() {
+    fn estimate_without_budget_is_the_sum() {
         let size = Size::new(40, 30).unwrap();
         let found = probe(&tracer(size), Division::new(size.pixels(), 50), Duration::MAX);
         assert_eq!(found.atoms.len(), 24);
@@ -116,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn rests_make_nothing_cheaper() {
+    fn rests_never_lower_the_cost() {
         let size = Size::new(40, 30).unwrap();
         let (tracer, division) = (tracer(size), Division::new(size.pixels(), 50));
         let found = probe(&tracer, division, Duration::MAX);
@@ -127,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn the_budget_cuts_a_large_atom_short() {
+    fn budget_ends_a_large_atom_early() {
         let size = Size::new(400, 300).unwrap();
         let found = probe(&tracer(size), Division::new(size.pixels(), u32::MAX), Duration::ZERO);
         assert!(found.atoms.is_empty() && found.whole > Duration::ZERO && found.rays > 0);

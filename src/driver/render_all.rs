@@ -1,4 +1,5 @@
-//! The whole picture at once, on all cores, and how many rays each of its atoms takes: what a run in virtual time needs.
+//! Traces the whole picture on all cores, and counts the rays of each atom: they are the costs of a run in virtual
+//! time.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,25 +8,28 @@ use std::thread;
 use std::time::Duration;
 
 use super::TracePixels;
+use super::error::ThreadError;
 use super::pace::cores;
 use super::supervisor::Threads;
 use super::worker::trace_pieces;
+use crate::cancel::CancelToken;
 use crate::picture::{Atom, Colour, Division};
 use crate::sim::PixelCosts;
 use crate::tracer::{RayCounts, Scratch, Tracer};
 
-/// What a ray of any kind takes the reference machine, unless an atom's cost is known otherwise. It is about what one
-/// takes a core of 2025, and the same on every computer, so that a run in virtual time is the same too.
-pub const RAY: Duration = Duration::from_nanos(100);
+/// Cost of a ray of any kind on the reference machine, unless the atoms' costs were measured. It is about the cost on a
+/// core of
+/// 2025. It is the same on every computer, so that runs in virtual time are the same too.
+pub const RAY_COST: Duration = Duration::from_nanos(100);
 
-/// A picture that is traced, and what its atoms take.
+/// A traced picture, with the number of rays of each atom.
 #[derive(Clone, Debug, Default)]
 pub struct TracedPicture {
     /// All pixels in scan order.
     pub pixels: Vec<Colour>,
-    /// By atom: how many rays of all kinds it takes.
+    /// By atom: the number of its rays, of all kinds.
     pub rays: Vec<u32>,
-    /// The rays of the whole picture.
+    /// The number of rays of the whole picture, by kind.
     pub counts: RayCounts,
 }
 
@@ -33,69 +37,71 @@ impl TracedPicture {
     /// Traces all atoms of `division`, and tells `done` from time to time how many more are traced.
     ///
     /// # Errors
-    /// A sentence, if a thread could not be started, or failed.
-    pub fn of(tracer: &Arc<Tracer>, division: Division, done: &(dyn Fn(u32) + Sync)) -> Result<Self, String> {
-        Self::unless(tracer, division, done, &|| false).map(Option::unwrap_or_default)
+    /// If a thread cannot be started, or panics.
+    pub fn of(tracer: &Arc<Tracer>, division: Division, done: &(dyn Fn(u32) + Sync)) -> Result<Self, ThreadError> {
+        Self::unless_cancelled(tracer, division, done, &CancelToken::default()).map(Option::unwrap_or_default)
     }
 
-    /// As [`TracedPicture::of`], but `None` if it `is_over` before.
+    /// Does the same as [`TracedPicture::of`]; returns `None` if cancelled before the end.
     ///
     /// # Errors
     /// As [`TracedPicture::of`].
-    pub fn unless(
+    pub fn unless_cancelled(
         tracer: &Arc<Tracer>,
         division: Division,
         done: &(dyn Fn(u32) + Sync),
-        is_over: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Self>, String> {
+        cancel: &CancelToken,
+    ) -> Result<Option<Self>, ThreadError> {
         let tracer = tracer.clone();
         let trace =
             move |pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| tracer.trace(pixels, scratch, out);
-        Self::trace(division, &trace, done, is_over)
+        Self::trace(division, &trace, done, cancel)
     }
 
-    /// Traces the picture pixel by pixel, so that it can be cut into atoms of any size: all pixels in scan order, and what
-    /// each costs the reference machine in virtual time. `None` if it `is_over` before.
+    /// Traces the picture pixel by pixel, so that it can be divided into atoms of any size. Returns all pixels in scan
+    /// order, and the cost of each on the reference machine in virtual time; `None` if cancelled before the end.
     ///
     /// # Errors
     /// As [`TracedPicture::of`].
     pub fn by_pixel(
         tracer: &Arc<Tracer>,
         done: &(dyn Fn(u32) + Sync),
-        is_over: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<(Vec<Colour>, PixelCosts)>, String> {
+        cancel: &CancelToken,
+    ) -> Result<Option<(Vec<Colour>, PixelCosts)>, ThreadError> {
         let size = tracer.size();
-        let whole = Self::unless(tracer, Division::new(size.pixels(), 1), done, is_over)?;
-        Ok(whole.map(|whole| {
-            let costs = PixelCosts::new(size, &whole.costs());
-            (whole.pixels, costs)
+        let picture = Self::unless_cancelled(tracer, Division::new(size.pixels(), 1), done, cancel)?;
+        Ok(picture.map(|picture| {
+            let costs = PixelCosts::new(size, &picture.costs());
+            (picture.pixels, costs)
         }))
     }
 
-    /// What each atom costs the reference machine in virtual time.
+    /// Returns the cost of each atom on the reference machine in virtual time.
     pub fn costs(&self) -> Vec<Duration> {
-        // An atom of no ray does not exist, but a tracer may count none.
-        self.rays.iter().map(|&rays| RAY * rays.max(1)).collect()
+        // Every atom has a ray, but a test's tracer may count none.
+        self.rays.iter().map(|&rays| RAY_COST * rays.max(1)).collect()
     }
 
-    /// Traces all atoms of `division`, and tells `done` how many more are traced. `None` if it `is_over` before.
+    /// Traces all atoms of `division` with `trace`, and tells `done` how many more are traced. Returns `None` if
+    /// cancelled before the end.
     ///
     /// # Errors
-    /// A sentence, if a thread could not be started, or what one said that panicked.
+    /// As [`TracedPicture::of`].
     pub(super) fn trace(
         division: Division,
         trace: &TracePixels,
         done: &(dyn Fn(u32) + Sync),
-        is_over: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Self>, String> {
-        /// Threads take so many pixels at a time: few enough to end together, many enough not to get in each other's way.
-        const TAKEN: u32 = 1024;
-        let atoms = (TAKEN / division.atom_pixels()).max(1);
-        let (next, failed) = (AtomicU32::new(0), AtomicU32::new(0));
-        let is_over = || is_over() || failed.load(Ordering::Relaxed) > 0;
+        cancel: &CancelToken,
+    ) -> Result<Option<Self>, ThreadError> {
+        /// Pixels that a thread takes at a time: few enough that all threads end together, enough that they do not wait
+        /// for each other.
+        const PIXELS_AT_A_TIME: u32 = 1024;
+        let atoms = (PIXELS_AT_A_TIME / division.atom_pixels()).max(1);
+        let (next, failed) = (AtomicU32::new(0), CancelToken::default());
+        let is_over = || cancel.is_cancelled() || failed.is_cancelled();
         let (sender, pieces) = crossbeam_channel::unbounded();
         thread::scope(|scope| {
-            let mut threads = Threads::new(scope, || _ = failed.fetch_add(1, Ordering::Relaxed));
+            let mut threads = Threads::new(scope, || failed.cancel());
             for index in 0..cores() {
                 let (sender, next, is_over) = (sender.clone(), &next, &is_over);
                 let work = move || {
@@ -108,7 +114,7 @@ impl TracedPicture {
                         let last = division.atoms().min(first.saturating_add(atoms));
                         let piece = trace_atoms(division, first..last, trace, &mut scratch, is_over);
                         done(last - first);
-                        // The receiver outlives the threads.
+                        // Cannot fail: the receiver outlives the threads.
                         let _ = sender.send((first, piece));
                     }
                 };
@@ -122,13 +128,13 @@ impl TracedPicture {
         }
         let mut pieces: Vec<(Atom, Piece)> = pieces.iter().collect();
         pieces.sort_by_key(|(first, _)| *first);
-        let mut whole = Self::default();
+        let mut picture = Self::default();
         for (_, Piece { pixels, rays, counts }) in pieces {
-            whole.pixels.extend(pixels);
-            whole.rays.extend(rays);
-            whole.counts += counts;
+            picture.pixels.extend(pixels);
+            picture.rays.extend(rays);
+            picture.counts += counts;
         }
-        Ok(Some(whole))
+        Ok(Some(picture))
     }
 }
 

@@ -1,46 +1,48 @@
-//! A picture of any size, on all cores, without ever holding all of it in linear light.
+//! Traces a picture of any size on all cores, without ever holding all of it in linear light.
 
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::error::ThreadError;
 use super::{TracePixels, TracedPicture};
+use crate::cancel::CancelToken;
 use crate::picture::{Colour, Division, srgb8};
 use crate::tracer::{Scratch, Tracer};
 
-/// So many pixels are traced one strip after the other: enough to keep all cores busy, and 12 MB in linear light.
-const STRIP: u32 = 1 << 20;
+/// Pixels in a strip; strips are traced one after the other. Enough to keep all cores busy, and 12 MB in linear light.
+const STRIP_PIXELS: u32 = 1 << 20;
 
-/// Pixels that are traced together.
-const PIECE: u32 = 256;
+/// Pixels in an atom of a strip.
+const ATOM_PIXELS: u32 = 256;
 
-/// Traces a picture: its pixels as they are saved, three bytes each. `done` is told from time to time what part of it is
-/// traced, 0 to 1; `None` if it `is_over` before.
+/// Traces a picture. Returns its pixels in sRGB, three bytes each; `None` if cancelled before the end. Tells `done`
+/// from time to time the part that is traced, 0 to 1.
 ///
 /// # Errors
-/// A sentence, if a thread could not be started, or failed.
+/// If a thread cannot be started, or panics.
 pub fn trace_strips(
     tracer: &Arc<Tracer>,
     done: &(dyn Fn(f64) + Sync),
-    is_over: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Vec<u8>>, String> {
+    cancel: &CancelToken,
+) -> Result<Option<Vec<u8>>, ThreadError> {
     let pixels = tracer.size().pixels();
     let mut rgb = Vec::with_capacity(3 * pixels as usize);
     let traced = AtomicU64::new(0);
-    for start in (0..pixels).step_by(STRIP as usize) {
-        let division = Division::new(STRIP.min(pixels - start), PIECE);
+    for start in (0..pixels).step_by(STRIP_PIXELS as usize) {
+        let division = Division::new(STRIP_PIXELS.min(pixels - start), ATOM_PIXELS);
         let tracer = Arc::clone(tracer);
         let trace = move |within: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>| {
             tracer.trace(start + within.start..start + within.end, scratch, out);
         };
         let more = |atoms: u32| {
-            let more = u64::from(atoms) * u64::from(PIECE);
+            let more = u64::from(atoms) * u64::from(ATOM_PIXELS);
             let sum = traced.fetch_add(more, Ordering::Relaxed) + more;
             // The last piece may be shorter.
             done((sum as f64 / f64::from(pixels)).min(1.0));
         };
         let trace: &TracePixels = &trace;
-        let Some(strip) = TracedPicture::trace(division, trace, &more, is_over)? else { return Ok(None) };
+        let Some(strip) = TracedPicture::trace(division, trace, &more, cancel)? else { return Ok(None) };
         rgb.extend(strip.pixels.into_iter().flat_map(srgb8));
     }
     Ok(Some(rgb))
@@ -60,12 +62,13 @@ mod tests {
     }
 
     #[test]
-    fn strips_make_the_picture_that_is_traced_at_once() {
+    fn strips_make_the_same_picture_as_one_trace() {
         // A little more than one strip.
         let size = Size::new(1031, 1019).unwrap();
         let tracer = tracer(size);
         let told = Mutex::new(Vec::new());
-        let strips = trace_strips(&tracer, &|part| told.lock().unwrap().push(part), &|| false).unwrap().unwrap();
+        let strips =
+            trace_strips(&tracer, &|part| told.lock().unwrap().push(part), &CancelToken::default()).unwrap().unwrap();
         let whole = TracedPicture::of(&tracer, Division::new(size.pixels(), 50), &|_| {}).unwrap();
         assert!(strips == Frame::of(size, &whole.pixels).to_srgb8());
         let told = told.into_inner().unwrap();
@@ -73,8 +76,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_over_comes_to_nothing() {
-        let tracer = tracer(Size::new(300, 300).unwrap());
-        assert_eq!(trace_strips(&tracer, &|_| {}, &|| true).unwrap(), None);
+    fn cancelled_trace_returns_nothing() {
+        let (tracer, cancel) = (tracer(Size::new(300, 300).unwrap()), CancelToken::default());
+        cancel.cancel();
+        assert_eq!(trace_strips(&tracer, &|_| {}, &cancel).unwrap(), None);
     }
 }

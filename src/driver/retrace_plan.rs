@@ -1,36 +1,28 @@
-//! What is to be traced of a recorded run, and in which order.
+//! The plan of a retrace: the atoms of a recorded run that are traced again, and their order.
 
-use std::collections::BTreeMap;
 use std::mem;
 use std::ops::Range;
 
-use crate::balance::{Message, Party};
+use crate::cancel::CancelToken;
 use crate::picture::Atom;
-use crate::record::RecordKind;
-use crate::runlog::RunLog;
+use crate::runlog::{ResultsInFlight, RunLog};
 
-/// A job is an atom, or consecutive ones of at most so many pixels: else threads would get in each other's way.
-const MOST: u32 = 1024;
+/// Most pixels in a job of more than one atom. Larger jobs do not end together; smaller ones make threads wait for each
+/// other.
+const MAX_JOB_PIXELS: u32 = 1024;
 
-/// The atoms of each job, in the order in which the parent received them; nothing more once it `is_over`. No atom is in
-/// two jobs, though it may be in two messages of a damaged log; one that the parent never received is in none.
-pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Range<Atom>> {
+/// Returns the atoms of each job, in the order in which the parent received them; no more jobs once cancelled. No atom
+/// is in two jobs, though a damaged log may have it in two messages; an atom that the parent never received is in none.
+pub(super) fn plan(log: &RunLog, cancel: &CancelToken) -> Vec<Range<Atom>> {
     let division = log.header.division;
-    let most = (MOST / division.atom_pixels()).max(1) as usize;
+    let most = (MAX_JOB_PIXELS / division.atom_pixels()).max(1) as usize;
     let mut planned = vec![false; division.atoms() as usize];
-    let mut on_their_way = BTreeMap::new();
+    let mut in_flight = ResultsInFlight::default();
     let mut jobs: Vec<Range<Atom>> = Vec::new();
     for record in log.records() {
-        let results = match &record.what {
-            RecordKind::Sent { id, to: Party::Parent, message: Message::Results(ranges), .. } => {
-                on_their_way.insert(id, ranges);
-                None
-            }
-            RecordKind::Received { id, by: Party::Parent } => on_their_way.remove(id),
-            _ => None,
-        };
-        for range in results.into_iter().flatten().take_while(|_| !is_over()) {
-            for atom in range.clone() {
+        let received = in_flight.apply(&record.what);
+        for range in received.into_iter().take_while(|_| !cancel.is_cancelled()) {
+            for atom in range {
                 if planned.get_mut(atom as usize).is_none_or(|planned| mem::replace(planned, true)) {
                     continue;
                 }
@@ -47,8 +39,9 @@ pub(super) fn plan(log: &RunLog, is_over: impl Fn() -> bool) -> Vec<Range<Atom>>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::{Message, Party};
     use crate::picture::Division;
-    use crate::record::Record;
+    use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
     use crate::runlog::examples::{at, header};
     use crate::time::Time;
@@ -64,15 +57,15 @@ mod tests {
         at(0, RecordKind::Received { id, by })
     }
 
-    /// The jobs of a log with these records: 20 atoms of `pixels` pixels.
+    /// Returns the jobs of a log with these records and 20 atoms of `pixels` pixels.
     fn jobs(pixels: u32, records: Vec<Record>) -> Vec<Range<Atom>> {
         let mut log = RunLog::new(Header { division: Division::new(20 * pixels, pixels), ..header(&[1.0]) });
         log.add(records);
-        plan(&log, || false)
+        plan(&log, &CancelToken::default())
     }
 
     #[test]
-    fn atoms_are_traced_as_the_parent_received_them_and_only_once() {
+    fn atoms_are_planned_once_in_the_order_of_receipt() {
         let parent = Party::Parent;
         let records = vec![
             sent(1, once(5..8)),
@@ -89,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_is_neither_too_small_nor_too_large() {
+    fn job_size_is_bounded_by_pixels() {
         let sizes = |pixels| {
             let records = vec![sent(0, once(0..20)), received(0, Party::Parent)];
             jobs(pixels, records).iter().map(Range::len).collect::<Vec<_>>()
@@ -99,7 +92,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever a damaged log says.
+        /// Holds for any log, even a damaged one.
         #[test]
         fn no_atom_is_in_two_jobs(
             records in prop::collection::vec(

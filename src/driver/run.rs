@@ -1,14 +1,14 @@
-//! A run: its threads, and what its user does to it while it goes on.
+//! A run on its own threads, and its control: commands, pauses, the end.
 
 use std::ops::Range;
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
 
+use super::error::RunError;
 use super::run_context::RunContext;
-use super::shared::{Inboxes, Shared};
+use super::shared::{Inboxes, SharedRun};
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};
 use super::{node_thread, pair_threads, sim_thread, stealing};
@@ -19,21 +19,20 @@ use crate::scenario::Command;
 use crate::time::Time;
 use crate::tracer::{Scratch, Tracer};
 
-/// A run that goes on in its own threads. Dropping it stops them and waits for them.
+/// A run on its own threads. Dropping it stops them and waits for them.
 pub struct Run {
     control: Control,
     supervisor: Supervisor,
 }
 
-/// What acts on the run, by its driver.
+/// The state that the run's owner shares with its threads, by driver.
 enum Control {
-    Parties(Arc<Shared>),
+    Parties(Arc<SharedRun>),
     Sim(Arc<sim_thread::SharedSim>),
 }
 
 impl Run {
-    /// Starts the run that `header` describes. Its own options are all in the header, so that a saved run can be
-    /// started again.
+    /// Starts the run that `header` describes. The header has all settings, so that a saved run can be started again.
     ///
     /// # Panics
     /// If the header has no speeds, or more than 65,535.
@@ -41,7 +40,8 @@ impl Run {
         Self::start_with(move |pixels, scratch, out| tracer.trace(pixels, scratch, out), header)
     }
 
-    /// [`Run::start`] with anything in the tracer's place: work of a known cost, or one that fails.
+    /// Does the same as [`Run::start`] with any function in place of the tracer: work of a known cost, or one that
+    /// panics.
     pub fn start_with(
         trace: impl Fn(Range<u32>, &mut Scratch, &mut Vec<Colour>) + Send + Sync + 'static,
         header: &Header,
@@ -60,7 +60,7 @@ impl Run {
             }
             Driver::Threads | Driver::Pairs | Driver::WorkStealing => {
                 let header = if header.driver == Driver::WorkStealing { stealing::header(header) } else { its_header };
-                let (shared, inboxes) = Shared::new(&header);
+                let (shared, inboxes) = SharedRun::new(&header);
                 let (its, trace): (_, Arc<TracePixels>) = (Arc::clone(&shared), Arc::new(trace));
                 let supervise = move |updates: &Sender<Update>| {
                     supervise(RunContext { header: &header, shared: &its, trace: &trace, updates }, inboxes)
@@ -70,12 +70,12 @@ impl Run {
         }
     }
 
-    /// What has happened since, oldest first.
+    /// Returns the updates, oldest first.
     pub fn updates(&self) -> &Receiver<Update> {
         self.supervisor.updates()
     }
 
-    /// The run's clock; it stands still while the run is paused.
+    /// Returns the time of the run's clock, which stands still while the run is paused.
     pub fn now(&self) -> Time {
         match &self.control {
             Control::Parties(shared) => shared.clock.now(),
@@ -83,44 +83,25 @@ impl Run {
         }
     }
 
-    /// Does something to the run at once; what it does to a node that has ended, or to a parent that has, is void.
-    /// Machines and links fail only where a node is one thread, and in virtual time.
+    /// Executes a command at once, even in the middle of an atom. A command to a node or a parent that has ended has no
+    /// effect. Machines and links fail only where a node is one thread, and in virtual time.
     pub fn command(&self, command: Command) {
-        let command = command.possible();
+        let command = command.clamped();
         match &self.control {
             Control::Parties(shared) => shared.command(command),
             Control::Sim(shared) => shared.command(command),
         }
     }
 
-    /// Changes a node's speed (0 to 1) at once, in the middle of an atom too. At 0 its worker stands still, but the
-    /// node still answers messages. A node that has ended does not mind.
-    pub fn set_speed(&self, node: NodeId, speed: f64) {
-        self.command(Command::Speed { node, speed });
-    }
-
-    /// Makes a node's worker stand still at once, in the middle of an atom too, or go on at the node's speed; the node
-    /// still answers messages. A speed that is set meanwhile counts when the worker goes on. A node that has ended does
-    /// not mind.
-    pub fn set_paused(&self, node: NodeId, paused: bool) {
-        self.command(Command::Pause { node, paused });
-    }
-
-    /// Changes the latency of all links for the messages that leave from now on; none overtakes an earlier one. The
-    /// parent records a change, unless it has ended.
-    pub fn set_latency(&self, latency: Duration) {
-        self.command(Command::Latency(latency));
-    }
-
-    /// Lets a run in virtual time go so many times as fast as the clock; infinite is as fast as it can. Other runs have
-    /// the pace of their header.
+    /// Sets the speed of a run in virtual time, in run seconds per second; infinite means as fast as possible. Has no
+    /// effect on other runs: the pace of their header is fixed.
     pub fn set_rate(&self, rate: f64) {
         if let Control::Sim(shared) = &self.control {
             shared.set_rate(rate);
         }
     }
 
-    /// Stops the run's clock, and with it all machines and all messages.
+    /// Pauses the run's clock, and with it all machines and all messages.
     pub fn pause(&self) {
         match &self.control {
             Control::Parties(shared) => shared.clock.pause(),
@@ -128,7 +109,7 @@ impl Run {
         }
     }
 
-    /// Lets the run go on after [`Run::pause`].
+    /// Lets the run continue after [`Run::pause`].
     pub fn resume(&self) {
         match &self.control {
             Control::Parties(shared) => shared.clock.resume(),
@@ -137,7 +118,7 @@ impl Run {
     }
 
     /// Tells all threads to end and returns at once. The last update is then [`Update::Failed`], unless the run was
-    /// over.
+    /// over already.
     pub fn stop(&self) {
         match &self.control {
             Control::Parties(shared) => shared.stop(),
@@ -145,7 +126,7 @@ impl Run {
         }
     }
 
-    /// Whether all threads of the run have ended: nothing is left to wait for.
+    /// Returns whether all threads of the run have ended.
     pub fn has_ended(&self) -> bool {
         self.supervisor.has_ended()
     }
@@ -158,34 +139,36 @@ impl Drop for Run {
     }
 }
 
-/// Runs all parties on threads of their own until all have ended.
-fn supervise(setting: RunContext<'_>, inboxes: Inboxes) -> Result<(), String> {
+/// Runs all parties on their own threads until all have ended.
+fn supervise(context: RunContext<'_>, inboxes: Inboxes) -> Result<(), RunError> {
     thread::scope(|scope| {
-        let mut threads = Threads::new(scope, || setting.shared.stop());
-        match setting.header.driver {
-            Driver::Pairs => pair_threads::start(setting, inboxes, &mut threads),
-            Driver::WorkStealing => stealing::run(setting, inboxes, &mut threads),
-            Driver::Threads | Driver::Sim => node_thread::start(setting, inboxes, &mut threads),
+        let mut threads = Threads::new(scope, || context.shared.stop());
+        match context.header.driver {
+            Driver::Pairs => pair_threads::start(context, inboxes, &mut threads),
+            Driver::WorkStealing => stealing::run(context, inboxes, &mut threads),
+            Driver::Threads | Driver::Sim => node_thread::start(context, inboxes, &mut threads),
         }
         threads.join()
     })?;
-    if let Some(why) = setting.shared.failure() {
-        return Err(why.into());
+    if let Some(failure) = context.shared.failure() {
+        return Err(failure.into());
     }
-    if setting.shared.is_stopped() { Err("the run was stopped".into()) } else { Ok(()) }
+    if context.shared.is_stopped() { Err(RunError::Stopped) } else { Ok(()) }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use crate::balance::Condition;
     use crate::record::RecordKind;
     use crate::runlog::examples::header;
 
-    /// The emulation does not depend on how busy this computer is: in the machine's own time an atom takes exactly what
-    /// it cost, at the machine's rate.
+    /// The emulation does not depend on the load of this computer: in the machine's own time an atom takes exactly its
+    /// cost at the machine's rate.
     #[test]
-    fn an_emulated_machine_takes_as_long_as_its_speed_and_pace_say() {
+    fn emulated_machine_takes_as_long_as_speed_and_pace_say() {
         let header = Header { pace: 0.5, ..header(&[0.5, 0.1]) };
         let trace = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
             let spin = |pixel| (0..1000).fold(pixel as f32, |x: f32, _| (x + 1.3).sin());
@@ -213,9 +196,9 @@ mod tests {
         assert_eq!(atoms, header.division.atoms());
     }
 
-    /// A machine that hangs goes on where it was.
+    /// A machine that hangs continues where it stopped.
     #[test]
-    fn an_atom_takes_longer_by_as_long_as_its_machine_hangs() {
+    fn hang_prolongs_an_atom_by_its_length() {
         let header = Header { pace: 0.02, ..header(&[0.5]) };
         let trace = |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
             let spin = |pixel| (0..1000).fold(pixel as f32, |x: f32, _| (x + 1.3).sin());
@@ -235,12 +218,12 @@ mod tests {
             match record.what {
                 RecordKind::AtomStarted { .. } => since = record.at,
                 RecordKind::Condition { condition: Condition::Hung, .. } => hung = Some(record.at),
-                // What of it fell into an atom does not count for that.
+                // The part of the hang that fell into this atom does not count.
                 RecordKind::Condition { condition: Condition::Well, .. } => {
                     since += record.at.since(hung.take().expect("it hung").max(since));
                 }
                 RecordKind::AtomDone { cost, .. } => {
-                    assert_eq!(hung, None, "a machine that hangs is done with an atom");
+                    assert_eq!(hung, None, "a machine that hangs has finished an atom");
                     let (took, takes) = (record.at.since(since), cost.div_f64(0.01));
                     assert!(took.abs_diff(takes) <= Duration::from_nanos(10), "{took:?} for {cost:?}");
                     atoms += 1;

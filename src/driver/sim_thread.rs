@@ -1,6 +1,5 @@
-//! A run in virtual time, played as fast as a clock goes, so that one can watch it and take a hand in it.
+//! A run in virtual time, played at the speed of a clock, so that the user can watch it and give it commands.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -10,145 +9,150 @@ use crossbeam_channel::{Receiver, Sender};
 use super::clock::Clock;
 use super::dedup::PlacedOnce;
 use super::endpoint::FLUSH;
+use super::error::RunError;
 use super::render_all::TracedPicture;
 use super::{TracePixels, Update};
-use crate::balance::{Message, Party};
-use crate::picture::{Atom, Division};
-use crate::record::{Record, RecordKind};
-use crate::runlog::Header;
+use crate::picture::Division;
+use crate::record::Record;
+use crate::runlog::{Header, ResultsInFlight};
 use crate::scenario::Command;
 use crate::sim::Sim;
 use crate::time::Time;
 
-/// What a simulation's thread shares with whoever started it.
+/// The state that the simulation's thread shares with the run's owner.
 pub(super) struct SharedSim {
     pub clock: Clock,
-    going: Mutex<Going>,
+    time_scale: Mutex<TimeScale>,
     orders: Sender<SimOrder>,
 }
 
-/// How the run's time follows from the clock's.
+/// The map from the clock's time to the run's time.
 #[derive(Clone, Copy)]
-struct Going {
-    /// The clock's time at which the run's was `at`; `None` until all costs are known.
-    since: Option<Time>,
-    at: Time,
+struct TimeScale {
+    /// The clock's time at which the run's time was `run_time`; `None` until all costs are known.
+    clock_time: Option<Time>,
+    run_time: Time,
+    /// Run seconds per second of the clock.
     rate: f64,
 }
 
-/// What counts as infinitely fast, so that no time is infinite.
-const FASTEST: f64 = 1e6;
+/// Largest rate, so that no time is infinite.
+const MAX_RATE: f64 = 1e6;
 
-impl Going {
+impl TimeScale {
+    /// Returns the run's time at a time of the clock.
     fn at(&self, clock: Time) -> Time {
         let nanos = |since: Time| (clock.since(since).as_nanos() as f64 * self.rate) as u64;
-        Time(self.at.0.saturating_add(self.since.map_or(0, nanos)))
+        Time(self.run_time.0.saturating_add(self.clock_time.map_or(0, nanos)))
     }
 }
 
-/// What a simulation's thread is told.
+/// An order to the simulation's thread.
 pub(super) enum SimOrder {
-    Do(Command),
-    /// The clock goes on, or has ended.
+    Execute(Command),
+    /// The clock has changed: continue, or end.
     Wake,
 }
 
 impl SharedSim {
-    /// What they share, and the orders as they come.
+    /// Creates the shared state, and the receiver of the orders.
     pub fn new() -> (Self, Receiver<SimOrder>) {
-        // Unbounded, but with one order for each thing that the user does.
+        // Unbounded, but there is only one order for each command of the user.
         let (orders, receiver) = crossbeam_channel::unbounded();
-        let going = Mutex::new(Going { since: None, at: Time::ZERO, rate: 1.0 });
-        (Self { clock: Clock::start(), going, orders }, receiver)
+        let time_scale = Mutex::new(TimeScale { clock_time: None, run_time: Time::ZERO, rate: 1.0 });
+        (Self { clock: Clock::start(), time_scale, orders }, receiver)
     }
 
-    /// The run's time: it begins once all costs are known.
+    /// Returns the run's time, which starts when all costs are known.
     pub fn now(&self) -> Time {
-        self.going().at(self.clock.now())
+        self.time_scale().at(self.clock.now())
     }
 
-    /// Lets the run's time go so many times as fast as the clock's.
+    /// Sets the rate, in run seconds per second of the clock.
     pub fn set_rate(&self, rate: f64) {
-        let mut going = self.going();
+        let mut scale = self.time_scale();
         let now = self.clock.now();
-        *going = Going { since: going.since.map(|_| now), at: going.at(now), rate: rate.clamp(0.0, FASTEST) };
-        drop(going);
+        let clock_time = scale.clock_time.map(|_| now);
+        *scale = TimeScale { clock_time, run_time: scale.at(now), rate: rate.clamp(0.0, MAX_RATE) };
+        drop(scale);
         self.order(SimOrder::Wake);
     }
 
-    /// The run begins.
+    /// Starts the run's time.
     fn begin(&self) {
-        self.going().since = Some(self.clock.now());
+        self.time_scale().clock_time = Some(self.clock.now());
     }
 
-    /// How long the clock takes until the run's time is `next`.
+    /// Returns how long the clock takes until the run's time is `next`.
     fn until(&self, next: Time) -> Duration {
-        let going = self.going();
-        let left = next.since(going.at(self.clock.now())).as_secs_f64();
-        // Rounded up: who wakes too early would only wait again.
-        Duration::try_from_secs_f64(left / going.rate).unwrap_or(Duration::MAX).saturating_add(Duration::from_nanos(1))
+        let scale = self.time_scale();
+        let left = next.since(scale.at(self.clock.now())).as_secs_f64();
+        // Rounded up: a thread that wakes too early would only wait again.
+        Duration::try_from_secs_f64(left / scale.rate).unwrap_or(Duration::MAX).saturating_add(Duration::from_nanos(1))
     }
 
-    /// No panic leaves it half changed.
-    fn going(&self) -> MutexGuard<'_, Going> {
-        self.going.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Takes the lock, also after a panic of another thread: no panic leaves the map half changed.
+    fn time_scale(&self) -> MutexGuard<'_, TimeScale> {
+        self.time_scale.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Executes a command at the run's present time.
     pub fn command(&self, command: Command) {
-        self.order(SimOrder::Do(command));
+        self.order(SimOrder::Execute(command));
     }
 
+    /// Lets the clock continue.
     pub fn resume(&self) {
         self.clock.resume();
         self.order(SimOrder::Wake);
     }
 
+    /// Ends the run.
     pub fn stop(&self) {
         self.clock.end();
         self.order(SimOrder::Wake);
     }
 
-    /// A thread that has ended needs no orders.
+    /// Sends an order to the thread, if it has not ended.
     fn order(&self, order: SimOrder) {
         let _ = self.orders.send(order);
     }
 }
 
-/// Traces the picture to learn what it costs, then plays the run to its end.
+/// Traces the picture to get the costs of its atoms, then plays the run to its end.
 ///
 /// # Errors
-/// A sentence, if it was stopped or could not trace.
+/// If the run was stopped, or the picture could not be traced.
 pub(super) fn play(
     header: &Header,
     shared: &SharedSim,
     orders: &Receiver<SimOrder>,
     trace: &TracePixels,
     updates: &Sender<Update>,
-) -> Result<(), String> {
-    const STOPPED: &str = "the run was stopped";
-    let is_over = || shared.clock.has_ended();
-    let whole = TracedPicture::trace(header.division, trace, &|_| {}, &is_over)?.ok_or(STOPPED)?;
-    let costs = whole.costs();
+) -> Result<(), RunError> {
+    let cancel = shared.clock.ended();
+    let picture = TracedPicture::trace(header.division, trace, &|_| {}, cancel)?.ok_or(RunError::Stopped)?;
+    let costs = picture.costs();
     let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
-    let mut news = Updates {
+    let mut updater = Updater {
         division: header.division,
-        whole,
-        on_their_way: BTreeMap::new(),
-        firsts: PlacedOnce::new(header.division),
+        picture,
+        in_flight: ResultsInFlight::default(),
+        placed_once: PlacedOnce::new(header.division),
         updates,
     };
     shared.begin();
     loop {
-        if is_over() {
-            return Err(STOPPED.into());
+        if cancel.is_cancelled() {
+            return Err(RunError::Stopped);
         }
         let (paused, now) = (shared.clock.is_paused(), shared.now());
         let mut records = Vec::new();
         sim.advance(now, &mut |record| records.push(record));
         let next = match sim.next() {
             None if sim.is_finished() => {
-                news.tell(records);
-                let _ = updates.send(Update::Rays(news.whole.counts));
+                updater.send(records);
+                let _ = updates.send(Update::Rays(updater.picture.counts));
                 return Ok(());
             }
             next => next.filter(|_| !paused),
@@ -156,55 +160,47 @@ pub(super) fn play(
         let order = if records.is_empty() {
             match next {
                 Some(next) => orders.recv_timeout(shared.until(next)).ok(),
-                // Never disconnected: whoever started this thread holds what is shared until it ends.
+                // Never disconnected: the run's owner holds the sender until this thread ends.
                 None => orders.recv().ok(),
             }
         } else {
-            news.tell(std::mem::take(&mut records));
-            // A batch, as the threads of other runs send them.
+            updater.send(std::mem::take(&mut records));
+            // Wait, so that the next records form a batch, as in other runs.
             orders.recv_timeout(FLUSH).ok()
         };
         for order in order.into_iter().chain(orders.try_iter()) {
-            if let SimOrder::Do(command) = order {
+            if let SimOrder::Execute(command) = order {
                 sim.advance(shared.now(), &mut |record| records.push(record));
                 sim.command(command, &mut |record| records.push(record));
             }
         }
-        news.tell(records);
+        updater.send(records);
     }
 }
 
-/// Tells whoever watches.
-struct Updates<'a> {
+/// Sends the updates to the run's owner.
+struct Updater<'a> {
     division: Division,
-    whole: TracedPicture,
-    on_their_way: BTreeMap<u64, Vec<Range<Atom>>>,
-    firsts: PlacedOnce,
+    picture: TracedPicture,
+    in_flight: ResultsInFlight,
+    placed_once: PlacedOnce,
     updates: &'a Sender<Update>,
 }
 
-impl Updates<'_> {
-    /// Tells these records, and the pixels that the parent has received by them. That nobody listens any more does no harm.
-    fn tell(&mut self, records: Vec<Record>) {
+impl Updater<'_> {
+    /// Sends these records, and the pixels that the parent receives with them, if the owner still listens.
+    fn send(&mut self, records: Vec<Record>) {
         let mut atoms = Vec::new();
         for record in &records {
-            match &record.what {
-                RecordKind::Sent { id, message: Message::Results(ranges), .. } => {
-                    self.on_their_way.insert(*id, ranges.clone());
-                }
-                RecordKind::Received { id, by: Party::Parent } => {
-                    let ranges = self.on_their_way.remove(id).into_iter().flatten();
-                    atoms.extend(ranges.flat_map(|range| self.firsts.take(range)));
-                }
-                _ => {}
-            }
+            let received = self.in_flight.apply(&record.what);
+            atoms.extend(received.into_iter().flat_map(|range| self.placed_once.take(range)));
         }
         if !records.is_empty() {
             let _ = self.updates.send(Update::Records(records));
         }
         if !atoms.is_empty() {
             let places = atoms.iter().map(|range| self.division.pixels_of(range));
-            let of = |place: Range<u32>| &self.whole.pixels[place.start as usize..place.end as usize];
+            let of = |place: Range<u32>| &self.picture.pixels[place.start as usize..place.end as usize];
             let pixels = places.flat_map(of).copied().collect();
             let _ = self.updates.send(Update::Placed { atoms, pixels });
         }

@@ -1,12 +1,12 @@
-//! What a Rust programmer would reach for today, as the ring's rival: rayon's work stealing over the atoms.
+//! Work stealing by rayon, for comparison with the ring: it is what a Rust programmer would use today.
 //!
-//! The picture is halved again and again down to single atoms; a thread without work steals the largest half that waits
-//! with another. Nobody decides anything, and nothing travels: the threads share their memory, so that latency,
-//! bandwidth and handling do not apply. They are the same emulated machines as in other runs. The parent only collects:
-//! to it this is a run in which the first node has the whole picture as its band.
+//! The picture is halved recursively down to single atoms. A thread without work steals the largest half that waits at
+//! another thread. The threads share their memory, so messages do not travel, and latency, bandwidth and handling do
+//! not apply. The threads emulate the same machines as in other runs. The parent only collects results: to the parent
+//! this is a run in which the first node has the whole picture as its band.
 //!
-//! The records are those of other runs: a stolen half is a transfer at the time of the thief, whose sender knows nothing
-//! of it.
+//! The records have the same kinds as in other runs: a stolen half is a transfer at the time of the thief, though its
+//! sender does not know of it.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -20,7 +20,7 @@ use crossbeam_channel::Receiver;
 use rayon_core::{FnContext, ThreadBuilder, ThreadPoolBuilder};
 
 use super::run_context::RunContext;
-use super::shared::{Inboxes, Parcel, Shared};
+use super::shared::{Envelope, Inboxes, SharedRun};
 use super::supervisor::Threads;
 use super::worker::{Worker, WorkerHandler};
 use crate::balance::{Event, Message, NodeId, Party, Rules, Strategy};
@@ -28,7 +28,7 @@ use crate::picture::{Atom, push_atom};
 use crate::runlog::{Header, LinkSettings};
 use crate::time::Time;
 
-/// The header by which the parent runs: nothing takes a way, and the first node has it all.
+/// Returns the header for the parent: links take no time, and the first node gets all atoms.
 pub(super) fn header(header: &Header) -> Header {
     Header {
         rules: Rules { strategy: Strategy::Serial, ..header.rules },
@@ -39,10 +39,10 @@ pub(super) fn header(header: &Header) -> Header {
     }
 }
 
-/// Starts a thread for each node, and the parent's; then has the picture traced. Returns when it is, or when the run is
-/// stopped.
+/// Starts a thread for each node, and the parent's, and traces the picture on the nodes' threads. Returns when it is
+/// traced, or when the run is stopped.
 pub(super) fn run<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
-    setting: RunContext<'run>,
+    context: RunContext<'run>,
     inboxes: Inboxes,
     threads: &mut Threads<'scope, '_, Stop>,
 ) {
@@ -50,46 +50,47 @@ pub(super) fn run<'scope, 'run: 'scope, Stop: Fn() + Copy + Send + 'scope>(
     let start = |thread: ThreadBuilder| {
         let inbox = nodes.next().ok_or_else(|| io::Error::other("there are no more nodes"))?;
         let name = format!("node {}", thread.index());
-        let started = threads.start(&name, move || run_node(setting, thread, inbox));
-        // What went wrong is said by the threads.
+        let started = threads.start(&name, move || run_node(context, thread, inbox));
+        // `Threads` has the reason.
         if started { Ok(()) } else { Err(io::Error::other("no thread")) }
     };
-    let pool = ThreadPoolBuilder::new().num_threads(setting.header.speeds.len()).spawn_handler(start).build();
-    setting.start_parent(inboxes.parent, threads);
-    // Without all its threads there is no pool, and those that could be started have been stopped.
+    let pool = ThreadPoolBuilder::new().num_threads(context.header.speeds.len()).spawn_handler(start).build();
+    context.start_parent(inboxes.parent, threads);
+    // If a thread could not be started there is no pool, and the other threads are stopped already.
     let Ok(pool) = pool else { return };
-    let whole = 0..setting.header.division.atoms();
-    // On the node that has the band. The pool ends when it is dropped.
-    pool.broadcast(|context| {
-        if context.index() == 0 {
-            share(setting.shared, whole.clone());
+    let whole = 0..context.header.division.atoms();
+    // On the first node, which has the band. The pool ends when it is dropped.
+    pool.broadcast(|thread| {
+        if thread.index() == 0 {
+            trace_split(context.shared, whole.clone());
         }
     });
 }
 
 thread_local! {
-    /// The node of this thread, while it is one of the pool's.
+    /// The node of this thread, while the thread belongs to the pool.
     static NODE: RefCell<Option<PoolNode>> = const { RefCell::new(None) };
 }
 
-/// Runs a node on this thread: it waits for its band, is one of the pool until that ends, and waits for its shutdown.
-fn run_node(setting: RunContext<'_>, thread: ThreadBuilder, inbox: Receiver<Parcel>) {
-    let worker = setting.worker(thread.index() as NodeId, inbox);
-    let mut node = PoolNode { worker, thief: Thief { heard: 0, awaited: 1, unsent: Vec::new() }, panic: None };
-    node.wait_to_hear();
+/// Runs a node on this thread: it waits for its band, joins the pool until that ends, and waits for its shutdown.
+fn run_node(context: RunContext<'_>, thread: ThreadBuilder, inbox: Receiver<Envelope>) {
+    let worker = context.worker(thread.index() as NodeId, inbox);
+    let mut node =
+        PoolNode { worker, handler: StealingHandler { received: 0, awaited: 1, unsent: Vec::new() }, panic: None };
+    node.wait_for_message();
     NODE.set(Some(node));
-    // Even if the run was stopped, since the pool waits for all of its threads.
+    // Even if the run was stopped, since the pool waits for all its threads.
     thread.run();
     let Some(mut node) = NODE.take() else { return };
     if let Some(panic) = node.panic {
         panic::resume_unwind(panic);
     }
-    node.wait_to_hear();
+    node.wait_for_message();
     node.worker.end();
 }
 
-/// Traces these atoms together with whoever steals some of them.
-fn share(shared: &Shared, atoms: Range<Atom>) {
+/// Traces these atoms, together with the threads that steal some of them.
+fn trace_split(shared: &SharedRun, atoms: Range<Atom>) {
     if shared.is_stopped() {
         return;
     }
@@ -98,16 +99,17 @@ fn share(shared: &Shared, atoms: Range<Atom>) {
     }
     let middle = atoms.start + (atoms.end - atoms.start) / 2;
     let (left, right) = (atoms.start..middle, middle..atoms.end);
-    let (owner, since) = with_node(|node| (node.worker.id, node.worker.port.time()));
-    let share_right = |context: FnContext| {
+    let (owner, since) = with_node(|node| (node.worker.id, node.worker.endpoint.time()));
+    let trace_right = |context: FnContext| {
         if context.migrated() {
             with_node(|node| node.steal(owner, since, right.clone()));
         }
-        share(shared, right);
+        trace_split(shared, right);
     };
-    rayon_core::join_context(|_| share(shared, left), share_right);
+    rayon_core::join_context(|_| trace_split(shared, left), trace_right);
 }
 
+/// Calls `f` with the node of this thread.
 fn with_node<R>(f: impl FnOnce(&mut PoolNode) -> R) -> R {
     NODE.with_borrow_mut(|node| f(node.as_mut().expect("each thread of the pool has its node")))
 }
@@ -115,85 +117,85 @@ fn with_node<R>(f: impl FnOnce(&mut PoolNode) -> R) -> R {
 /// A node of the pool.
 struct PoolNode {
     worker: Worker,
-    thief: Thief,
-    /// What the tracer said when it panicked. It is kept from rayon, which would not tell whose it was.
+    handler: StealingHandler,
+    /// The tracer's panic. Rayon must not see it, since it would not say which thread has panicked.
     panic: Option<Box<dyn Any + Send>>,
 }
 
 impl PoolNode {
-    /// Waits for the band, and the next time for the shutdown; a late thread may hear of both at once. That the run was
-    /// stopped meanwhile is seen by whoever looks next.
-    fn wait_to_hear(&mut self) {
-        let _ = self.worker.work(&mut self.thief);
-        self.thief.awaited += 1;
+    /// Waits for the band, and at the next call for the shutdown; a late thread may get both at once. Returns early if
+    /// the run is stopped, which the caller sees at its next step.
+    fn wait_for_message(&mut self) {
+        let _ = self.worker.work(&mut self.handler);
+        self.handler.awaited += 1;
     }
 
-    /// Takes over what waited with `owner` since then.
+    /// Takes over atoms that have waited at `owner` since `since`.
     fn steal(&mut self, owner: NodeId, since: Time, atoms: Range<Atom>) {
-        // Where everybody is the owner, there is no thief.
+        // Rayon also reports a migration back to the owner, which is no theft.
         if owner == self.worker.id {
             return;
         }
-        // What the thread did to find it is no atom's cost.
+        // The time of the search for these atoms is no cost of an atom.
         self.worker.skip();
-        self.worker.port.advance(self.worker.ready(since));
-        self.worker.port.take(Party::Node(owner), Message::Transfer([atoms].into()));
+        self.worker.endpoint.advance(self.worker.ready(since));
+        self.worker.endpoint.record_taken(Party::Node(owner), Message::Transfer([atoms].into()));
     }
 
     fn trace(&mut self, atom: Atom) {
-        let trace = || self.worker.trace_atom(atom, &mut self.thief);
+        let trace = || self.worker.trace_atom(atom, &mut self.handler);
         match panic::catch_unwind(AssertUnwindSafe(trace)) {
-            // Whoever has nothing left may find nothing to steal for long, and is not asked again until it does.
+            // A thread without tasks may find nothing to steal for a long time: it sends its results before.
             Ok(Ok(())) if rayon_core::current_thread_has_pending_tasks() == Some(false) => {
-                self.thief.send_results(&mut self.worker);
+                self.handler.send_results(&mut self.worker);
                 self.worker.flush();
             }
             Ok(_) => {}
             Err(panic) => {
                 self.panic = Some(panic);
-                self.worker.port.shared.stop();
+                self.worker.endpoint.shared.stop();
             }
         }
     }
 }
 
-/// What a node of the pool does besides tracing.
-struct Thief {
-    /// How many messages have come: the band is the first, the shutdown the second.
-    heard: u32,
-    /// How many messages are waited for.
+/// Handler of a worker in the pool.
+struct StealingHandler {
+    /// Number of messages received: the band is the first, the shutdown the second.
+    received: u32,
+    /// Number of messages to wait for.
     awaited: u32,
-    /// What is traced and not sent.
+    /// Atoms that are traced and not sent.
     unsent: Vec<Range<Atom>>,
 }
 
-impl Thief {
+impl StealingHandler {
     fn send_results(&mut self, worker: &mut Worker) {
         if !self.unsent.is_empty() {
             let atoms = mem::take(&mut self.unsent);
             let pixels = worker.take_pixels(&atoms);
-            worker.port.send(Party::Parent, Message::Results(atoms), pixels);
+            worker.endpoint.send(Party::Parent, Message::Results(atoms), pixels);
         }
     }
 }
 
-impl WorkerHandler for Thief {
+impl WorkerHandler for StealingHandler {
     fn event(&mut self, event: Event, worker: &mut Worker) {
         match event {
-            Event::Message { message: Message::Band(_) | Message::Shutdown, .. } => self.heard += 1,
+            Event::Message { message: Message::Band(_) | Message::Shutdown, .. } => self.received += 1,
             Event::Timer => self.send_results(worker),
-            other => unreachable!("nobody sends {other:?} to a node of rayon's"),
+            other => unreachable!("no party sends {other:?} to a node of the pool"),
         }
     }
 
     fn traced(&mut self, atom: Atom, _: Duration, worker: &mut Worker) {
         if self.unsent.is_empty() {
-            worker.port.set_timer(worker.port.time() + Rules::BATCH);
+            worker.endpoint.set_timer(worker.endpoint.time() + Rules::BATCH);
         }
         push_atom(&mut self.unsent, atom);
     }
 
     fn is_over(&self) -> bool {
-        self.heard >= self.awaited
+        self.received >= self.awaited
     }
 }

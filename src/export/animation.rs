@@ -1,30 +1,31 @@
-//! An animated GIF in the making. Of each frame only what has changed is written, in colours chosen for just that: so a picture
-//! that fills in bit by bit has many more colours than the 256 of a frame.
+//! Encodes an animated GIF. Each frame has only the changed pixels, with a palette of its own, so that a picture that
+//! fills in has many more than a frame's 256 colours.
 
 use std::io::{self, Write};
 
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use image::RgbImage;
 
-use super::colours::Colours;
+use super::ExportError;
+use super::frame_palette::FramePalette;
 use crate::palette::Rgb;
 
-/// Frames are encoded as they come, so that no more than two are ever in memory.
+/// Encoder of an animation. Frames are encoded as they come, so that at most two are in memory.
 pub(super) struct Animation<W: Write> {
     encoder: Encoder<W>,
-    /// What is seen so far; nothing before the first frame.
+    /// The image shown so far; `None` before the first frame.
     seen: Option<RgbImage>,
 }
 
 impl<W: Write> Animation<W> {
-    /// An animation of this width and height, which begins again and again.
+    /// Begins an endlessly repeating animation of this width and height.
     pub fn begin(to: W, [width, height]: [u32; 2]) -> io::Result<Self> {
         let mut encoder = Encoder::new(to, side(width)?, side(height)?, &[]).map_err(io::Error::other)?;
         encoder.set_repeat(Repeat::Infinite).map_err(io::Error::other)?;
         Ok(Self { encoder, seen: None })
     }
 
-    /// Shows an image for so many hundredths of a second.
+    /// Appends an image that is shown for `hundredths` of a second.
     pub fn show(&mut self, image: &RgbImage, hundredths: u16) -> io::Result<()> {
         let [left, top, right, bottom] = self.changed(image);
         let new = |x, y| {
@@ -32,19 +33,19 @@ impl<W: Write> Animation<W> {
             (seen != Some(pixel)).then_some(pixel.0)
         };
         let pixels: Vec<Option<Rgb>> = (top..bottom).flat_map(|y| (left..right).map(move |x| new(x, y))).collect();
-        let colours = Colours::of(pixels.iter().flatten().copied());
-        let index = |pixel: &Option<Rgb>| pixel.map_or(colours.none(), |colour| colours.index(colour));
+        let palette = FramePalette::of(pixels.iter().flatten().copied());
+        let index = |pixel: &Option<Rgb>| pixel.map_or(palette.transparent(), |colour| palette.index(colour));
         let frame = Frame {
             delay: hundredths,
-            // What stays as it was is seen through.
+            // Unchanged pixels are transparent.
             dispose: DisposalMethod::Keep,
-            transparent: Some(colours.none()),
+            transparent: Some(palette.transparent()),
             left: side(left)?,
             top: side(top)?,
             width: side(right - left)?,
             height: side(bottom - top)?,
             buffer: pixels.iter().map(index).collect::<Vec<u8>>().into(),
-            palette: Some(colours.palette()),
+            palette: Some(palette.palette()),
             ..Frame::default()
         };
         self.encoder.write_frame(&frame).map_err(io::Error::other)?;
@@ -52,12 +53,13 @@ impl<W: Write> Animation<W> {
         Ok(())
     }
 
-    /// Nothing more comes.
+    /// Finishes the file.
     pub fn end(self) -> io::Result<()> {
         self.encoder.into_inner().map_err(io::Error::other)?.flush()
     }
 
-    /// Left, top, right and bottom of what is new; one pixel if nothing is, since a frame cannot be empty.
+    /// Returns left, top, right and bottom of the changed pixels; one pixel if none changed, since a frame cannot be
+    /// empty.
     fn changed(&self, image: &RgbImage) -> [u32; 4] {
         let Some(seen) = &self.seen else { return [0, 0, image.width(), image.height()] };
         let pairs = image.enumerate_pixels().zip(seen.pixels());
@@ -70,7 +72,7 @@ impl<W: Write> Animation<W> {
 }
 
 fn side(pixels: u32) -> io::Result<u16> {
-    u16::try_from(pixels).map_err(|_| io::Error::other("a GIF is at most 65,535 pixels broad and high"))
+    u16::try_from(pixels).map_err(|_| io::Error::other(ExportError::GifSide(pixels)))
 }
 
 #[cfg(test)]
@@ -81,7 +83,7 @@ mod tests {
 
     use super::*;
 
-    /// The frames as they are seen, and for how many milliseconds.
+    /// Decodes the frames, with the milliseconds for which each is shown.
     fn decoded(bytes: &[u8]) -> Vec<(RgbImage, u32)> {
         let frames = GifDecoder::new(io::Cursor::new(bytes)).expect("a GIF").into_frames();
         let frame = |frame: image::Frame| {
@@ -94,15 +96,15 @@ mod tests {
     fn encoded(images: &[RgbImage]) -> Vec<u8> {
         let mut bytes = Vec::new();
         let (width, height) = images[0].dimensions();
-        let mut animation = Animation::begin(&mut bytes, [width, height]).expect("memory takes everything");
+        let mut animation = Animation::begin(&mut bytes, [width, height]).expect("writing to memory cannot fail");
         (7..).zip(images).for_each(|(hundredths, image)| animation.show(image, hundredths).expect("a frame"));
-        animation.end().expect("memory takes everything");
+        animation.end().expect("writing to memory cannot fail");
         bytes
     }
 
     proptest! {
         #[test]
-        fn what_was_shown_is_seen(
+        fn frames_decode_as_they_were_shown(
             images in (1..12u32, 1..12u32).prop_flat_map(|(width, height)| {
                 let image = prop::collection::vec(0..4u8, 3 * (width * height) as usize);
                 let image = image.prop_map(move |bytes| {
@@ -121,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn many_colours_are_nearly_kept() {
+    fn palette_of_many_colours_stays_close() {
         let image = RgbImage::from_fn(200, 150, |x, y| Pixel([x as u8, y as u8, (x + y) as u8 / 2]));
         let seen = decoded(&encoded(std::slice::from_ref(&image)));
         let apart = image.iter().zip(seen[0].0.iter()).map(|(one, other)| u64::from(one.abs_diff(*other)));
@@ -130,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_takes_no_room() {
+    fn unchanged_frame_takes_little_space() {
         let image = RgbImage::from_fn(200, 150, |x, y| Pixel([x as u8, y as u8, 0]));
         let (once, twice) = (encoded(std::slice::from_ref(&image)), encoded(&[image.clone(), image]));
         assert!(twice.len() < once.len() + 60, "{} {}", once.len(), twice.len());

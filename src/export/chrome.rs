@@ -1,15 +1,17 @@
-//! A run in the trace format of Chrome, which Perfetto (<https://ui.perfetto.dev>) shows: what each machine did, which
-//! messages were under way, and what part of the machines traced.
+//! A run in Chrome's trace format, which Perfetto (<https://ui.perfetto.dev>) shows: the atoms of each machine, the
+//! messages in flight, and the share of machines that trace.
 //!
-//! Machines and messages are processes of their own. A slice (`X`) never overlaps another on its track: a machine traces one atom at
-//! a time, and messages that are under way together have tracks beside each other. Arrows (`s`, `t`, `f`) lead from an offer's
-//! hop to the next and to its answer, and with atoms from whoever gives them to the first that is traced elsewhere.
+//! Machines and messages are separate processes. A slice (`X`) never overlaps another on its track: a machine traces
+//! one atom at a time, and messages in flight together have separate tracks. Arrows (`s`, `t`, `f`) lead from an
+//! offer's hop to the next and to its answer, and with atoms from their sender to the first of them that the receiver
+//! traces.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use serde_json::{Value, json};
 
+use super::party_name;
 use crate::balance::{Condition, Message, NodeId, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::RecordKind;
@@ -17,19 +19,19 @@ use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::{Lanes, Traced, node_name};
 
-/// The process of the machines, and those of the messages.
+/// Processes of the trace: the machines, and three kinds of messages.
 const MACHINES: u32 = 1;
 const ATOMS: u32 = 2;
 const OFFERS: u32 = 3;
 const RESULTS: u32 = 4;
 
-/// Of how many stretches of the run it is told what part of the machines traced.
-const STRETCHES: u64 = 400;
+/// Number of intervals for which the share of tracing machines is written.
+const INTERVALS: u64 = 400;
 
-/// Writes a run as Chrome's trace.
+/// Writes a run in Chrome's trace format.
 ///
 /// # Errors
-/// What `to` says.
+/// The error of writing to `to`.
 pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
     let lanes = Lanes::of(log);
     let header = &log.header;
@@ -44,16 +46,16 @@ pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
     write!(to, "{{\"displayTimeUnit\":\"ms\",\"otherData\":{about},\"traceEvents\":[")?;
     let mut events = TraceEvents { to, any: false };
     name_tracks(log, &mut events)?;
-    let traced = trace_machines(&lanes, &mut events)?;
-    let travelled = messages(log, &mut events)?;
-    offers(log, &travelled, &mut events)?;
-    parcels(log, &traced, &travelled, &mut events)?;
-    happenings(log, &mut events)?;
-    usage(&lanes, &mut events)?;
+    let traced = write_atoms(&lanes, &mut events)?;
+    let message_slices = write_messages(log, &mut events)?;
+    write_offer_arrows(log, &message_slices, &mut events)?;
+    write_atom_arrows(log, &traced, &message_slices, &mut events)?;
+    write_instants(log, &mut events)?;
+    write_usage(&lanes, &mut events)?;
     writeln!(events.to, "\n]}}")
 }
 
-/// Events in the making, one a line.
+/// Writer of trace events, one a line.
 struct TraceEvents<W> {
     to: W,
     any: bool,
@@ -66,12 +68,12 @@ impl<W: Write> TraceEvents<W> {
         serde_json::to_writer(&mut self.to, event).map_err(io::Error::from)
     }
 
-    /// An arrow through these slices; a single one has nowhere to point at.
-    fn arrow(&mut self, (id, name): (u64, &str), through: &[TraceSlice]) -> io::Result<()> {
+    /// Writes an arrow through slices; with a single slice it has no end and is omitted.
+    fn arrow(&mut self, (id, name): (u64, &str), through: &[TrackPoint]) -> io::Result<()> {
         if through.len() < 2 {
             return Ok(());
         }
-        for (i, &TraceSlice { process, track, at }) in through.iter().enumerate() {
+        for (i, &TrackPoint { process, track, at }) in through.iter().enumerate() {
             let phase = match i {
                 0 => "s",
                 _ if i + 1 == through.len() => "f",
@@ -81,7 +83,7 @@ impl<W: Write> TraceEvents<W> {
                 "ph": phase, "cat": "message", "name": name, "id": id, "pid": process, "tid": track, "ts": micros(at),
             });
             if phase == "f" {
-                // To the slice that begins there, not to the one that follows.
+                // Binds to the slice that begins here, not to the next one.
                 event["bp"] = "e".into();
             }
             self.put(&event)?;
@@ -90,27 +92,27 @@ impl<W: Write> TraceEvents<W> {
     }
 }
 
-/// The slice that contains a time.
+/// A point on a track, which selects the slice that contains it.
 #[derive(Clone, Copy)]
-struct TraceSlice {
+struct TrackPoint {
     process: u32,
     track: usize,
     at: Time,
 }
 
-/// Where each atom was traced, and from when on.
+/// By atom: the node that traced it, and when.
 type AtomPlaces = BTreeMap<Atom, (NodeId, Traced)>;
 
-/// By message: the slice that shows it under way.
-type Travelled = BTreeMap<u64, TraceSlice>;
+/// By message: its slice in flight.
+type MessageSlices = BTreeMap<u64, TrackPoint>;
 
 fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
     let processes = [
         (MACHINES, run.as_str()),
-        (ATOMS, "atoms under way"),
-        (OFFERS, "offers and requests under way"),
-        (RESULTS, "results under way"),
+        (ATOMS, "atoms in flight"),
+        (OFFERS, "offers and requests in flight"),
+        (RESULTS, "results in flight"),
     ];
     for (process, name) in processes {
         let order =
@@ -129,8 +131,8 @@ fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result
     Ok(())
 }
 
-/// A slice for each atom.
-fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<AtomPlaces> {
+/// Writes a slice for each atom.
+fn write_atoms(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<AtomPlaces> {
     let mut places = AtomPlaces::new();
     for (node, lane) in (0..).zip(lanes.lanes()) {
         let mut free = Time::ZERO;
@@ -142,7 +144,7 @@ fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Re
             events.put(&slice(
                 &name,
                 "atom",
-                TraceSlice { process: MACHINES, track: track_of(node), at: from },
+                TrackPoint { process: MACHINES, track: track_of(node), at: from },
                 free,
                 json!({}),
             ))?;
@@ -152,10 +154,10 @@ fn trace_machines(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Re
     Ok(places)
 }
 
-/// A slice for each message, from when it left to when it arrives, on the first of the tracks of its kind that is free.
-fn messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<Travelled> {
-    let mut travelled = Travelled::new();
-    // By kind and track: until when it is taken.
+/// Writes a slice for each message, from departure to arrival, on the first free track of its kind.
+fn write_messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<MessageSlices> {
+    let mut message_slices = MessageSlices::new();
+    // By kind and track: the time until which it is taken.
     let mut taken: BTreeMap<u32, Vec<Time>> = BTreeMap::new();
     for record in log.records() {
         let RecordKind::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
@@ -185,22 +187,26 @@ fn messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<Tr
             }))?;
         }
         tracks[track] = *arrives;
-        let place = TraceSlice { process, track: track + 1, at: record.at };
-        let name = format!("{what} {} → {}", party(*from), party(*to));
+        let place = TrackPoint { process, track: track + 1, at: record.at };
+        let name = format!("{what} {} → {}", party_name(*from), party_name(*to));
         let args = json!({ "message": id, "atoms": atoms_in(message.ranges()), "bytes": bytes });
         events.put(&slice(&name, what, place, *arrives, args))?;
-        travelled.insert(*id, place);
+        message_slices.insert(*id, place);
     }
-    Ok(travelled)
+    Ok(message_slices)
 }
 
-/// An arrow through the hops of each offer, and on to the atoms that answer it.
-fn offers(log: &RunLog, travelled: &Travelled, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
-    // By machine: the number of the offer that it has out, and the slices that it has gone through.
-    let mut out: BTreeMap<NodeId, (u64, Vec<TraceSlice>)> = BTreeMap::new();
+/// Writes an arrow through the hops of each offer, to the transfer that answers it.
+fn write_offer_arrows(
+    log: &RunLog,
+    message_slices: &MessageSlices,
+    events: &mut TraceEvents<impl Write>,
+) -> io::Result<()> {
+    // By machine: the number of its last offer, and the slices of its hops.
+    let mut out: BTreeMap<NodeId, (u64, Vec<TrackPoint>)> = BTreeMap::new();
     for record in log.records() {
         let RecordKind::Sent { id, from, to, message, .. } = &record.what else { continue };
-        let Some(&place) = travelled.get(id) else { continue };
+        let Some(&place) = message_slices.get(id) else { continue };
         match (message, to) {
             (Message::Offer { who, .. }, _) => {
                 if Party::Node(*who) == *from
@@ -226,14 +232,14 @@ fn offers(log: &RunLog, travelled: &Travelled, events: &mut TraceEvents<impl Wri
     left.iter().try_for_each(|(id, through)| events.arrow((2 * id, "offer"), through))
 }
 
-/// An arrow from whoever gives atoms through their slice under way to the first of them that is traced.
-fn parcels(
+/// Writes an arrow from the sender of atoms through their message to the first of them that is traced.
+fn write_atom_arrows(
     log: &RunLog,
     traced: &AtomPlaces,
-    travelled: &Travelled,
+    message_slices: &MessageSlices,
     events: &mut TraceEvents<impl Write>,
 ) -> io::Result<()> {
-    // By machine: what it traced, by time.
+    // By machine: its traced atoms, by time.
     let mut by_node: BTreeMap<NodeId, Vec<Traced>> = BTreeMap::new();
     traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
@@ -248,27 +254,27 @@ fn parcels(
             && let Some(bar) = bars[..bars.partition_point(|bar| bar.from <= record.at)].last()
             && record.at <= bar.to
         {
-            through.push(TraceSlice { process: MACHINES, track: track_of(*giver), at: record.at });
+            through.push(TrackPoint { process: MACHINES, track: track_of(*giver), at: record.at });
         }
-        through.extend(travelled.get(id));
+        through.extend(message_slices.get(id));
         let here = message.ranges().iter().cloned().flatten().filter_map(|atom| traced.get(&atom));
         let first = here.filter(|(node, bar)| node == to && bar.from >= *arrives).min_by_key(|(_, bar)| bar.from);
-        through.extend(first.map(|(_, bar)| TraceSlice { process: MACHINES, track: track_of(*to), at: bar.from }));
+        through.extend(first.map(|(_, bar)| TrackPoint { process: MACHINES, track: track_of(*to), at: bar.from }));
         events.arrow((2 * id + 1, "atoms"), &through)?;
     }
     Ok(())
 }
 
-/// What is done to machines, and what ends.
-fn happenings(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
+/// Writes an instant for each change of a machine, and for the end.
+fn write_instants(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     for record in log.records() {
         let (node, what) = match &record.what {
             RecordKind::Paused { node } => (Some(*node), "paused".into()),
             RecordKind::Resumed { node } => (Some(*node), "resumed".into()),
             RecordKind::Retired { node } => (Some(*node), "retired".into()),
-            RecordKind::Condition { node, condition } => (Some(*node), became(*condition).into()),
+            RecordKind::Condition { node, condition } => (Some(*node), condition_words(*condition).into()),
             RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
-            RecordKind::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
+            RecordKind::LatencySet { latency } => (None, format!("latency {latency:?}")),
             RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,
         };
@@ -281,7 +287,7 @@ fn happenings(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<
     Ok(())
 }
 
-fn became(condition: Condition) -> &'static str {
+fn condition_words(condition: Condition) -> &'static str {
     match condition {
         Condition::Well => "well again",
         Condition::Hung => "hangs",
@@ -290,53 +296,46 @@ fn became(condition: Condition) -> &'static str {
     }
 }
 
-/// What part of the machines traced, stretch by stretch.
-fn usage(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
+/// Writes the share of machines that trace, by interval.
+fn write_usage(lanes: &Lanes, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     let bars = || lanes.lanes().iter().flat_map(|lane| lane.bars());
     let end = bars().map(|bar| bar.to.0).max().unwrap_or_default();
-    let length = end.div_ceil(STRETCHES).max(1);
-    let mut busy = vec![0_u64; STRETCHES as usize];
+    let length = end.div_ceil(INTERVALS).max(1);
+    let mut busy = vec![0_u64; INTERVALS as usize];
     for bar in bars() {
-        for stretch in bar.from.0 / length..=(bar.to.0.saturating_sub(1) / length) {
-            let (start, stop) = (stretch * length, (stretch + 1).saturating_mul(length));
-            if let Some(busy) = busy.get_mut(stretch as usize) {
+        for interval in bar.from.0 / length..=(bar.to.0.saturating_sub(1) / length) {
+            let (start, stop) = (interval * length, (interval + 1).saturating_mul(length));
+            if let Some(busy) = busy.get_mut(interval as usize) {
                 *busy += bar.to.0.min(stop).saturating_sub(bar.from.0.max(start));
             }
         }
     }
     let whole = length as f64 * lanes.lanes().len().max(1) as f64;
-    for (stretch, busy) in (0..).zip(busy) {
+    for (interval, busy) in (0..).zip(busy) {
         let part = 100.0 * busy as f64 / whole;
         events.put(&json!({
-            "ph": "C", "name": "machines that trace (%)", "pid": MACHINES, "tid": 0, "ts": micros(Time(stretch * length)),
+            "ph": "C", "name": "machines tracing (%)", "pid": MACHINES, "tid": 0, "ts": micros(Time(interval * length)),
             "args": { "part": part },
         }))?;
     }
     Ok(())
 }
 
-/// A slice from its place until a time.
-fn slice(name: &str, kind: &str, place: TraceSlice, until: Time, args: Value) -> Value {
-    let TraceSlice { process, track, at } = place;
+/// Makes a slice from its point until a time.
+fn slice(name: &str, kind: &str, place: TrackPoint, until: Time, args: Value) -> Value {
+    let TrackPoint { process, track, at } = place;
     json!({
         "ph": "X", "name": name, "cat": kind, "pid": process, "tid": track, "ts": micros(at),
         "dur": micros(Time(until.0.saturating_sub(at.0))), "args": args,
     })
 }
 
-/// The parent's is 0.
+/// Returns a node's track; 0 is the parent's.
 fn track_of(node: NodeId) -> usize {
     usize::from(node) + 1
 }
 
-/// The format's unit; nanoseconds are its decimals.
+/// Converts to microseconds, the format's unit; nanoseconds are decimals.
 fn micros(time: Time) -> f64 {
     time.0 as f64 / 1e3
-}
-
-fn party(party: Party) -> String {
-    match party {
-        Party::Parent => "parent".into(),
-        Party::Node(node) => node_name(node).to_string(),
-    }
 }

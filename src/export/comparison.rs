@@ -1,4 +1,4 @@
-//! Runs beside each other as files: a row a run, and bars of where their time went.
+//! Compared runs as files: a CSV row per run, and a bar chart of their time budgets.
 
 use std::io::{self, Write};
 
@@ -12,31 +12,31 @@ use crate::picture::Size;
 use crate::sim::Change;
 use crate::view::{PrintedDrawing, TimeBudget, trial_name};
 
-/// Runs of one scene that are compared.
+/// Compared runs of one scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What they are of.
+    /// Title of the comparison.
     pub title: String,
-    /// The size of its picture.
+    /// Size of the picture.
     pub size: Size,
-    /// In the order in which they stand beside each other.
+    /// The runs, in the order in which they are shown.
     pub runs: Vec<ComparisonEntry>,
 }
 
-/// One of them.
+/// A compared run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonEntry {
-    /// How it shares the atoms.
+    /// How the atoms are distributed.
     pub strategy: Strategy,
-    /// What is changed of it.
+    /// Changes from the first run.
     pub changes: Vec<Change>,
-    /// How many machines it has.
+    /// Number of machines.
     pub machines: usize,
-    /// What it amounts to; `None` if it never ends.
+    /// Its time budget; `None` if the run never ends.
     pub account: Option<TimeBudget>,
 }
 
-/// What is known of a run; of one that never ends most is empty.
+/// Row of a run; most fields of a run that never ends are empty.
 #[derive(Serialize)]
 struct ComparisonRow {
     run: String,
@@ -58,20 +58,20 @@ struct ComparisonRow {
 }
 
 impl Comparison {
-    /// Writes them as CSV, with a line of names above.
+    /// Writes the runs as CSV, with a header row.
     ///
     /// # Errors
-    /// What `to` says.
+    /// The error of writing to `to`.
     pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(to);
         self.runs.iter().try_for_each(|run| table.serialize(run.row()))?;
         table.flush()
     }
 
-    /// Writes bars of where the time went of those that end: as PNG if it `is_png`, else as SVG.
+    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG.
     ///
     /// # Errors
-    /// What `to` says.
+    /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the chart cannot become pixels.
     pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<()> {
         let names: Vec<String> = self.runs.iter().map(ComparisonEntry::name).collect();
         let accounts = self.runs.iter().map(|run| run.account.as_ref());
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn each_run_is_a_row_and_one_that_never_ends_has_no_time() {
+    fn endless_run_has_a_row_without_times() {
         let (comparison, mut file) = (comparison(), Vec::new());
         comparison.write_csv(&mut file).expect("it is written");
         let mut read = csv::Reader::from_reader(&*file);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn bars_name_the_runs_that_end() {
+    fn bars_name_only_runs_that_end() {
         let (comparison, mut file) = (comparison(), Vec::new());
         comparison.write_bars(&mut file, false).expect("it is written");
         let svg = String::from_utf8(file).expect("a text");

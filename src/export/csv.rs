@@ -1,4 +1,4 @@
-//! The records as a table: one row a record, in the order of time.
+//! The records of a run as CSV, one row per record, in order of time.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -6,57 +6,54 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::balance::{Condition, Helper, Message, NodeId, Party};
+use super::party_name;
+use crate::balance::{Condition, Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::runlog::RunLog;
 use crate::time::Time;
 
-/// One row. What a record says nothing of is empty; machines are numbered from 1, as in the window.
+/// The row of a record. Fields that a record does not have are empty; machines are numbered from 1, as in the window.
 #[derive(Default, Serialize)]
 struct RecordRow {
     /// Seconds since the run began, to the nanosecond.
     time_s: String,
-    /// What happened.
+    /// Kind of the record.
     what: &'static str,
-    /// The machine that it happened to.
-    node: Option<NodeName>,
-    /// Who sent the message.
-    from: Option<NodeName>,
-    /// Who gets it.
-    to: Option<NodeName>,
-    /// The number of the message in the run.
+    /// The machine of the event.
+    node: Option<String>,
+    /// Sender of the message.
+    from: Option<String>,
+    /// Receiver of the message.
+    to: Option<String>,
+    /// Number of the message in the run.
     message: Option<u64>,
-    /// The machine whose offer it is.
-    offerer: Option<NodeName>,
-    /// The atoms, as `4` or `4-9`, with spaces between.
+    /// The machine that made the offer.
+    offerer: Option<String>,
+    /// The atoms, as `4` or `4-9`, separated by spaces.
     atoms: Option<String>,
-    /// How many atoms; of an offer, how many its machine has traced.
+    /// Number of atoms; of an offer, the number that its machine has traced.
     count: Option<u32>,
-    /// The weight of the message.
+    /// Size of the message.
     bytes: Option<u64>,
-    /// When the message arrives.
+    /// Time of arrival.
     arrives_s: Option<String>,
     /// CPU seconds in the tracer.
     cost_s: Option<String>,
-    /// The new speed, as a part of the reference machine's.
+    /// New speed, as a fraction of the reference machine's.
     speed: Option<f64>,
-    /// The new latency of all links.
+    /// New latency of all links; of a delay, its duration.
     latency_s: Option<String>,
 }
 
-/// `parent`, or a machine's number.
-#[derive(Serialize)]
-struct NodeName(String);
-
-/// Writes the records of a run as CSV, with a line of names above them.
+/// Writes the records of a run as CSV, with a header row.
 ///
 /// # Errors
-/// What `to` says.
+/// The error of writing to `to`.
 pub fn write_csv(to: impl Write, log: &RunLog) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(to);
     if log.records().is_empty() {
-        // Without a row nobody would write the names.
+        // Without a row the writer would omit the header.
         table.write_record(COLUMNS)?;
     }
     log.records().iter().try_for_each(|record| table.serialize(row(record)))?;
@@ -81,18 +78,18 @@ const COLUMNS: [&str; 14] = [
 ];
 
 fn row(record: &Record) -> RecordRow {
-    let of = |what, node: NodeId| RecordRow { what, node: Some(name(Party::Node(node))), ..RecordRow::default() };
+    let of = |what, node: NodeId| RecordRow { what, node: Some(party_name(Party::Node(node))), ..RecordRow::default() };
     let row = match &record.what {
         RecordKind::Sent { id, from, to, message, bytes, arrives } => RecordRow {
-            from: Some(name(*from)),
-            to: Some(name(*to)),
+            from: Some(party_name(*from)),
+            to: Some(party_name(*to)),
             message: Some(*id),
             bytes: Some(*bytes),
             arrives_s: Some(at(*arrives)),
             ..sent(*from, message)
         },
         RecordKind::Received { id, by } => {
-            RecordRow { what: "received", node: Some(name(*by)), message: Some(*id), ..RecordRow::default() }
+            RecordRow { what: "received", node: Some(party_name(*by)), message: Some(*id), ..RecordRow::default() }
         }
         RecordKind::AtomStarted { node, atom } => {
             RecordRow { atoms: Some(atom.to_string()), count: Some(1), ..of("started", *node) }
@@ -125,12 +122,12 @@ fn row(record: &Record) -> RecordRow {
         }
         RecordKind::Link { one, other, cut } => {
             let what = if *cut { "link cut" } else { "link mended" };
-            RecordRow { what, from: Some(name(*one)), to: Some(name(*other)), ..RecordRow::default() }
+            RecordRow { what, from: Some(party_name(*one)), to: Some(party_name(*other)), ..RecordRow::default() }
         }
         RecordKind::Delayed { from, to, until } => RecordRow {
             what: "held up",
-            from: Some(name(*from)),
-            to: Some(name(*to)),
+            from: Some(party_name(*from)),
+            to: Some(party_name(*to)),
             latency_s: Some(seconds(until.since(record.at))),
             ..RecordRow::default()
         },
@@ -146,7 +143,7 @@ fn row(record: &Record) -> RecordRow {
     RecordRow { time_s: at(record.at), ..row }
 }
 
-/// What a message says.
+/// Makes the part of a sent message's row that depends on its kind.
 fn sent(from: Party, message: &Message) -> RecordRow {
     let ranges = message.ranges();
     let carried =
@@ -173,20 +170,13 @@ fn sent(from: Party, message: &Message) -> RecordRow {
         Message::Shutdown => RecordRow { what: "shutdown", ..RecordRow::default() },
         Message::Offer { who, done, help } => {
             let what = match help {
-                Some(Helper { left: None, .. }) => "note",
+                Some(OfferDetails { left: None, .. }) => "note",
                 _ if from == Party::Node(*who) => "offer",
                 _ => "hop",
             };
-            RecordRow { what, offerer: Some(name(Party::Node(*who))), count: Some(*done), ..RecordRow::default() }
+            RecordRow { what, offerer: Some(party_name(Party::Node(*who))), count: Some(*done), ..RecordRow::default() }
         }
     }
-}
-
-fn name(party: Party) -> NodeName {
-    NodeName(match party {
-        Party::Parent => "parent".into(),
-        Party::Node(node) => (u32::from(node) + 1).to_string(),
-    })
 }
 
 fn atoms(ranges: &[Range<Atom>]) -> String {
@@ -202,7 +192,7 @@ fn at(time: Time) -> String {
     seconds(Duration::from_nanos(time.0))
 }
 
-/// With nine digits, so that nothing is lost.
+/// Formats seconds with nine decimals, without loss.
 fn seconds(length: Duration) -> String {
     format!("{}.{:09}", length.as_secs(), length.subsec_nanos())
 }
@@ -229,16 +219,16 @@ mod tests {
         log
     }
 
-    /// The rows, with their columns' names.
+    /// Reads the rows, by column name.
     fn read(log: &RunLog) -> Vec<BTreeMap<String, String>> {
         let mut text = Vec::new();
-        write_csv(&mut text, log).expect("memory takes everything");
+        write_csv(&mut text, log).expect("writing to memory cannot fail");
         csv::Reader::from_reader(&text[..]).deserialize().collect::<Result<_, _>>().expect("a table")
     }
 
     proptest! {
         #[test]
-        fn the_table_tells_what_the_records_do(
+        fn table_matches_records(
             speeds in prop::collection::vec(0.1..1.0f64, 1..6), pixels in 1..60u32, strategy in prop::sample::select(&Sharing::ALL),
         ) {
             let log = log(speeds, pixels, strategy);
@@ -259,17 +249,17 @@ mod tests {
     }
 
     #[test]
-    fn atoms_are_told_as_ranges() {
+    fn atoms_are_written_as_ranges() {
         assert_eq!(atoms(&[4..5, 7..7, 9..12]), "4 9-11");
         assert_eq!((at(Time(1)), at(Time(12_000_000_345))), ("0.000000001".into(), "12.000000345".into()));
     }
 
     #[test]
-    fn a_run_without_records_has_the_names_of_the_columns() {
+    fn run_without_records_has_column_names() {
         let some = log(vec![1.0], 1, Sharing::Ring);
         let columns = |log: &RunLog| {
             let mut text = Vec::new();
-            write_csv(&mut text, log).expect("memory takes everything");
+            write_csv(&mut text, log).expect("writing to memory cannot fail");
             String::from_utf8_lossy(&text).lines().next().map(str::to_owned)
         };
         assert_eq!(columns(&RunLog::new(some.header.clone())), columns(&some));

@@ -1,4 +1,4 @@
-//! A run on paper as a file: SVG, or the same as PNG.
+//! The ring or the timeline of a run as a file, SVG or PNG.
 
 use std::io::{self, Write};
 
@@ -9,17 +9,17 @@ use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::PrintedDrawing;
 
-/// What is drawn of a run.
+/// A drawing of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawing {
-    /// The ring as it was at a time.
+    /// The ring at a time.
     Ring(Time),
-    /// The timeline of all of it.
+    /// The timeline of the whole run.
     Timeline,
 }
 
 impl Drawing {
-    /// The text of an SVG file.
+    /// Returns the drawing as SVG.
     pub fn svg(self, log: &RunLog) -> String {
         let nodes = log.header.speeds.len();
         let PrintedDrawing { marks, size } = match self {
@@ -29,16 +29,16 @@ impl Drawing {
         to_hatched_svg(&marks, size, nodes)
     }
 
-    /// Writes it as PNG if it `is_png`, else as SVG.
+    /// Writes the drawing: as PNG if `is_png`, else as SVG.
     ///
     /// # Errors
-    /// What `to` says.
+    /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the drawing cannot become pixels.
     pub fn write(self, to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
         write_drawing(to, &self.svg(log), is_png)
     }
 }
 
-/// Writes the text of an SVG file, or its picture if it `is_png`.
+/// Writes an SVG text, as pixels in PNG if `is_png`.
 pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<()> {
     /// Pixels in a unit of the SVG.
     const SCALE: f32 = 2.0;

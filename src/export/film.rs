@@ -1,4 +1,4 @@
-//! A whole run as pictures one after the other: the picture fills in, beside it the ring, below both the sentence.
+//! A run as an animation: the picture fills in, beside the ring; time and sentence are below both.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -7,7 +7,7 @@ use image::RgbImage;
 use image::imageops::{FilterType, overlay, resize};
 
 use super::animation::Animation;
-use super::{Raster, to_svg};
+use super::{ExportError, Raster, to_svg};
 use crate::language::Language;
 use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
@@ -17,14 +17,14 @@ use crate::view::{
     Anchor, Canvas, Hue, Layer, Mark, RingLayout, RingOverlay, Snapshot, Summary, TextSize, ring, time_words,
 };
 
-/// How a film is made of a run.
+/// Settings of a run's animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
-    /// How broad the picture is in it; neither side of the picture is longer.
+    /// Length of the picture's longer side in the animation, in pixels.
     pub width: u32,
-    /// How long the run takes in it, however long it took.
+    /// Duration of the run in the animation, whatever the run took.
     pub length: Duration,
-    /// What of the picture is shown: the render (0), a layer (1) or something between.
+    /// Look of the picture: a layer, and its weight from 0 (the render) to 1 (the layer).
     pub look: (Layer, f32),
 }
 
@@ -34,34 +34,35 @@ impl Default for Film {
     }
 }
 
-/// How long a frame is seen in hundredths of a second, the format's unit: 12.5 frames a second.
-const SEEN: u16 = 8;
+/// How long a frame is shown in hundredths of a second, the format's unit: 12.5 frames a second.
+const FRAME_CENTISECONDS: u16 = 8;
 
-/// How long the end is seen: at first as the run left it, then the render alone.
-const END_SEEN: u16 = 150;
-const RENDER_SEEN: u16 = 300;
+/// How long the end is shown, in hundredths of a second: as the run left it, then the render alone.
+const END_CENTISECONDS: u16 = 150;
+const RENDER_CENTISECONDS: u16 = 300;
 
-/// Between things, and below them for the words.
-const GAP: u32 = 16;
-const WORDS: u32 = 44;
+/// Gap between the parts, and height of the caption below them, in pixels.
+const GAP_PX: u32 = 16;
+const CAPTION_HEIGHT_PX: u32 = 44;
 
-/// Where things are in a frame.
+/// Places of the parts in a frame: x, y, width and height in pixels.
 struct Layout {
     whole: [u32; 2],
     picture: [u32; 4],
     ring: [u32; 4],
-    words: [u32; 4],
+    caption: [u32; 4],
 }
 
 impl Film {
-    /// The widest picture in a film, and the narrowest.
+    /// Possible values of [`Film::width`].
     pub const WIDTHS: std::ops::RangeInclusive<u32> = 100..=1920;
 
-    /// Writes a run whose picture is `frame` as an animated GIF that begins again and again. `tell` is told how much of
-    /// it is done, 0 to 1, and says whether to go on.
+    /// Writes a run whose picture is `frame` as an endlessly repeating GIF. `tell` gets the finished fraction, 0 to 1,
+    /// and returns whether to go on.
     ///
     /// # Errors
-    /// What `to` says; that it was interrupted, if it is not to go on.
+    /// The error of writing to `to`; [`io::ErrorKind::Interrupted`], if `tell` returns false; an [`ExportError`], if a
+    /// frame cannot be drawn.
     pub fn write(
         self,
         to: impl Write,
@@ -71,19 +72,19 @@ impl Film {
     ) -> io::Result<()> {
         let layout = Layout::new(self.width, log.header.size);
         let mut animation = Animation::begin(to, layout.whole)?;
-        let mut projector = FilmFrames::new(log, frame, self, layout);
-        let frames = (self.length.as_millis() as u64 / (10 * u64::from(SEEN))).max(1);
+        let mut film_frames = FilmFrames::new(log, frame, self, layout);
+        let frames = (self.length.as_millis() as u64 / (10 * u64::from(FRAME_CENTISECONDS))).max(1);
         for number in 0..=frames {
             if !tell(number as f64 / frames as f64) {
                 return Err(io::ErrorKind::Interrupted.into());
             }
-            let at = Time((u128::from(projector.end.0) * u128::from(number) / u128::from(frames)) as u64);
+            let at = Time((u128::from(film_frames.end.0) * u128::from(number) / u128::from(frames)) as u64);
             let is_last = number == frames;
-            let image = projector.at(at, is_last).map_err(io::Error::other)?;
-            animation.show(&image, if is_last { END_SEEN } else { SEEN })?;
+            let image = film_frames.at(at, is_last).map_err(io::Error::other)?;
+            animation.show(&image, if is_last { END_CENTISECONDS } else { FRAME_CENTISECONDS })?;
         }
-        projector.look.1 = 0.0;
-        animation.show(&projector.at(projector.end, true).map_err(io::Error::other)?, RENDER_SEEN)?;
+        film_frames.look.1 = 0.0;
+        animation.show(&film_frames.at(film_frames.end, true).map_err(io::Error::other)?, RENDER_CENTISECONDS)?;
         animation.end()
     }
 }
@@ -94,33 +95,33 @@ impl Layout {
         let side = |pixels: u32| ((f64::from(pixels) * scale).round() as u32).max(1);
         let [width, height] = [side(size.width()), side(size.height())];
         let tall = height.max(320);
-        // The ring wants a little more breadth than height, for its labels.
+        // The ring needs a little more width than height, for its labels.
         let ring = [tall + tall / 6, tall];
-        let whole = [width + ring[0] + 3 * GAP, tall + WORDS + 2 * GAP];
+        let whole = [width + ring[0] + 3 * GAP_PX, tall + CAPTION_HEIGHT_PX + 2 * GAP_PX];
         Self {
             whole,
-            picture: [GAP, GAP + (tall - height) / 2, width, height],
-            ring: [2 * GAP + width, GAP, ring[0], ring[1]],
-            words: [GAP, GAP + tall + GAP / 2, whole[0] - 2 * GAP, WORDS],
+            picture: [GAP_PX, GAP_PX + (tall - height) / 2, width, height],
+            ring: [2 * GAP_PX + width, GAP_PX, ring[0], ring[1]],
+            caption: [GAP_PX, GAP_PX + tall + GAP_PX / 2, whole[0] - 2 * GAP_PX, CAPTION_HEIGHT_PX],
         }
     }
 }
 
-/// Goes through a run and draws its moments.
+/// Steps through a run and draws its frames.
 struct FilmFrames<'a> {
     log: &'a RunLog,
     look: (Layer, f32),
-    moment: Snapshot,
+    snapshot: Snapshot,
     canvas: Canvas,
     raster: Raster,
     layout: Layout,
     outcome: Option<Summary>,
     /// When the picture was complete, or else the last record.
     end: Time,
-    /// How many of the run's seconds go by in one of the film.
+    /// Seconds of the run in a second of the animation.
     rate: f64,
-    /// What the words were last, and how they look.
-    words: (String, RgbImage),
+    /// The last caption, and its image.
+    caption: (String, RgbImage),
 }
 
 impl<'a> FilmFrames<'a> {
@@ -133,25 +134,26 @@ impl<'a> FilmFrames<'a> {
         let end = finished.map_or_else(|| log.end(), |finished| finished.at);
         Self {
             look: film.look,
-            moment: Snapshot::new(header),
+            snapshot: Snapshot::new(header),
             canvas,
             raster: Raster::new(),
             layout,
             outcome: Summary::of(log),
             end,
             rate: end.secs() / film.length.as_secs_f64().max(1e-3),
-            words: Default::default(),
+            caption: Default::default(),
             log,
         }
     }
 
-    /// The frame of a time, which is not before that of the last one; everything has come to rest at the end.
-    fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, String> {
+    /// Draws the frame of a time, which is not before that of the last frame; in the last one all messages have
+    /// arrived.
+    fn at(&mut self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         let records = if is_last { self.log.records().len() } else { self.log.until(at) };
-        for record in &self.log.records()[self.moment.records().min(records)..records] {
-            self.moment.apply(record);
+        for record in &self.log.records()[self.snapshot.records().min(records)..records] {
+            self.snapshot.apply(record);
         }
-        let state = &mut self.moment.state;
+        let state = &mut self.snapshot.state;
         state.set_rate(self.rate);
         for atoms in state.take_touched() {
             self.canvas.show(atoms, state);
@@ -159,11 +161,11 @@ impl<'a> FilmFrames<'a> {
         self.canvas.set_look(self.look, PRINT.ground, state);
         let [width, height] = self.layout.whole;
         let mut image = RgbImage::from_pixel(width, height, image::Rgb(PRINT.ground));
-        put(&mut image, self.layout.picture, &self.picture());
+        paste(&mut image, self.layout.picture, &self.picture());
         let ring = self.ring(at, is_last)?;
-        put(&mut image, self.layout.ring, &ring);
-        self.say(at, is_last)?;
-        put(&mut image, self.layout.words, &self.words.1);
+        paste(&mut image, self.layout.ring, &ring);
+        self.draw_caption(at, is_last)?;
+        paste(&mut image, self.layout.caption, &self.caption.1);
         Ok(image)
     }
 
@@ -171,35 +173,35 @@ impl<'a> FilmFrames<'a> {
         let size = self.canvas.size();
         let (width, height) = (size.width(), size.height());
         let pixels = self.canvas.rows(0..height).as_flattened().to_vec();
-        // There are as many pixels as the size says.
+        // The canvas has as many pixels as its size says.
         let whole = RgbImage::from_raw(width, height, pixels).unwrap_or_default();
         let [_, _, across, down] = self.layout.picture;
         if (across, down) == (width, height) { whole } else { resize(&whole, across, down, FilterType::CatmullRom) }
     }
 
-    fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, String> {
+    fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         /// Longer than the last message is drawn.
         const LINGER: Duration = Duration::from_secs(5);
         let overlay = RingOverlay { summary: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
-        let state = &self.moment.state;
+        let state = &self.snapshot.state;
         let layout = RingLayout::new(state.nodes().len(), [width as f32, height as f32], Language::English);
-        self.drawn(&ring(&layout, state, &overlay, at, Language::English), [width, height])
+        self.draw(&ring(&layout, state, &overlay, at, Language::English), [width, height])
     }
 
-    /// Time and sentence; drawn only where they are others than before.
-    fn say(&mut self, at: Time, is_last: bool) -> Result<(), String> {
+    /// Draws time and sentence, if they differ from the last caption.
+    fn draw_caption(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
         let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0), Language::English);
         let sentence = match self.outcome.filter(|_| is_last) {
             Some(_) => format!("Complete after {time}"),
-            None => self.moment.narrator.sentence(&self.moment.state, at, Language::English),
+            None => self.snapshot.narrator.sentence(&self.snapshot.state, at, Language::English),
         };
         let both = format!("{time} {sentence}");
-        if self.words.0 == both {
+        if self.caption.0 == both {
             return Ok(());
         }
-        let [_, _, width, height] = self.layout.words;
+        let [_, _, width, height] = self.layout.caption;
         let y = height as f32 / 2.0;
         let label = |x: f32, anchor: Anchor, text: String, size: f32, hue: Hue| Mark::Label {
             at: [x, y],
@@ -208,25 +210,25 @@ impl<'a> FilmFrames<'a> {
             size: TextSize::Fit(size),
             ink: hue.full(),
         };
-        // Where it is told exactly a time is longer.
+        // A time with more decimals is longer.
         let clock = (9.5 * time.chars().count() as f32).max(64.0);
-        // About so many letters of this font fit a line, a little more than half as broad as high.
+        // Text size at which the sentence fits: this font's letters are a little more than half as wide as high.
         let fits = (width as f32 - clock - 12.0) / (0.54 * sentence.chars().count().max(1) as f32);
         let marks = [
             label(clock, Anchor::Right, time, 17.0, Hue::Quiet),
             label(clock + 12.0, Anchor::Left, sentence, fits.min(17.0), Hue::Text),
         ];
-        self.words = (both, self.drawn(&marks, [width, height])?);
+        self.caption = (both, self.draw(&marks, [width, height])?);
         Ok(())
     }
 
-    fn drawn(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, String> {
+    fn draw(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, ExportError> {
         let svg = to_svg(marks, [width as f32, height as f32], self.log.header.speeds.len());
         let (size, rgb) = self.raster.draw(&svg, 1.0)?;
-        RgbImage::from_raw(size.width(), size.height(), rgb).ok_or_else(|| "a drawing has too few pixels".into())
+        RgbImage::from_raw(size.width(), size.height(), rgb).ok_or(ExportError::TooFewPixels(size))
     }
 }
 
-fn put(image: &mut RgbImage, [x, y, ..]: [u32; 4], piece: &RgbImage) {
+fn paste(image: &mut RgbImage, [x, y, ..]: [u32; 4], piece: &RgbImage) {
     overlay(image, piece, x.into(), y.into());
 }

@@ -1,17 +1,17 @@
-//! A scene for POV-Ray 3.7, with the same shading, so that anyone can compare pictures and times.
+//! A scene for POV-Ray 3.7 with the same shading, to compare pictures and times.
 //!
-//! POV-Ray weakens pigment by what the surface transmits (the equation does not), its ambient and diffuse are
-//! multiplied by the pigment, and its system of coordinates is left-handed unless `right` is negative.
+//! POV-Ray weakens pigment by the surface's transmission (the article's equation does not), multiplies ambient and
+//! diffuse by the pigment, and has left-handed coordinates unless `right` is negative.
 
 use std::fmt::Write;
 
 use glam::{DAffine3, DVec3};
 
-use crate::csg::{Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};
 use crate::scene::{Light, Material, Scene};
 
-/// The text of a POV-Ray scene file for a picture of the shape of `size`.
+/// Returns the text of a POV-Ray scene file for a picture with the aspect ratio of `size`.
 pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {
     let mut text = String::from("// Written by anel; render it with +W… +H… in the proportions it was written for.\n");
     let camera = &scene.camera;
@@ -56,7 +56,7 @@ pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {
 
 fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVec3) {
     let Material { colour, ka, kd, ks, kt, n, ior } = *material;
-    // At 1 nothing would be left of the pigment to make up for.
+    // At 1 no pigment would be left to compensate for.
     let kt = if ka + kd > 0.0 { kt.min(1.0 - 1e-6) } else { kt };
     let kept = (1.0 - kt).max(1e-6);
     let (ka, kd) = (ka / kept, kd / kept);
@@ -72,27 +72,28 @@ fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVe
     );
 }
 
-/// A body has one interior in POV-Ray, so the material is written at the outermost composition all of which has it.
+/// Writes a solid. It has one interior in POV-Ray, so the material is at the outermost composition whose parts all have
+/// it.
 fn put_solid(text: &mut String, solid: &Solid) {
     put_parts(text, solid, common_tag(solid));
-    if let Some(tag) = common_tag(solid) {
+    if let Some(MaterialTag(tag)) = common_tag(solid) {
         put(text, format_args!("material {{ M{tag} }}\n"));
     }
     text.push_str("}\n");
 }
 
-/// The solid without its closing brace; `outer` is the material that what it stands in will have.
-fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
+/// Writes a solid without its closing brace; `outer` is the material of the composition around it.
+fn put_parts(text: &mut String, solid: &Solid, outer: Option<MaterialTag>) {
     let (operation, solids) = match solid {
-        Solid::Placed { primitive, scene_from_own, .. } => {
-            return put(text, format_args!("{}\n", body(primitive, scene_from_own)));
+        Solid::Placed { primitive, scene_from_local, .. } => {
+            return put(text, format_args!("{}\n", body(primitive, scene_from_local)));
         }
         Solid::Union(solids) => ("union", solids),
         Solid::Intersection(solids) => ("intersection", solids),
         Solid::Difference(solids) => ("difference", solids),
     };
     if let [only] = &solids[..] {
-        // POV-Ray warns of compositions of one.
+        // POV-Ray warns of compositions of one solid.
         return put_parts(text, only, outer);
     }
     put(text, format_args!("{operation} {{\n"));
@@ -106,8 +107,8 @@ fn put_parts(text: &mut String, solid: &Solid, outer: Option<u32>) {
     }
 }
 
-/// The tag of all primitives of a solid, if they have the same.
-fn common_tag(solid: &Solid) -> Option<u32> {
+/// Returns the tag of all primitives of a solid, if they share one.
+fn common_tag(solid: &Solid) -> Option<MaterialTag> {
     match solid {
         Solid::Placed { tag, .. } => Some(*tag),
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
@@ -117,15 +118,15 @@ fn common_tag(solid: &Solid) -> Option<u32> {
     }
 }
 
-/// The primitive at its place, without the closing brace.
-fn body(primitive: &Primitive, scene_from_own: &DAffine3) -> String {
+/// Returns the placed primitive without its closing brace.
+fn body(primitive: &Primitive, scene_from_local: &DAffine3) -> String {
     let own = match primitive {
         Primitive::Sphere => "sphere { 0, 1".into(),
-        Primitive::HalfSpace { normal, offset } => return plane(*normal, *offset, scene_from_own),
+        Primitive::HalfSpace { normal, offset } => return plane(*normal, *offset, scene_from_local),
         Primitive::Cube => "box { -1, 1".into(),
         Primitive::Cylinder => "cylinder { -y, y, 1".into(),
         Primitive::Cone { bottom, top } => format!("cone {{ -y, {bottom}, y, {top}"),
-        // Its usual method loses roots.
+        // POV-Ray's default solver loses roots.
         Primitive::Torus { tube } => format!("torus {{ 1, {tube} sturm"),
         Primitive::Quadric(q) => format!(
             "quadric {{ {}, {}, {}, {}",
@@ -136,14 +137,14 @@ fn body(primitive: &Primitive, scene_from_own: &DAffine3) -> String {
             q.constant
         ),
     };
-    format!("{own} {}", matrix(scene_from_own))
+    format!("{own} {}", matrix(scene_from_local))
 }
 
-/// A half-space in the scene's coordinates: where a matrix scales a plane, POV-Ray takes the bounds of a composition from
-/// it wrongly, and the composition is not seen.
-fn plane(normal: DVec3, offset: f64, scene_from_own: &DAffine3) -> String {
-    let outward = (scene_from_own.matrix3.inverse().transpose() * normal).normalize();
-    let point = scene_from_own.transform_point3(normal * offset);
+/// Returns a half-space in scene coordinates: POV-Ray computes wrong bounds for a composition if a matrix scales a
+/// plane in it, and the composition disappears.
+fn plane(normal: DVec3, offset: f64, scene_from_local: &DAffine3) -> String {
+    let outward = (scene_from_local.matrix3.inverse().transpose() * normal).normalize();
+    let point = scene_from_local.transform_point3(normal * offset);
     format!("plane {{ {}, {}", vector(outward), outward.dot(point))
 }
 
@@ -157,5 +158,5 @@ fn vector(v: DVec3) -> String {
 }
 
 fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
-    text.write_fmt(what).expect("a String takes everything");
+    text.write_fmt(what).expect("writing to a String cannot fail");
 }

@@ -1,20 +1,21 @@
-//! SVG as pixels.
+//! Renders SVG to pixels.
 
 use std::sync::Arc;
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
+use super::ExportError;
 use crate::font::{PLEX, PLEX_NAME};
 use crate::picture::Size;
 
-/// Draws SVG in the program's own typeface, whatever fonts the computer has.
+/// Renders SVG in the program's own typeface, independent of the computer's fonts.
 pub struct Raster {
     options: Options<'static>,
 }
 
 impl Raster {
-    /// Takes the font in.
+    /// Loads the font.
     pub fn new() -> Self {
         let mut fonts = fontdb::Database::new();
         fonts.load_font_source(fontdb::Source::Binary(Arc::new(PLEX)));
@@ -23,20 +24,20 @@ impl Raster {
         Self { options }
     }
 
-    /// The pixels of an SVG file, so many times as large as it says: three bytes each, sRGB, in scan order.
+    /// Renders an SVG text, scaled by `scale`, and returns size and pixels: three bytes each, sRGB, in scan order.
     ///
     /// # Errors
-    /// A sentence, if it is not SVG or too large to be drawn.
-    pub fn draw(&self, svg: &str, scale: f32) -> Result<(Size, Vec<u8>), String> {
-        let tree = Tree::from_str(svg, &self.options).map_err(|error| format!("the drawing is not SVG: {error}"))?;
+    /// An [`ExportError`], if the text is not SVG or the drawing is too large.
+    pub fn draw(&self, svg: &str, scale: f32) -> Result<(Size, Vec<u8>), ExportError> {
+        let tree = Tree::from_str(svg, &self.options)?;
         let side = |length: f32| (length * scale).round() as u32;
-        let size = Size::new(side(tree.size().width()), side(tree.size().height()))?;
-        let mut pixels = Pixmap::new(size.width(), size.height())
-            .ok_or_else(|| format!("a drawing of {size} pixels is too large"))?;
-        // Whatever the SVG leaves open is paper.
+        let size = Size::new(side(tree.size().width()), side(tree.size().height()));
+        let size = size.map_err(|error| ExportError::Size(error.into()))?;
+        let mut pixels = Pixmap::new(size.width(), size.height()).ok_or(ExportError::TooLarge(size))?;
+        // Unpainted areas are white paper.
         pixels.fill(resvg::tiny_skia::Color::WHITE);
         resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-        // On white nothing is transparent any more.
+        // On white no pixel is transparent.
         let rgb = pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
         Ok((size, rgb))
     }
@@ -56,7 +57,7 @@ mod tests {
     use crate::view::{Anchor, Hue, Mark, TextSize};
 
     #[test]
-    fn what_is_drawn_is_where_it_was_said_to_be() {
+    fn marks_are_drawn_at_their_places() {
         let disc = Mark::Disc { centre: [30.0, 20.0], radius: 10.0, ink: Hue::Text.full() };
         let (size, rgb) = Raster::new().draw(&to_svg(&[disc], [60.0, 40.0], 1), 2.0).expect("a drawing");
         assert_eq!((size.width(), size.height()), (120, 80));
@@ -65,7 +66,7 @@ mod tests {
         assert_eq!([at(5, 5), at(85, 40), at(60, 65)], [PRINT.ground; 3]);
     }
 
-    /// How many pixels of a text are not white.
+    /// Counts the pixels of a text that are not white.
     fn ink(text: &str, size: TextSize) -> usize {
         let (at, anchor, ink) = ([5.0, 20.0], Anchor::Left, Hue::Text.full());
         let label = Mark::Label { at, anchor, text: text.into(), size, ink };
@@ -74,11 +75,11 @@ mod tests {
     }
 
     #[test]
-    fn text_is_drawn_without_any_font_of_the_computer() {
+    fn text_is_drawn_without_system_fonts() {
         assert!(ink("ring", TextSize::Body(1.0)) > 100);
         assert_eq!(ink("", TextSize::Body(1.0)), 0);
-        assert!(ink("ring", TextSize::Fit(13.0)) > ink("ring", TextSize::Small(1.0)), "strong is broader");
-        // What a box would stand for is in the font.
+        assert!(ink("ring", TextSize::Fit(13.0)) > ink("ring", TextSize::Small(1.0)), "bold is wider");
+        // The font has these characters and draws no replacement boxes.
         assert_ne!(
             ink("→ × … µ", TextSize::Body(1.0)),
             ink("\u{10fffe} \u{10fffe} \u{10fffe} \u{10fffe}", TextSize::Body(1.0))
@@ -86,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_svg_is_refused_in_a_sentence() {
-        assert!(Raster::new().draw("no svg", 1.0).is_err_and(|why| why.contains("not SVG")));
+    fn text_that_is_not_svg_is_refused() {
+        assert!(Raster::new().draw("no svg", 1.0).is_err_and(|error| error.to_string().contains("not SVG")));
     }
 }

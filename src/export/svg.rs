@@ -1,4 +1,4 @@
-//! A drawing as SVG, on white, for slides and paper.
+//! A display list as SVG, on white, for slides and paper.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -8,19 +8,19 @@ use crate::font::PLEX_NAME;
 use crate::palette::{PRINT, Rgb, node_colour, readable, text_on};
 use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
 
-/// The text of an SVG file of a display list that was made for `size`, with the colours of a ring of `nodes`; a chart's
-/// are those of [`crate::palette::DISTINCT`].
+/// Returns a display list for a canvas of `size` as SVG, with the colours of a ring of `nodes`; charts use
+/// [`crate::palette::DISTINCT_COLOURS`] colours.
 pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    written(marks, size, nodes, false)
+    svg_text(marks, size, nodes, false)
 }
 
-/// As [`to_svg`], but boxes and larger discs in a node's colour are hatched as well, each node's in its own way, so that
-/// they are told apart where nothing is printed in colour.
+/// Like [`to_svg`], but also hatches boxes and larger discs in a node's colour, each node in its own way, to
+/// distinguish them in print without colour.
 pub fn to_hatched_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    written(marks, size, nodes, true)
+    svg_text(marks, size, nodes, true)
 }
 
-fn written(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
+fn svg_text(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
     let [width, height] = size.map(number);
     let mut svg = Svg { text: String::new(), nodes, hatched };
     svg.put(format_args!(
@@ -36,7 +36,7 @@ fn written(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
     svg.text
 }
 
-/// A file in the making.
+/// Writer of an SVG file.
 struct Svg {
     text: String,
     nodes: usize,
@@ -47,8 +47,8 @@ impl Svg {
     fn put_mark(&mut self, mark: &Mark) {
         match mark {
             Mark::Disc { centre, radius, ink } => {
-                // On less no hatch could be told.
-                let fill = if *radius >= hatch::SIDE { self.fill(*ink) } else { self.paint("fill", *ink) };
+                // A hatch would not be visible on a smaller disc.
+                let fill = if *radius >= hatch::TILE_SIDE { self.fill(*ink) } else { self.paint("fill", *ink) };
                 let ([x, y], r) = (centre.map(number), number(*radius));
                 self.put(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\"{fill}/>\n"));
             }
@@ -64,9 +64,9 @@ impl Svg {
                 let closed = points.len() > 3 && distance(points[0], points[points.len() - 1]) < 0.05;
                 let shape = if closed { "polygon" } else { "polyline" };
                 let (width, stroke) = (number(*width), self.paint("stroke", *ink));
-                let places = places(&points[..points.len() - usize::from(closed)]);
+                let point_list = point_list(&points[..points.len() - usize::from(closed)]);
                 self.put(format_args!(
-                    "<{shape} points=\"{places}\" fill=\"none\"{stroke} stroke-width=\"{width}\" \
+                    "<{shape} points=\"{point_list}\" fill=\"none\"{stroke} stroke-width=\"{width}\" \
                      stroke-linejoin=\"round\"/>\n"
                 ));
             }
@@ -75,7 +75,7 @@ impl Svg {
         }
     }
 
-    /// The hatches of all nodes that have boxes or discs.
+    /// Writes the hatches of all nodes that have boxes or discs.
     fn put_hatches(&mut self, marks: &[Mark]) {
         let node = |mark: &Mark| match mark {
             Mark::Box { ink: Ink { hue: Hue::Node(node), .. }, .. }
@@ -87,7 +87,7 @@ impl Svg {
         for node in nodes {
             let (colour, pattern) = (self.colour(Hue::Node(node)), hatch::pattern(node));
             let [ground, line] = [colour, text_on(colour)].map(hex);
-            let side = hatch::SIDE;
+            let side = hatch::TILE_SIDE;
             self.put(format_args!(
                 "<pattern id=\"node-{node}\" width=\"{side}\" height=\"{side}\" patternUnits=\"userSpaceOnUse\">\
                  <rect width=\"{side}\" height=\"{side}\" fill=\"{ground}\"/>\
@@ -98,12 +98,12 @@ impl Svg {
         self.text.push_str("</defs>\n");
     }
 
-    /// A piece for each part of the way, broader and stronger from one to the next.
+    /// Writes a trail as segments that grow wider and more opaque.
     fn put_trail(&mut self, points: &[Point], width: f32, ink: Ink) {
         let last = points.len().saturating_sub(1);
         let sides = |i: usize| {
             let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
-            // A way of no length has no sides.
+            // A segment without length has no sides.
             let length = distance(before, after);
             let half = if length > 1e-3 { width / 2.0 * i as f32 / last as f32 / length } else { 0.0 };
             let ([x, y], [across, down]) = (points[i], [after[1] - before[1], before[0] - after[0]]);
@@ -113,13 +113,13 @@ impl Svg {
             let ([a, b], [c, d]) = (sides(i), sides(i + 1));
             let share = (i as f32 + 0.5) / last as f32;
             let fill = self.paint("fill", Ink { alpha: ink.alpha * share * share, ..ink });
-            self.put(format_args!("<polygon points=\"{}\"{fill}/>\n", places(&[a, b, d, c])));
+            self.put(format_args!("<polygon points=\"{}\"{fill}/>\n", point_list(&[a, b, d, c])));
         }
     }
 
     fn put_label(&mut self, [x, y]: Point, anchor: Anchor, text: &str, size: TextSize, ink: Ink) {
         let units = size.units();
-        // Half the height of a digit below the middle; many programs know no other baseline.
+        // Half a digit's height below the middle; many programs support no other baseline.
         let (x, y) = (number(x), number(y + 0.36 * units));
         let anchor = match anchor {
             Anchor::Left => "start",
@@ -151,7 +151,7 @@ impl Svg {
         }
     }
 
-    /// What keeps a hatch away from what stands on it.
+    /// Returns the attributes of a text's outline, which separates it from a hatch below.
     fn halo(&self, hue: Hue, units: f32) -> String {
         match hue {
             Hue::OnNode(node) if self.hatched => {
@@ -164,7 +164,7 @@ impl Svg {
         }
     }
 
-    /// What a box or a disc is filled with.
+    /// Returns the fill of a box or a disc.
     fn fill(&self, ink: Ink) -> String {
         match ink.hue {
             Hue::Node(node) if self.hatched => attributes("fill", &format!("url(#node-{node})"), ink.alpha),
@@ -177,11 +177,11 @@ impl Svg {
     }
 
     fn put(&mut self, what: std::fmt::Arguments<'_>) {
-        self.text.write_fmt(what).expect("a String takes everything");
+        self.text.write_fmt(what).expect("writing to a String cannot fail");
     }
 }
 
-/// The attributes for a fill or a stroke.
+/// Returns the attributes of a fill or a stroke.
 fn paint(what: &str, colour: Rgb, alpha: f32) -> String {
     attributes(what, &hex(colour), alpha)
 }
@@ -199,16 +199,16 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn places(points: &[Point]) -> String {
-    let places: Vec<_> = points.iter().map(|&[x, y]| format!("{},{}", number(x), number(y))).collect();
-    places.join(" ")
+fn point_list(points: &[Point]) -> String {
+    let point_list: Vec<_> = points.iter().map(|&[x, y]| format!("{},{}", number(x), number(y))).collect();
+    point_list.join(" ")
 }
 
 fn distance([x, y]: Point, [u, v]: Point) -> f32 {
     (x - u).hypot(y - v)
 }
 
-/// At most two decimals; what is no number is 0.
+/// Formats a number with at most two decimals; NaN and infinities become 0.
 fn number(value: f32) -> String {
     let rounded = format!("{:.2}", if value.is_finite() { value } else { 0.0 });
     match rounded.trim_end_matches('0').trim_end_matches('.') {
@@ -217,7 +217,7 @@ fn number(value: f32) -> String {
     }
 }
 
-/// On one line, and as XML allows it.
+/// Escapes a text for XML, on one line.
 fn escaped(text: &str) -> String {
     let mut safe = String::new();
     for letter in text.chars() {
@@ -241,7 +241,7 @@ mod tests {
 
     use super::*;
 
-    /// Places and lengths, and sometimes what is none.
+    /// Generates places and lengths, and sometimes any float.
     fn numbers() -> impl Strategy<Value = f32> {
         prop_oneof![9 => -50.0..1000.0f32, 1 => any::<f32>()]
     }
@@ -287,7 +287,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn whatever_is_drawn_is_xml(marks in prop::collection::vec(marks(), 0..12), nodes in 0..40usize) {
+        fn every_display_list_becomes_valid_xml(marks in prop::collection::vec(marks(), 0..12), nodes in 0..40usize) {
             let text = to_svg(&marks, [640.0, 480.0], nodes);
             let document = Document::parse(&text).map_err(|error| TestCaseError::fail(format!("{error}: {text}")))?;
             let pieces = marks.iter().map(|mark| if let Mark::Trail { points, .. } = mark { points.len() - 1 } else { 1 });
@@ -301,7 +301,7 @@ mod tests {
         }
 
         #[test]
-        fn words_are_what_they_were(text in "[ -~äß←…]{1,30}") {
+        fn label_text_survives_escaping(text in "[ -~äß←…]{1,30}") {
             let (ink, size) = (Hue::Text.full(), TextSize::Body(1.0));
             let label = Mark::Label { at: [0.0; 2], anchor: Anchor::Left, text: text.clone(), size, ink };
             let svg = to_svg(&[label], [100.0; 2], 1);
@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// The attributes of the only mark.
+    /// Returns the element and the attributes of a single mark.
     fn drawn(mark: Mark) -> Vec<(String, String)> {
         let text = to_svg(&[mark], [640.0, 480.0], 8);
         let document = Document::parse(&text).expect("it is XML");
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_are_where_and_what_they_are() {
+    fn marks_have_their_shapes_and_places() {
         let ink = Hue::Node(0).faint(0.5);
         let disc = drawn(Mark::Disc { centre: [1.0, 2.5], radius: 3.337, ink });
         assert!(
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn a_trail_is_nothing_at_its_tail_and_full_at_its_head() {
+    fn trail_grows_from_nothing_to_full_width() {
         let points = vec![[0.0, 0.0], [10.0, 0.0], [20.0, 0.0]];
         let text = to_svg(&[Mark::Trail { points, width: 4.0, ink: Hue::Text.full() }], [640.0, 480.0], 8);
         let document = Document::parse(&text).expect("it is XML");
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn names_in_pale_colours_are_made_readable_on_paper() {
+    fn pale_labels_are_darkened_on_paper() {
         let label = |hue: Hue| {
             let (anchor, size) = (Anchor::Right, TextSize::Body(1.0));
             drawn(Mark::Label { at: [9.0, 100.0], anchor, text: "ring".into(), size, ink: hue.full() })
@@ -366,7 +366,7 @@ mod tests {
         assert!(is(&on_yellow, &[("fill", &hex(text_on(node_colour(5, 8))))]), "{on_yellow:?}");
     }
     #[test]
-    fn machines_are_hatched_and_their_numbers_kept_free_of_the_hatch() {
+    fn machines_are_hatched_and_their_numbers_are_outlined() {
         let disc = |radius| Mark::Disc { centre: [50.0; 2], radius, ink: Hue::Node(1).full() };
         let (anchor, size, text) = (Anchor::Centre, TextSize::Body(1.0), "2".to_owned());
         let label = Mark::Label { at: [50.0; 2], anchor, text, size, ink: Hue::OnNode(1).full() };

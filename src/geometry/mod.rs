@@ -2,38 +2,40 @@
 
 mod split;
 
-pub use split::{MAX_UNBALANCED, split};
+pub use split::{MAX_SAH_DEPTH, split};
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// A half-line, with what every test against it needs.
+/// A half-line, with the values that every intersection test needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Where it starts.
+    /// The point at distance 0.
     pub origin: DVec3,
-    /// Where it goes; of length 1.
+    /// Of length 1.
     pub direction: DVec3,
-    /// 1 / `direction`, component by component; very large where that is 0, but finite, so that no product with it
+    /// 1 / `direction`, by component. Where that is infinite, a very large number instead, so that no product with it
     /// is NaN.
-    pub inverse: DVec3,
-    /// The largest coordinate that the origin was computed from. Rounding errors along the ray are a few parts in
-    /// 10¹⁶ of this and of the distance, so a tolerance made of both follows the scene's own scale.
+    pub inverse_direction: DVec3,
+    /// The largest coordinate that the origin was computed from. Rounding errors along the ray are a few parts in 10¹⁶
+    /// of this and of the distance, so a tolerance relative to both follows the scale of the scene.
     pub scale: f64,
 }
 
-/// Two events on a ray are one if they differ by less than this part of the numbers that they were computed from.
+/// Two distances along a ray are equal if they differ by less than this part of the numbers that they were computed
+/// from.
 const RELATIVE_TOLERANCE: f64 = 1e-12;
 
 impl Ray {
-    /// `direction` must have length 1.
+    /// A ray with its inverse direction and scale; `direction` must have length 1.
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
-        const LARGEST: f64 = 1e300;
-        let inverse = direction.map(|component| fast_min(fast_max(1.0 / component, -LARGEST), LARGEST));
+        const MAX_INVERSE: f64 = 1e300;
+        let inverse_direction =
+            direction.map(|component| fast_min(fast_max(1.0 / component, -MAX_INVERSE), MAX_INVERSE));
         let size = origin.abs();
-        Self { origin, direction, inverse, scale: fast_max(fast_max(size.x, size.y), size.z) }
+        Self { origin, direction, inverse_direction, scale: fast_max(fast_max(size.x, size.y), size.z) }
     }
 
-    /// The ray that goes on from the point at distance `t` of this one.
+    /// The secondary ray that starts at distance `t` of this one.
     pub fn onward(&self, t: f64, direction: DVec3) -> Self {
         let mut ray = Self::new(self.at(t), direction);
         ray.scale = fast_max(fast_max(ray.scale, self.scale), t);
@@ -45,13 +47,13 @@ impl Ray {
         self.origin + self.direction * t
     }
 
-    /// How far apart two events at distance `t` may be and still be one and the same.
+    /// The greatest difference between equal distances near `t`.
     pub fn tolerance(&self, t: f64) -> f64 {
         RELATIVE_TOLERANCE * (self.scale + t.abs())
     }
 }
 
-/// A box along the axes; it may be infinite, and is empty where `min` exceeds `max`.
+/// An axis-aligned box; it may be infinite, and is empty where `min` exceeds `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The lowest corner.
@@ -61,43 +63,43 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// Holds nothing.
+    /// Contains no point.
     pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-    /// Holds everything.
+    /// Contains all points.
     pub const ALL: Self = Self { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
 
-    /// The least box that holds both.
+    /// The smallest box that contains both.
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// What both hold.
+    /// The points in both boxes.
     pub fn intersection(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// Whether it holds nothing at all (a box without thickness holds something).
+    /// Whether it contains no point (a box without thickness contains some).
     pub fn is_empty(self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// Whether all its corners are at finite places.
+    /// Whether all its corners are finite.
     pub fn is_finite(self) -> bool {
         self.min.is_finite() && self.max.is_finite()
     }
 
-    /// Half the surface; the measure of how likely a ray hits it.
+    /// Half the surface area, proportional to the probability that a random ray hits the box.
     pub fn half_area(self) -> f64 {
         let size = self.max - self.min;
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// The middle.
+    /// The centre.
     pub fn centre(self) -> DVec3 {
         (self.min + self.max) * 0.5
     }
 
-    /// A box that surely holds what this one should hold, in spite of rounding.
+    /// A slightly larger box, which contains the intended box in spite of rounding.
     pub fn padded(self) -> Self {
         let finite = |v: DVec3| DVec3::select(v.is_finite_mask(), v, DVec3::ZERO);
         let size = finite(self.max - self.min);
@@ -105,37 +107,37 @@ impl Aabb {
         Self { min: self.min - pad(self.min), max: self.max + pad(self.max) }
     }
 
-    /// The least box that holds the image of the cube −1…1 under `map`.
+    /// The smallest box that contains the image of the cube −1…1 under `map`.
     pub fn of_cube(map: &DAffine3) -> Self {
         let half = map.matrix3.x_axis.abs() + map.matrix3.y_axis.abs() + map.matrix3.z_axis.abs();
         Self { min: map.translation - half, max: map.translation + half }
     }
 
-    /// Where `ray` enters the box, if it meets it between `from` and `to`; never less than `from`. A ray that runs in
-    /// the very plane of a face may miss, so what must not be missed needs a box that is [`Aabb::padded`].
+    /// The distance at which `ray` enters the box, if it meets the box between `from` and `to`; at least `from`. A ray
+    /// in the plane of a face may miss: where it must not, use a [`Aabb::padded`] box.
     #[inline(always)]
     pub fn entry(&self, ray: &Ray, from: f64, to: f64) -> Option<f64> {
-        self.stay(ray, from, to).map(|[near, _]| near)
+        self.span(ray, from, to).map(|[near, _]| near)
     }
 
-    /// As [`Aabb::entry`], and where it leaves; never more than `to`.
+    /// The distances at which `ray` enters and leaves the box, as [`Aabb::entry`]; the second is at most `to`.
     #[inline(always)]
-    pub fn stay(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
-        let a = (self.min - ray.origin) * ray.inverse;
-        let b = (self.max - ray.origin) * ray.inverse;
+    pub fn span(&self, ray: &Ray, from: f64, to: f64) -> Option<[f64; 2]> {
+        let a = (self.min - ray.origin) * ray.inverse_direction;
+        let b = (self.max - ray.origin) * ray.inverse_direction;
         let near = fast_max(fast_max(fast_min(a.x, b.x), fast_min(a.y, b.y)), fast_max(fast_min(a.z, b.z), from));
         let far = fast_min(fast_min(fast_max(a.x, b.x), fast_max(a.y, b.y)), fast_min(fast_max(a.z, b.z), to));
         (near <= far).then_some([near, far])
     }
 }
 
-/// `f64::min` without its care for NaN: one instruction.
+/// `f64::min` without its handling of NaN: one instruction.
 #[inline(always)]
 pub fn fast_min(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// `f64::max` without its care for NaN: one instruction.
+/// `f64::max` without its handling of NaN: one instruction.
 #[inline(always)]
 pub fn fast_max(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
@@ -148,7 +150,7 @@ pub fn rotation(degrees: DVec3) -> DMat3 {
     about(DVec3::Z, z) * about(DVec3::Y, y) * about(DVec3::X, x)
 }
 
-/// A map that carries the y axis to `axis` (of length 1) and is a rotation.
+/// A rotation that maps the y axis to `axis`, which has length 1.
 pub fn turn_y_to(axis: DVec3) -> DMat3 {
     let side = axis.any_orthonormal_vector();
     DMat3::from_cols(side, axis, side.cross(axis))
@@ -159,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ray_in_the_plane_of_a_face_meets_the_padded_box() {
+    fn ray_in_plane_of_face_hits_padded_box() {
         let cube = Aabb { min: DVec3::NEG_ONE, max: DVec3::ONE }.padded();
         let ray = Ray::new(DVec3::new(-3.0, 1.0, 0.0), DVec3::X);
         let entry = cube.entry(&ray, 0.0, f64::INFINITY).expect("the ray runs in a face");
@@ -169,14 +171,14 @@ mod tests {
     }
 
     #[test]
-    fn rotation_goes_about_x_then_y_then_z() {
+    fn rotation_is_about_x_then_y_then_z() {
         let turned = rotation(DVec3::new(90.0, 90.0, 0.0)) * DVec3::Y;
-        // y goes to z about x, and z to x about y.
+        // About x, y goes to z; about y, z goes to x.
         assert!((turned - DVec3::X).length() < 1e-15, "{turned}");
     }
 
     #[test]
-    fn turning_y_to_an_axis_keeps_handedness() {
+    fn turn_y_to_keeps_handedness() {
         for axis in [DVec3::Y, DVec3::NEG_Y, DVec3::X, DVec3::new(0.6, 0.0, -0.8)] {
             let turn = turn_y_to(axis);
             assert!((turn * DVec3::Y - axis).length() < 1e-15);

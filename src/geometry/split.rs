@@ -1,27 +1,26 @@
-//! Where a hierarchy of boxes is split.
+//! Splitting of bounding volumes by the surface area heuristic.
 
 use super::Aabb;
 
-/// Below this depth [`split`] halves by count, so that no hierarchy is deeper than this and the number of times that
-/// its boxes can be halved.
-pub const MAX_UNBALANCED: u32 = 32;
+/// From this depth on [`split`] halves by count, so that no hierarchy is deeper than this plus the number of halvings
+/// of its boxes.
+pub const MAX_SAH_DEPTH: u32 = 32;
 
-/// Orders numbered boxes so that those before the place that is returned are one part, and the others another: where
-/// the surface area heuristic expects least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using
-/// space subdivision*, 1990). Returns nothing, if no split pays. `depth` is 0 for all boxes, 1 for the parts of the
-/// first split, and so on.
-pub fn split(boxes: &mut [(u32, Aabb)], depth: u32) -> Option<usize> {
-    /// Work of meeting a box, as a part of that of meeting what is in it.
-    const BOX: f64 = 0.5;
+/// Reorders the boxes and returns an index that splits them in two parts where the surface area heuristic expects the
+/// least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using space subdivision*, 1990). Returns
+/// nothing if no split pays. `depth` is 0 for all boxes, 1 for the parts of the first split, and so on.
+pub fn split<Id: Ord>(boxes: &mut [(Id, Aabb)], depth: u32) -> Option<usize> {
+    /// The work of testing a box, relative to that of testing its content.
+    const BOX_COST: f64 = 0.5;
     if boxes.len() < 2 {
         return None;
     }
-    if depth >= MAX_UNBALANCED {
+    if depth >= MAX_SAH_DEPTH {
         sort_along(boxes, 0);
         return Some(boxes.len() / 2);
     }
     let area = boxes.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds)).half_area();
-    let mut least = boxes.len() as f64 * area - 2.0 * BOX * area;
+    let mut least = boxes.len() as f64 * area - 2.0 * BOX_COST * area;
     let mut best = None;
     for axis in 0..3 {
         sort_along(boxes, axis);
@@ -32,21 +31,21 @@ pub fn split(boxes: &mut [(u32, Aabb)], depth: u32) -> Option<usize> {
             after[index] = all;
         }
         let mut before = Aabb::EMPTY;
-        for place in 1..boxes.len() {
-            before = before.union(boxes[place - 1].1);
-            let work = place as f64 * before.half_area() + (boxes.len() - place) as f64 * after[place].half_area();
+        for middle in 1..boxes.len() {
+            before = before.union(boxes[middle - 1].1);
+            let work = middle as f64 * before.half_area() + (boxes.len() - middle) as f64 * after[middle].half_area();
             if work < least {
-                (least, best) = (work, Some((axis, place)));
+                (least, best) = (work, Some((axis, middle)));
             }
         }
     }
-    let (axis, place) = best?;
+    let (axis, middle) = best?;
     sort_along(boxes, axis);
-    Some(place)
+    Some(middle)
 }
 
-fn sort_along(boxes: &mut [(u32, Aabb)], axis: usize) {
-    // By number where centres are equal, so that the same boxes are always split in the same way.
+fn sort_along<Id: Ord>(boxes: &mut [(Id, Aabb)], axis: usize) {
+    // Equal centres are ordered by id, so that the same boxes are always split in the same way.
     boxes
         .sort_by(|(a, a_box), (b, b_box)| a_box.centre()[axis].total_cmp(&b_box.centre()[axis]).then_with(|| a.cmp(b)));
 }

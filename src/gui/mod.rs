@@ -1,12 +1,27 @@
 //! The window: paints what `view` returns, and hands clicks to the run.
+//!
+//! The modules in the order of their layers: a module imports only from lower layers (`tests/tidy` checks this).
 
-mod app;
-mod input;
-mod pages;
-mod panels;
-mod session;
+// Layer 0: what the user sets.
 mod settings;
+
+// Layer 1: runs and background jobs.
+mod session;
+
+// Layer 2: buttons, sliders, icons, colours.
 mod widgets;
+
+// Layer 3: keys, menus, selection.
+mod input;
+
+// Layer 4: the panels around a run.
+mod panels;
+
+// Layer 5: the pages that take the place of the run.
+mod pages;
+
+// Layer 6: the arrangement of panels and pages.
+mod app;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;

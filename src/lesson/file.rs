@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use super::{BUILT_IN, Claim, Lesson, LowerView, Moment, Question, RunPlan, Step, Words};
 use crate::balance::{Condition, NodeId, Remedies, Remedy, Strategy};
 use crate::picture::Size;
-use crate::ron_file::{self, FileError, find_path, skipped};
+use crate::ron_file::{self, FileError, comment_or_string_length, find_path};
 use crate::scenario::Command;
 use crate::scene;
 use crate::time::Time;
@@ -31,14 +31,12 @@ impl Lesson {
         if let Some((name, text)) = built_in {
             return Self::parse(name, text);
         }
-        let none = || {
-            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
-            format!("there is no such file, and no built-in lesson of that name (they are {})", names.join(", "))
-        };
         let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
-        let text = ron_file::read(path, "lesson", none).map_err(|message| FileError::new(None, &message));
+        let text = ron_file::read(path, "lesson", BUILT_IN.iter().map(|(name, _)| *name));
         let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        text.and_then(|text| Self::parse_in(directory, &name, &text)).map_err(|error| error.of(argument))
+        text.map_err(FileError::from)
+            .and_then(|text| Self::parse_in(directory, &name, &text))
+            .map_err(|error| error.in_file(argument))
     }
 
     /// Reads the text of a lesson's file, beside which there are no scenes.
@@ -58,9 +56,9 @@ impl Lesson {
 
 /// Whether this is a file that begins like a lesson, after comments: then its mistakes are a lesson's.
 pub fn is_lesson_file(path: &Path) -> bool {
-    let text = ron_file::read(path, "lesson", String::new).unwrap_or_default();
+    let text = ron_file::read(path, "lesson", []).unwrap_or_default();
     let mut rest = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
-    while let Some(comment) = skipped(rest).filter(|_| rest.starts_with('/')) {
+    while let Some(comment) = comment_or_string_length(rest).filter(|_| rest.starts_with('/')) {
         rest = rest[comment..].trim_start();
     }
     rest.starts_with("Lesson")

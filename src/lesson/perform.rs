@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::{Lesson, RunPlan};
 use crate::balance::Rules;
+use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
 use crate::picture::Quality;
 use crate::runlog::{Header, LinkSettings, RunLog};
@@ -33,14 +34,14 @@ struct TracedPixels {
 }
 
 impl Lesson {
-    /// Runs all runs in virtual time, and tells `done` how many more pixels are traced. `None` if it `is_over` before.
+    /// Runs all runs in virtual time, and tells `done` how many more pixels are traced. `None` if cancelled before the end.
     ///
     /// # Errors
     /// A sentence that names the run.
     pub fn perform(
         &self,
         done: &(dyn Fn(u32) + Sync),
-        is_over: &(dyn Fn() -> bool + Sync),
+        cancel: &CancelToken,
     ) -> Result<Option<Vec<(String, LessonRun)>>, String> {
         // Each scene is traced once at each size.
         let mut known: BTreeMap<(&str, u32, u32), TracedPixels> = BTreeMap::new();
@@ -49,7 +50,7 @@ impl Lesson {
             let traced = match known.entry(plan.picture()) {
                 Entry::Occupied(traced) => traced.into_mut(),
                 Entry::Vacant(place) => {
-                    let traced = trace(plan, &self.directory, done, is_over);
+                    let traced = trace(plan, &self.directory, done, cancel);
                     let Some(traced) = traced.map_err(|why| format!("the run `{name}`: {why}"))? else {
                         return Ok(None);
                     };
@@ -107,13 +108,14 @@ fn trace(
     plan: &RunPlan,
     directory: &Path,
     done: &(dyn Fn(u32) + Sync),
-    is_over: &(dyn Fn() -> bool + Sync),
+    cancel: &CancelToken,
 ) -> Result<Option<TracedPixels>, String> {
     let beside = directory.join(&plan.scene);
     let argument =
         if built_in(&plan.scene).is_some() { plan.scene.clone() } else { beside.to_string_lossy().into_owned() };
     let opened = Arc::new(Opened::new(&argument).map_err(|error| error.to_string())?);
     let tracer = Arc::new(Tracer::new(&opened.scene, plan.size, Quality::default()));
-    let Some((_, costs)) = TracedPicture::by_pixel(&tracer, done, is_over)? else { return Ok(None) };
+    let traced = TracedPicture::by_pixel(&tracer, done, cancel).map_err(|error| error.to_string())?;
+    let Some((_, costs)) = traced else { return Ok(None) };
     Ok(Some(TracedPixels { opened, tracer, costs }))
 }

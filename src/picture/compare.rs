@@ -1,29 +1,29 @@
-//! How far a picture is from another.
+//! The difference between two pictures.
 //!
-//! A mean hides speckle, so that three numbers are told. What people see best follows ꟻLIP (Andersson et al. 2020), which
-//! is left out: no library of it does without a C++ compiler.
+//! A mean hides speckle, hence three numbers. ꟻLIP (Andersson et al. 2020) follows human sight best, but is left out:
+//! every library of it needs a C++ compiler.
 
 use super::frame::{Colour, Frame, srgb8};
 
-/// How far a picture is from a reference.
+/// The difference between a picture and its reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// The root of the mean squared error in linear light, over all pixels and channels; at least 0.
+    /// The root of the mean squared error over all pixels and channels, in linear light; at least 0.
     pub rmse: f64,
-    /// Pixels of which a channel is more than [`Difference::SAME`] apart, in 8-bit sRGB.
+    /// The number of pixels with a channel that differs by more than [`Difference::TOLERANCE`], in 8-bit sRGB.
     pub wrong_pixels: u32,
-    /// The least structural similarity of a block of 8 × 8 pixels, from −1 to 1 (the same), of the luminance in 8-bit sRGB
-    /// (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, *Image quality assessment: from error visibility to structural
-    /// similarity*, 2004, equation 13).
+    /// The smallest structural similarity of a block of 8 × 8 pixels, from −1 to 1 (equal), by luminance in 8-bit sRGB
+    /// (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, *Image quality assessment: from error visibility to
+    /// structural similarity*, 2004, equation 13).
     pub worst_ssim: f64,
 }
 
 impl Difference {
-    /// How far apart two 8-bit sRGB values are taken for the same.
-    pub const SAME: u8 = 2;
+    /// The greatest difference between 8-bit sRGB values that counts as equal.
+    pub const TOLERANCE: u8 = 2;
 
     /// # Panics
-    /// If the pictures are not of one size.
+    /// If the pictures differ in size.
     pub fn of(picture: &Frame, reference: &Frame) -> Self {
         assert_eq!(picture.size(), reference.size(), "only pictures of one size are compared");
         Self {
@@ -34,8 +34,8 @@ impl Difference {
     }
 }
 
-/// By how much the channel differs that differs most.
-pub fn apart(a: [u8; 3], b: [u8; 3]) -> u8 {
+/// The difference of the channel that differs most.
+pub fn max_channel_difference(a: [u8; 3], b: [u8; 3]) -> u8 {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
 
@@ -47,31 +47,31 @@ fn rmse(pixels: &[Colour], reference: &[Colour]) -> f64 {
 }
 
 fn wrong_pixels(picture: &Frame, reference: &Frame) -> u32 {
-    let is_wrong = |(&a, &b): (&Colour, &Colour)| apart(srgb8(a), srgb8(b)) > Difference::SAME;
+    let is_wrong = |(&a, &b): (&Colour, &Colour)| max_channel_difference(srgb8(a), srgb8(b)) > Difference::TOLERANCE;
     picture.pixels().iter().zip(reference.pixels()).filter(|&pair| is_wrong(pair)).count() as u32
 }
 
 /// The side of a block.
-const BLOCK: u32 = 8;
+const BLOCK_SIDE_PX: u32 = 8;
 
 fn worst_ssim(picture: &Frame, reference: &Frame) -> f64 {
-    let (size, pixels) = (picture.size(), [grey(picture), grey(reference)]);
+    let (size, pixels) = (picture.size(), [luminances(picture), luminances(reference)]);
     let block = |x: u32, y: u32| {
-        let (columns, rows) = (x..(x + BLOCK).min(size.width()), y..(y + BLOCK).min(size.height()));
+        let (columns, rows) = (x..(x + BLOCK_SIDE_PX).min(size.width()), y..(y + BLOCK_SIDE_PX).min(size.height()));
         let places = rows.flat_map(|y| columns.clone().map(move |x| (y * size.width() + x) as usize));
         ssim(places.map(|place| (pixels[0][place], pixels[1][place])))
     };
-    let corners = starts(size.height()).flat_map(|y| starts(size.width()).map(move |x| (x, y)));
+    let corners = block_starts(size.height()).flat_map(|y| block_starts(size.width()).map(move |x| (x, y)));
     corners.map(|(x, y)| block(x, y)).fold(1.0, f64::min)
 }
 
-/// Where blocks begin along a side: one after the other, but the last one ends with the picture.
-fn starts(side: u32) -> impl Iterator<Item = u32> + Clone {
-    (0..side.div_ceil(BLOCK)).map(move |block| (block * BLOCK).min(side.saturating_sub(BLOCK)))
+/// The first pixels of the blocks along a side. Blocks follow one another, but the last one ends with the picture.
+fn block_starts(side: u32) -> impl Iterator<Item = u32> + Clone {
+    (0..side.div_ceil(BLOCK_SIDE_PX)).map(move |block| (block * BLOCK_SIDE_PX).min(side.saturating_sub(BLOCK_SIDE_PX)))
 }
 
 /// The luminance of the 8-bit sRGB picture, 0 to 255 (the weights of Rec. ITU-R BT.709).
-fn grey(frame: &Frame) -> Vec<f64> {
+fn luminances(frame: &Frame) -> Vec<f64> {
     let luminance = |&pixel: &Colour| {
         let [red, green, blue] = srgb8(pixel).map(f64::from);
         0.2126 * red + 0.7152 * green + 0.0722 * blue
@@ -113,13 +113,13 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_picture_is_itself((a, _) in pictures()) {
+        fn picture_equals_itself((a, _) in pictures()) {
             let Difference { rmse, wrong_pixels, worst_ssim } = Difference::of(&a, &a);
             prop_assert!(rmse == 0.0 && wrong_pixels == 0 && (worst_ssim - 1.0).abs() < 1e-9);
         }
 
         #[test]
-        fn one_is_as_far_from_the_other_as_the_other_from_it((a, b) in pictures()) {
+        fn difference_is_symmetric((a, b) in pictures()) {
             let (there, back) = (Difference::of(&a, &b), Difference::of(&b, &a));
             prop_assert!((there.worst_ssim - back.worst_ssim).abs() < 1e-12);
             prop_assert_eq!((there.rmse, there.wrong_pixels), (back.rmse, back.wrong_pixels));
@@ -127,7 +127,7 @@ mod tests {
         }
 
         #[test]
-        fn half_the_way_is_half_the_error((a, b) in pictures()) {
+        fn rmse_is_linear((a, b) in pictures()) {
             let middle: Vec<Colour> =
                 a.pixels().iter().zip(b.pixels()).map(|(a, b)| [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0)).collect();
             let middle = frame(a.size().width(), a.size().height(), &middle);
@@ -136,7 +136,7 @@ mod tests {
         }
 
         #[test]
-        fn one_wrong_pixel_is_found_wherever_it_is(width in 1..40_u32, height in 1..40_u32, place: prop::sample::Index) {
+        fn one_wrong_pixel_is_found_anywhere(width in 1..40_u32, height in 1..40_u32, place: prop::sample::Index) {
             let mut pixels = vec![[0.5; 3]; (width * height) as usize];
             let even = frame(width, height, &pixels);
             pixels[place.index((width * height) as usize)] = [0.0; 3];
@@ -148,18 +148,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_twice_as_bright_or_turned_round_has_a_known_similarity() {
-        // Values 0 and 255, half of each: means of 127.5, variances of 127.5², covariance −127.5².
+    fn inverted_and_dimmed_pictures_have_known_ssim() {
+        // Half the values are 0 and half 255: means of 127.5, variances of 127.5², covariance −127.5².
         let stripes: Vec<(f64, f64)> = (0..64).map(|i| f64::from(i % 2) * 255.0).map(|a| (a, 255.0 - a)).collect();
         let (variance, c2) = (127.5 * 127.5, 7.65 * 7.65);
         assert!((ssim(stripes.into_iter()) - (c2 - 2.0 * variance) / (c2 + 2.0 * variance)).abs() < 1e-12);
-        // Even grounds: only their means tell.
+        // Of uniform pictures only the means differ.
         let (even, c1) = ((0..64).map(|_| (100.0, 50.0)), 2.55 * 2.55);
         assert!((ssim(even) - (10_000.0 + c1) / (12_500.0 + c1)).abs() < 1e-12);
     }
 
     #[test]
-    fn two_of_255_are_the_same_and_three_are_not() {
+    fn difference_of_2_is_tolerated_and_3_is_not() {
         let linear = |value: f32| ((value / 255.0 + 0.055) / 1.055).powf(2.4);
         let apart = |steps: f32| {
             let step = |value: f32| frame(1, 1, &[[linear(value), 0.5, 0.5]]);

@@ -1,4 +1,4 @@
-//! The article's division (§7): a picture is a row of atoms in scan order, a band is consecutive atoms.
+//! The article's division (§7): a picture is a sequence of atoms in scan order, and a band is a range of atoms.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::Colour;
 
-/// An atom's number in scan order: the unit of work that is never divided.
+/// The number of an atom in scan order. An atom is the unit of work that is never divided.
 pub type Atom = u32;
 
-/// Appends an atom to ranges; it joins the last if it follows it.
+/// Appends an atom to a list of ranges. It extends the last range if it follows it.
 pub fn push_atom(ranges: &mut Vec<Range<Atom>>, atom: Atom) {
     match ranges.last_mut() {
         Some(last) if last.end == atom => last.end += 1,
@@ -17,13 +17,12 @@ pub fn push_atom(ranges: &mut Vec<Range<Atom>>, atom: Atom) {
     }
 }
 
-/// How many atoms these ranges have together.
+/// The number of atoms in these ranges.
 pub fn atoms_in(ranges: &[Range<Atom>]) -> u32 {
     ranges.iter().map(|range| range.len() as u32).sum()
 }
 
-/// How a picture is cut into atoms: runs of `atom_pixels` pixels in scan order, of which only the last
-/// may be shorter.
+/// Division of a picture into atoms: runs of `atom_pixels` pixels in scan order. Only the last may be shorter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Division {
     pixels: u32,
@@ -31,27 +30,27 @@ pub struct Division {
 }
 
 impl Division {
-    /// The records of more atoms than this would not fit the memory of a usual computer: they take about 250 bytes each.
+    /// With more atoms the records, about 250 bytes for each atom, would not fit the memory of a usual computer.
     pub const MAX_ATOMS: u32 = 1 << 24;
 
-    /// `pixels` is the picture's count of pixels; an atom of 0 pixels counts as one of 1.
+    /// `pixels` is the number of pixels of the picture. An atom has at least one pixel, even if `atom_pixels` is 0.
     pub fn new(pixels: u32, atom_pixels: u32) -> Self {
         Self { pixels, atom_pixels: atom_pixels.max(1) }
     }
 
-    /// How many atoms there are.
+    /// The number of atoms.
     pub fn atoms(self) -> u32 {
         self.pixels.div_ceil(self.atom_pixels)
     }
 
-    /// Pixels of an atom that is not the last.
+    /// The number of pixels of every atom but the last.
     pub fn atom_pixels(self) -> u32 {
         self.atom_pixels
     }
 
     /// The pixels of `atom`, as positions in scan order.
     pub fn pixels(self, atom: Atom) -> Range<u32> {
-        // In u64, since the end of the last atom may lie past u32::MAX.
+        // u64, since the end of the last atom may lie beyond u32::MAX.
         let start = u64::from(atom) * u64::from(self.atom_pixels);
         let end = start + u64::from(self.atom_pixels);
         let clip = |pixel: u64| pixel.min(u64::from(self.pixels)) as u32;
@@ -63,16 +62,16 @@ impl Division {
         if range.is_empty() { 0..0 } else { self.pixels(range.start).start..self.pixels(range.end - 1).end }
     }
 
-    /// How many pixels the atoms of `range` hold together.
+    /// The number of pixels of the atoms of `range`.
     pub fn pixels_in(self, range: &Range<Atom>) -> u32 {
         self.pixels_of(range).len() as u32
     }
 
-    /// Takes apart what was traced together: for each range of `atoms`, in their order, the places of its pixels in the
-    /// picture and their colours.
+    /// Splits the colours of atoms that were traced together: for each range of `atoms`, in this order, its pixels
+    /// (positions in scan order) and their colours.
     ///
     /// # Panics
-    /// If there are fewer `colours` than the atoms have pixels.
+    /// If there are fewer `colours` than pixels in the atoms.
     pub fn placed<'a>(
         self,
         atoms: &'a [Range<Atom>],
@@ -87,8 +86,8 @@ impl Division {
         })
     }
 
-    /// The first share of each of `nodes` nodes: consecutive bands whose sizes differ by at most one atom,
-    /// the longer ones first. With more nodes than atoms the last bands are empty.
+    /// The first share of each of `nodes` nodes: consecutive bands whose sizes differ by at most one atom, the longer
+    /// ones first. With more nodes than atoms the last bands are empty.
     pub fn bands(self, nodes: usize) -> impl Iterator<Item = Range<Atom>> {
         let (atoms, nodes) = (u64::from(self.atoms()), nodes as u64);
         let (share, longer) = (atoms / nodes.max(1), atoms % nodes.max(1));
@@ -111,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_traced_together_goes_to_its_places() {
+    fn placed_splits_colours_by_range() {
         let colours: Vec<_> = (0..80u8).map(|shade| [f32::from(shade); 3]).collect();
         let atoms = [2..3, 0..1];
         let placed: Vec<_> = Division::new(130, 50).placed(&atoms, &colours).collect();
@@ -119,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn an_atom_may_be_larger_than_the_picture() {
+    fn atom_may_be_larger_than_picture() {
         let division = Division::new(7, u32::MAX);
         assert_eq!((division.atoms(), division.pixels(0)), (1, 0..7));
     }

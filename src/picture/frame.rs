@@ -1,13 +1,13 @@
-//! The finished pixels, in linear light.
+//! The pixels of a picture, in linear light.
 
 use std::ops::Range;
 
 use super::Size;
 
-/// Red, green and blue in linear light; 1 is the brightest that a PNG can show.
+/// Red, green and blue in linear light; 1 is the brightest value of a PNG.
 pub type Colour = [f32; 3];
 
-/// A picture's pixels in scan order, in linear light; what has not arrived yet is black.
+/// The pixels of a picture in scan order, in linear light; pixels that have not arrived are black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     size: Size,
@@ -15,15 +15,15 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame in which nothing has arrived yet.
+    /// A black frame.
     pub fn new(size: Size) -> Self {
         Self { size, pixels: vec![[0.0; 3]; size.pixels() as usize] }
     }
 
-    /// A frame whose pixels are all there.
+    /// A frame with all its pixels.
     ///
     /// # Panics
-    /// If the pixels are not as many as the picture has.
+    /// If the number of pixels is not that of the picture.
     pub fn of(size: Size, pixels: &[Colour]) -> Self {
         let mut frame = Self::new(size);
         frame.place(0..size.pixels(), pixels);
@@ -40,10 +40,10 @@ impl Frame {
         &self.pixels
     }
 
-    /// Puts traced pixels in their place.
+    /// Writes traced pixels to their positions in scan order.
     ///
     /// # Panics
-    /// If `range` is not inside the picture or not as long as `pixels`: the protocol never sends such.
+    /// If `range` is not inside the picture or not as long as `pixels`. The protocol sends no such range.
     pub fn place(&mut self, range: Range<u32>, pixels: &[Colour]) {
         self.pixels[range.start as usize..range.end as usize].copy_from_slice(pixels);
     }
@@ -54,7 +54,7 @@ impl Frame {
     }
 }
 
-/// A colour in linear light as 8-bit sRGB (IEC 61966-2-1); what is outside 0…1 is clipped, NaN is black.
+/// Converts linear light to 8-bit sRGB (IEC 61966-2-1). Values outside 0…1 are clipped; NaN becomes black.
 pub fn srgb8(colour: Colour) -> [u8; 3] {
     colour.map(|linear| {
         let linear = linear.clamp(0.0, 1.0);
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn srgb_has_its_fixed_points_and_clips() {
+    fn srgb8_has_fixed_points_and_clips() {
         assert_eq!(srgb8([0.0, 0.5, 1.0]), [0, 188, 255]);
         assert_eq!(srgb8([-1.0, f32::NAN, 7.0]), [0, 0, 255]);
     }

@@ -1,4 +1,4 @@
-//! The picture as a PNG file.
+//! PNG files.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,15 +11,15 @@ use crate::output::{OutputError, write_whole};
 /// Writes `rgb` (three bytes a pixel, sRGB, scan order) as a PNG file.
 ///
 /// # Errors
-/// Those of [`write_whole`].
+/// The errors of [`write_whole`].
 pub fn write_png(path: &Path, size: Size, rgb: &[u8]) -> Result<(), OutputError> {
     write_whole(path, |file| encode_png(file, size, rgb))
 }
 
-/// Writes `rgb` as a PNG to whatever takes bytes.
+/// Writes `rgb` (as [`write_png`]) as a PNG to a stream.
 ///
 /// # Errors
-/// What `to` says.
+/// The errors of `to`.
 pub fn encode_png(to: impl Write, size: Size, rgb: &[u8]) -> io::Result<()> {
     PngEncoder::new(to).write_image(rgb, size.width(), size.height(), ExtendedColorType::Rgb8).map_err(io::Error::other)
 }

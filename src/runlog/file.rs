@@ -1,97 +1,70 @@
-//! The run file: JSON lines, first the header and then a line a record.
+//! The run file: JSON lines, the first for the header, then one for each record.
 
+use std::cmp::Ordering;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+use super::file_error::{LineError, LogError, VERSION};
 use super::{Header, RunLog, validate};
 use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 use crate::sentence::shown;
 
-/// The version of the format that this program writes, and the only one that it reads.
-const VERSION: u32 = 3;
-
-/// How every run file begins.
+/// First bytes of every run file.
 const START: [u8; 12] = *br#"{"anel_run":"#;
-
-const NOT_A_RUN: &str = "this is not a run file of anel";
-
-/// Why a run file could not be read.
-#[derive(Debug, Error)]
-pub enum LogError {
-    /// The file could not be read.
-    #[error("cannot read {path}: {source}")]
-    Read {
-        /// Where the log was to come from.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// The file is not a run file, or a damaged one.
-    #[error("{path}, line {line}: {why}")]
-    Line {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What is wrong with it.
-        why: String,
-    },
-}
 
 /// The first line.
 #[derive(Serialize, Deserialize)]
 struct FirstLine<H> {
-    /// The version: a file without this field is not a run file.
+    /// Version of the format. A file without this field is not a run file.
     anel_run: u32,
     header: H,
 }
 
-/// Whether there is a file at `path` that begins as a run file does. No more than that is read, and nothing of
-/// directories and pipes.
+/// Returns whether there is a regular file at `path` that begins like a run file. Reads only these bytes, and nothing
+/// from directories and pipes.
 pub fn is_run_file(path: &Path) -> bool {
     let mut start = [0; START.len()];
     open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == START
 }
 
 impl RunLog {
-    /// Writes the log.
+    /// Writes the log to a file.
     ///
     /// # Errors
-    /// Those of [`write_whole`].
+    /// As [`write_whole`].
     pub fn save(&self, path: &Path) -> Result<(), OutputError> {
         write_whole(path, |file| self.write(file))
     }
 
-    /// Writes the log to wherever it is to be.
+    /// Writes the log to `to`.
     ///
     /// # Errors
-    /// Those of `to`.
+    /// As `to`.
     pub fn write(&self, to: &mut impl Write) -> io::Result<()> {
         write_line(to, &FirstLine { anel_run: VERSION, header: &self.header })?;
         self.records().iter().try_for_each(|record| write_line(to, record))
     }
 
-    /// Reads a log that [`RunLog::save`] has written.
+    /// Reads a log from a file that [`RunLog::save`] has written.
     ///
     /// # Errors
-    /// [`LogError::Read`] if this is not a regular file, or with what the system said; [`LogError::Line`] with the first
-    /// line that is wrong.
+    /// [`LogError::Read`] if the file is not a regular file, or cannot be read; [`LogError::Line`] with the first line
+    /// that is wrong.
     pub fn load(path: &Path) -> Result<Self, LogError> {
         let read = |source| LogError::Read { path: path.to_owned(), source };
         let wrong = |line, why| LogError::Line { path: path.to_owned(), line, why };
         let mut reader = BufReader::new(open(path).map_err(read)?);
-        // Nobody should read some other file to the end of its first line, which may be far away.
+        // The first line of another file may be very long: do not read it to its end.
         if !reader.fill_buf().map_err(read)?.starts_with(&START) {
-            return Err(wrong(1, NOT_A_RUN.into()));
+            return Err(wrong(1, LineError::NotARun));
         }
         let mut lines = reader.lines();
         let first = match lines.next() {
-            // A file that is not text is not a run file either.
+            // A file that is not text is not a run file.
             Some(Err(error)) if error.kind() != io::ErrorKind::InvalidData => return Err(read(error)),
             Some(Ok(first)) => first,
             _ => String::new(),
@@ -101,11 +74,13 @@ impl RunLog {
         let mut checker = validate::Checker::new(&header);
         for (line, text) in (2..).zip(lines) {
             let record: Record = match text {
-                Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, what_is_wrong(&error)))?,
-                Err(error) if error.kind() == io::ErrorKind::InvalidData => return Err(wrong(line, error.to_string())),
+                Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, json_error(&error)))?,
+                Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+                    return Err(wrong(line, LineError::NotText(error)));
+                }
                 Err(error) => return Err(read(error)),
             };
-            checker.record(&record).map_err(|why| wrong(line, why))?;
+            checker.record(&record).map_err(|why| wrong(line, why.into()))?;
             records.push(record);
         }
         let mut log = Self::new(header);
@@ -114,7 +89,7 @@ impl RunLog {
     }
 }
 
-/// Opens a regular file. Others are looked at before they are opened, since opening a pipe waits for somebody to write.
+/// Opens a regular file. Checks that before, since opening a pipe blocks until another process writes to it.
 fn open(path: &Path) -> io::Result<File> {
     let data = fs::metadata(path)?;
     if data.is_dir() {
@@ -126,29 +101,25 @@ fn open(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-fn parse_first(text: &str) -> Result<Header, String> {
-    // First the version, since another version's header may look otherwise.
-    let first: FirstLine<serde_json::Value> = serde_json::from_str(text).map_err(|_| NOT_A_RUN)?;
-    let version = first.anel_run;
-    if version != VERSION {
-        let (age, remedy) =
-            if version < VERSION { ("an older", "make the run anew") } else { ("a newer", "open it with that one") };
-        return Err(format!(
-            "the file is from {age} anel (its format's version is {version}; this program reads version {VERSION}); \
-             {remedy}"
-        ));
+fn parse_first(text: &str) -> Result<Header, LineError> {
+    // The version first, since the header of another version may have other fields.
+    let first: FirstLine<serde_json::Value> = serde_json::from_str(text).map_err(|_| LineError::NotARun)?;
+    match first.anel_run.cmp(&VERSION) {
+        Ordering::Less => return Err(LineError::Older(first.anel_run)),
+        Ordering::Greater => return Err(LineError::Newer(first.anel_run)),
+        Ordering::Equal => {}
     }
-    let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| what_is_wrong(&error))?;
+    let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| json_error(&error))?;
     validate::header(&first.header)?;
     Ok(first.header)
 }
 
-/// The error without its line, which is always 1, since each line is read by itself.
-fn what_is_wrong(error: &serde_json::Error) -> String {
-    const LONGEST: usize = 400;
+/// Returns the error without its line, which is always 1, since each line is parsed by itself.
+fn json_error(error: &serde_json::Error) -> LineError {
+    const MAX_LENGTH: usize = 400;
     let text = error.to_string();
     let what = text.rsplit_once(" at line ").map_or(&*text, |(what, _)| what);
-    format!("{}, at column {}", shown(what, LONGEST), error.column())
+    LineError::Json { what: shown(what, MAX_LENGTH), column: error.column() }
 }
 
 fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
@@ -161,14 +132,14 @@ mod tests {
     use super::super::examples::{done, header};
     use super::super::{Driver, LinkSettings};
     use super::*;
-    use crate::balance::{Condition, Helper, Message, Party, Rules, Strategy as Sharing};
+    use crate::balance::{Condition, Message, OfferDetails, Party, Rules, Strategy as Sharing};
     use crate::record::RecordKind;
     use crate::time::Time;
     use proptest::prelude::*;
     use std::time::Duration;
     use tempfile::NamedTempFile;
 
-    /// Of the headers below.
+    /// Number of nodes in the headers below.
     const NODES: u16 = 4;
     const ATOMS: u32 = 20;
 
@@ -201,16 +172,16 @@ mod tests {
         ]
     }
 
-    fn help() -> impl Strategy<Value = Helper> {
+    fn help() -> impl Strategy<Value = OfferDetails> {
         let numbers = (any::<u32>(), any::<u64>(), any::<u16>(), prop::option::of(any::<u16>()));
-        numbers.prop_map(|(speed, sent, stop, left)| Helper { speed, sent: Time(sent), stop, left })
+        numbers.prop_map(|(speed, sent, stop, left)| OfferDetails { speed, sent: Time(sent), stop, left })
     }
 
     fn conditions() -> impl Strategy<Value = Condition> {
         prop::sample::select(vec![Condition::Well, Condition::Hung, Condition::CutOff, Condition::Off])
     }
 
-    fn happenings() -> impl Strategy<Value = RecordKind> {
+    fn kinds() -> impl Strategy<Value = RecordKind> {
         let sent = ((any::<u64>(), 0..1u64 << 32), parties(), parties(), messages());
         let cost = || (0..=365 * 24 * 3600u64).prop_map(Duration::from_secs);
         prop_oneof![
@@ -263,12 +234,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_saved_is_loaded(
+        fn saved_logs_load_unchanged(
             header in headers(),
-            happenings in prop::collection::vec((any::<u64>(), happenings()), 0..20),
+            kinds in prop::collection::vec((any::<u64>(), kinds()), 0..20),
         ) {
             let mut log = RunLog::new(header);
-            for (at, what) in happenings {
+            for (at, what) in kinds {
                 log.add(vec![Record { at: Time(at), what }]);
             }
             let directory = tempfile::tempdir().unwrap();
@@ -278,7 +249,7 @@ mod tests {
         }
     }
 
-    /// What [`RunLog::load`] says of a file with these lines, without the path.
+    /// Returns the error of [`RunLog::load`] for a file with this text, without the path.
     fn complaint(text: &[u8]) -> String {
         let file = NamedTempFile::new().unwrap();
         fs::write(file.path(), text).unwrap();
@@ -315,15 +286,18 @@ mod tests {
         assert!(with(1, &lines[0].replace("speeds", "spoons")).starts_with("line 1: missing field `speeds`"));
         assert_eq!(
             with(1, &lines[0].replace(r#""atom_pixels":5"#, r#""atom_pixels":0"#)),
-            "line 1: the division is not that of a picture of this size"
+            "line 1: the number of atoms does not fit the size of the picture"
         );
-        assert_eq!(with(2, &lines[1].replace(r#""node":0"#, r#""node":1"#)), "line 2: there is no such node");
-        assert_eq!(with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)), "line 2: there is no such atom");
+        assert_eq!(with(2, &lines[1].replace(r#""node":0"#, r#""node":1"#)), "line 2: there is no node of this number");
+        assert_eq!(
+            with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)),
+            "line 2: there is no atom of this number"
+        );
         assert!(with(3, &lines[2][..30]).starts_with("line 3: EOF while parsing"));
     }
 
     #[test]
-    fn records_out_of_order_are_refused_and_a_missing_directory_keeps_nothing() {
+    fn records_out_of_order_are_refused_and_a_missing_directory_is_an_error() {
         let mut log = RunLog::new(header(&[1.0]));
         log.add(vec![done(2, 0, 0, 1)]);
         let file = NamedTempFile::new().unwrap();
@@ -336,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_without_a_caption_is_one_of_which_nothing_is_said() {
+    fn run_file_without_a_caption_loads_with_an_empty_one() {
         let file = NamedTempFile::new().unwrap();
         let mut log = RunLog::new(header(&[1.0]));
         log.header.caption.title = "Lost".into();
@@ -351,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_begins_as_a_run_file_is_one() {
+    fn run_files_are_recognized_by_their_first_bytes() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("run.jsonl");
         RunLog::new(header(&[1.0])).save(&path).unwrap();
@@ -364,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn directories_and_pipes_are_refused_unread() {
+    fn directories_and_pipes_are_refused_without_reading() {
         let directory = tempfile::tempdir().unwrap();
         let complaint = |path: &Path| {
             assert!(!is_run_file(path));
@@ -375,7 +349,7 @@ mod tests {
             error.starts_with("cannot read ") && error.ends_with(": this is a directory, not a run file"),
             "{error}"
         );
-        // Opening a pipe would wait for somebody to write into it.
+        // Opening a pipe would block until another process writes to it.
         let pipe = directory.path().join("pipe");
         let made = std::process::Command::new("mkfifo").arg(&pipe).status();
         if made.is_ok_and(|status| status.success()) {

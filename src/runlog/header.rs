@@ -1,4 +1,4 @@
-//! What a run was asked to do: enough to start it again.
+//! The header of a run: all its settings, enough to start it again.
 
 use std::time::Duration;
 
@@ -8,60 +8,62 @@ use super::Metadata;
 use crate::balance::{NodeId, Remedies, Rules, Strategy};
 use crate::picture::{Division, Quality, Size};
 
-/// What a run was asked to do.
+/// The settings of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// The scene's name, for people.
+    /// Name of the scene, for display.
     pub scene: String,
-    /// The text of the scene's file, which each band carries along.
+    /// Text of the scene file, which each band carries.
     pub scene_text: String,
     /// Width and height of the picture.
     pub size: Size,
-    /// How good the picture is.
+    /// Quality of the picture.
     #[serde(flatten)]
     pub quality: Quality,
-    /// How the picture is cut into atoms.
+    /// Division of the picture into atoms.
     pub division: Division,
-    /// Who executes the run.
+    /// Driver that executes the run.
     pub driver: Driver,
-    /// How the atoms are shared; [`Driver::WorkStealing`] has rules of its own.
+    /// Strategy and its parameters; [`Driver::WorkStealing`] ignores them.
     pub rules: Rules,
-    /// A node a speed, as fractions of the reference machine (1 = 100 %).
+    /// By node: speed as a fraction of the reference machine's (1 = 100 %).
     pub speeds: Vec<f64>,
-    /// So many of the nodes, the last ones, are off at first, and may join the run: only a ring that adapts can have some.
+    /// Number of spare nodes: the last ones, which are off at first and may join the run. Only the adaptive ring can
+    /// have some.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub spares: NodeId,
-    /// What fraction of one real core the reference machine gets, above 0 and at most 1. At pace 1 a node of
-    /// speed 1 never waits.
+    /// Fraction of a real core that the reference machine gets, above 0 and at most 1. At pace 1 a node of speed 1
+    /// never waits.
     pub pace: f64,
     /// The network.
     pub link: LinkSettings,
-    /// How long the parent is busy with each message.
+    /// Time that the parent is busy with each message.
     pub handling: Duration,
-    /// Cores of the computer that emulates the machines; in virtual time as many as there are machines.
+    /// Number of cores of the computer that emulates the machines; in virtual time the number of machines.
     pub cores: usize,
-    /// What is said of the run; nothing in older files.
+    /// Title, notes and computer of the run; empty in older files.
     #[serde(default, skip_serializing_if = "Metadata::is_empty")]
     pub caption: Metadata,
 }
 
-/// Who executes a run.
+/// A driver: it executes runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Driver {
-    /// Real time: a thread for each node, which is both its handler and its worker.
+    /// Real time: one thread for each node, which is both its handler and its worker.
     Threads,
-    /// Real time: a thread for each node's handler and one for its worker, as the article has it (§8). At full speed only.
+    /// Real time: one thread for each node's handler and one for its worker, as in the article (§8). At full speed
+    /// only.
     Pairs,
     /// Virtual time.
     Sim,
-    /// Real time: rayon's work stealing over the atoms, a thread for each node; no strategy of ours. The threads share
-    /// their memory: nothing travels, so that [`Header::link`] and [`Header::handling`] do not apply.
+    /// Real time: rayon's work stealing over the atoms, one thread for each node; no strategy of ours. The threads
+    /// share their memory, so messages do not travel, and [`Header::link`] and [`Header::handling`] do not apply.
     WorkStealing,
 }
 
 impl Driver {
-    /// The name in reports and on the command line.
+    /// Returns the name in reports and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Threads => "threads",
@@ -73,8 +75,8 @@ impl Driver {
 }
 
 impl Header {
-    /// A run of a picture in atoms of `atom_pixels`, on nodes of these speeds, as plain as can be: threads at full pace, on
-    /// links that take no time and a core for each machine, with the strategy's usual rules.
+    /// Creates a header with defaults: atoms of `atom_pixels` pixels, nodes of these speeds, threads at full pace,
+    /// links that take no time, one core for each machine, and the strategy's default rules.
     pub fn plain(size: Size, atom_pixels: u32, strategy: Strategy, speeds: Vec<f64>) -> Self {
         let division = Division::new(size.pixels(), atom_pixels);
         Self {
@@ -95,28 +97,28 @@ impl Header {
         }
     }
 
-    /// What shares the atoms, by its name on the command line.
+    /// Returns the name of the scheduler on the command line: the strategy's, or rayon's.
     pub fn strategy_name(&self) -> &'static str {
         if self.driver == Driver::WorkStealing { self.driver.name() } else { self.rules.strategy.name() }
     }
 
-    /// What the run is called: its title, else its scene.
+    /// Returns the title of the run, or the name of its scene if it has none.
     pub fn title(&self) -> &str {
         if self.caption.title.is_empty() { &self.scene } else { &self.caption.title }
     }
 
-    /// What the ring does otherwise than the article's; nothing where atoms are shared in another way.
+    /// Returns the remedies that the run uses; none unless it is an adaptive ring.
     pub fn remedies(&self) -> Remedies {
         let adapts = self.driver != Driver::WorkStealing && self.rules.strategy == Strategy::Adaptive;
         if adapts { self.rules.remedies } else { Remedies::NONE }
     }
 
-    /// Whether this node is off at first.
+    /// Returns whether this node is a spare, which is off at first.
     pub fn is_spare(&self, node: NodeId) -> bool {
         usize::from(node) + usize::from(self.spares) >= self.speeds.len()
     }
 
-    /// Whether no machine is slower than this computer, and so none has to wait.
+    /// Returns whether all machines are as fast as this computer, so that none has to wait.
     pub fn is_full_speed(&self) -> bool {
         self.pace >= 1.0 && self.speeds.iter().all(|&speed| speed >= 1.0)
     }
@@ -126,13 +128,13 @@ fn is_zero(count: &NodeId) -> bool {
     *count == 0
 }
 
-/// Latency and bandwidth between any two parties, the parent included.
+/// Latency and bandwidth of the links between any two parties, the parent included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LinkSettings {
-    /// How long the last byte travels once it has left.
+    /// Travel time of a message's last byte.
     pub latency: Duration,
-    /// Bytes a second; `None` is unlimited.
+    /// Bytes per second; `None` is unlimited.
     pub bandwidth: Option<f64>,
-    /// Whether all share one wire, as an Ethernet of 1997 was; else each pair has one of its own.
+    /// Whether all parties share one wire, as on an Ethernet of 1997; else each pair has its own.
     pub shared: bool,
 }

@@ -1,4 +1,4 @@
-//! The run log: what a run was asked to do, and what happened, in the order of time.
+//! The run log: a header and the records of the run, in the order of time.
 
 use std::time::Duration;
 
@@ -6,37 +6,37 @@ use super::Header;
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
-/// A run's records under its header.
+/// The header and the records of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunLog {
-    /// What the run was asked to do.
+    /// Settings of the run.
     pub header: Header,
     records: Vec<Record>,
 }
 
 impl RunLog {
-    /// A log in which nothing has happened yet.
+    /// Creates a log without records.
     pub fn new(header: Header) -> Self {
         Self { header, records: Vec::new() }
     }
 
-    /// Everything that has happened, in the order of time. Records of one party at the same time stay in the order in
-    /// which the party made them.
+    /// Returns all records in the order of time. Records of one party at the same time stay in the order in which the
+    /// party made them.
     pub fn records(&self) -> &[Record] {
         &self.records
     }
 
-    /// When the last record was made; 0 while nothing has happened.
+    /// Returns the time of the last record; 0 if there is none.
     pub fn end(&self) -> Time {
         self.records.last().map_or(Time::ZERO, |last| last.at)
     }
 
-    /// How many records are not later than `time`.
+    /// Returns the number of records that are not later than `time`.
     pub fn until(&self, time: Time) -> usize {
         self.records.partition_point(|record| record.at <= time)
     }
 
-    /// What each atom cost, in CPU time; `None` for those that are not traced.
+    /// Returns the cost of each atom in CPU time; `None` for atoms that are not traced.
     pub fn costs(&self) -> Vec<Option<Duration>> {
         let mut costs = vec![None; self.header.division.atoms() as usize];
         for record in &self.records {
@@ -49,10 +49,11 @@ impl RunLog {
         costs
     }
 
-    /// Sorts records in: a batch of one party's, which are in the order of time, or several such one after the other.
-    /// Parties deliver theirs a little late, so that only the log's end is touched, and sorting what is made of sorted
-    /// runs takes nearly linear time. Still that end is long where many parties say much: whoever has several batches at
-    /// hand should add them together. Returns how many of the first records are the same as before.
+    /// Sorts records into the log: a batch of one party in the order of time, or several batches one after the other.
+    /// Returns how many of the first records are unchanged.
+    ///
+    /// Parties deliver their records a little late, so only the end of the log changes, and sorting concatenated sorted
+    /// batches takes nearly linear time. With many parties that end is long: add several batches with one call.
     pub fn add(&mut self, batch: Vec<Record>) -> usize {
         let Some(first) = batch.iter().map(|record| record.at).min() else { return self.records.len() };
         let untouched = self.until(first);
@@ -71,7 +72,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn batches_of_several_parties_end_up_in_order(
+        fn batches_of_several_parties_are_sorted_by_time(
             // By party: the batches' times, made to ascend by adding them up.
             parties in prop::collection::vec(prop::collection::vec(prop::collection::vec(0u64..4, 0..5), 0..5), 1..4),
             together in any::<bool>(),

@@ -1,55 +1,55 @@
-//! How much was said in a run.
+//! Counts of the messages in a run.
 
 use serde::Serialize;
 
-use crate::balance::{Helper, Message, Party};
+use crate::balance::{Message, OfferDetails, Party};
 use crate::picture::atoms_in;
 
-/// How much was said.
+/// Number of messages in a run, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct MessageCounts {
-    /// Requests to the parent: for work in a farm, and to be let in by who begins anew.
+    /// Requests to the parent: for atoms in a farm, and for admission of a node that has started afresh.
     pub requests: u64,
-    /// The parent's answers.
+    /// Parts that the parent sent in a farm.
     pub parts: u64,
     /// Offers that a node made.
     pub offers: u64,
     /// Offers passed on.
     pub hops: u64,
-    /// Offers that those who sleep left with others.
+    /// Notices of sleeping nodes.
     pub notes: u64,
-    /// Offers taken.
+    /// Transfers: offers that were taken.
     pub transfers: u64,
     /// Atoms in the transfers.
     pub atoms_moved: u64,
     /// Batches of results.
     pub results: u64,
-    /// What nodes told the parent of what they had.
+    /// Heartbeats of nodes to the parent.
     pub beats: u64,
-    /// Those that sleep, woken.
+    /// Wake-ups of sleeping nodes.
     pub wakes: u64,
-    /// Atoms sent to be traced once more.
+    /// Messages with atoms to trace once more.
     pub agains: u64,
-    /// Atoms in those.
+    /// Atoms in these messages.
     pub atoms_again: u64,
     /// Messages of every kind.
     pub total: u64,
-    /// Their weight ([`Message::bytes`]).
+    /// Total size in bytes ([`Message::bytes`]).
     pub bytes: u64,
 }
 
 impl MessageCounts {
-    /// All that was said for the atoms' sake, and neither to bring results nor only to say what one has.
+    /// Returns the number of messages that serve to share atoms: all except results and heartbeats.
     pub fn sharing(&self) -> u64 {
         self.total - self.results - self.beats
     }
 
-    /// One more was said.
+    /// Counts one more message.
     pub(super) fn add(&mut self, from: Party, message: &Message, bytes: u64) {
         self.total += 1;
         self.bytes += bytes;
         match message {
-            Message::Offer { help: Some(Helper { left: None, .. }), .. } => self.notes += 1,
+            Message::Offer { help: Some(OfferDetails { left: None, .. }), .. } => self.notes += 1,
             Message::Offer { who, .. } if Party::Node(*who) == from => self.offers += 1,
             Message::Offer { .. } => self.hops += 1,
             Message::Transfer(ranges) => {

@@ -1,4 +1,4 @@
-//! What a run amounts to, counted from its records in the order of time, as they come or from a log.
+//! Metrics of a run, computed from its records in the order of time, as they come or from a log.
 
 use std::time::Duration;
 
@@ -7,21 +7,23 @@ use crate::balance::{Condition, Message, NodeId};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
-/// A count of everything that a run amounts to.
+/// Metrics of a run.
 #[derive(Clone, Debug)]
 pub struct Metrics {
     speeds: Vec<f64>,
     pace: f64,
     cores: usize,
-    /// When the parent began: with the first band, or with what it needs to know before.
+    /// When the parent sent the first band, or began the estimate before it.
     start: Option<Time>,
     finished: Option<Time>,
     work: Duration,
     /// By atom: whether it was traced.
     traced: Vec<bool>,
+    /// Cost of atoms that were traced before.
     twice: Duration,
-    /// By node: how many atoms it has traced, and when the last.
+    /// By node: the number of atoms that it has traced, and the time of the last.
     nodes: Vec<(u32, Time)>,
+    /// Changes of the machines' capacity, in the order of time.
     changes: Vec<(Time, NodeId, CapacityChange)>,
     messages: MessageCounts,
 }
@@ -34,7 +36,7 @@ enum CapacityChange {
 }
 
 impl Metrics {
-    /// Nothing has happened yet.
+    /// Creates the metrics of a run without records.
     pub fn new(header: &Header) -> Self {
         Self {
             speeds: header.speeds.clone(),
@@ -54,14 +56,14 @@ impl Metrics {
         }
     }
 
-    /// All of a log.
+    /// Computes the metrics of a log.
     pub fn of(log: &RunLog) -> Self {
-        let mut tally = Self::new(&log.header);
-        log.records().iter().for_each(|record| tally.add(record));
-        tally
+        let mut metrics = Self::new(&log.header);
+        log.records().iter().for_each(|record| metrics.add(record));
+        metrics
     }
 
-    /// Counts what has happened next.
+    /// Takes in the next record.
     pub fn add(&mut self, record: &Record) {
         let at = record.at;
         match &record.what {
@@ -101,29 +103,29 @@ impl Metrics {
         }
     }
 
-    /// From the first band sent, or the beginning of an estimate that it needs, to the last atom placed; `None` while the
-    /// picture is incomplete.
+    /// Returns the time from the first band sent (or the start of the estimate before it) to the last atom placed;
+    /// `None` while the picture is incomplete.
     pub fn makespan(&self) -> Option<Duration> {
         Some(self.finished?.since(self.start?))
     }
 
-    /// Σ of the atoms' costs, each counted once: CPU time of this computer in the tracer.
+    /// Returns the sum of the atoms' costs, each counted once, in CPU time of this computer.
     pub fn work(&self) -> Duration {
         self.work
     }
 
-    /// What atoms cost that had been traced already: only the ring that adapts, and losses, make any.
+    /// Returns the cost of atoms that were traced once more; only the adaptive ring and losses cause any.
     pub fn twice(&self) -> Duration {
         self.twice
     }
 
-    /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
-    /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Metrics::work`].
-    /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is cut
-    /// off has done reaches nobody. `None` if the machines stand still before the work is done.
+    /// Returns the ideal time, if the work had been shared perfectly: the least T in which the emulated machines,
+    /// limited by the computer's cores, do all the work: ∫₀ᵀ min(Σ speed × pace, cores) dt = [`Metrics::work`]. A new
+    /// speed counts from its change on. A machine that is paused or not well counts as 0; so does one that is cut off,
+    /// since its results do not arrive. `None` if the machines stand still before the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
-        let machine = |&speed| MachineMetrics { speed, paused: false, condition: Condition::Well };
+        let machine = |&speed| MachineCapacity { speed, paused: false, condition: Condition::Well };
         let mut machines: Vec<_> = self.speeds.iter().map(machine).collect();
         let mut left = self.work.as_secs_f64();
         let mut since = start;
@@ -147,20 +149,20 @@ impl Metrics {
         since.since(start).checked_add(rest)
     }
 
-    /// [`Metrics::ideal`] / [`Metrics::makespan`]: 1 is perfect; `None` while either is unknown.
+    /// Returns [`Metrics::ideal`] / [`Metrics::makespan`]: 1 is perfect; `None` while either is unknown.
     pub fn efficiency(&self) -> Option<f64> {
         let (ideal, makespan) = (self.ideal()?, self.makespan()?);
         (!makespan.is_zero()).then(|| ideal.div_duration_f64(makespan))
     }
 
-    /// From the moment at which the first node is done with its last atom to that at which the last is; nodes that traced
-    /// nothing do not count.
+    /// Returns the time from the earliest to the latest end of a node's last atom. Nodes that traced nothing do not
+    /// count.
     pub fn finish_spread(&self) -> Duration {
         let ends = || self.nodes.iter().filter(|(atoms, _)| *atoms > 0).map(|(_, end)| end);
         ends().max().zip(ends().min()).map_or(Duration::ZERO, |(last, first)| last.since(*first))
     }
 
-    /// The share of the machines' time that lies after their last atoms, a slow machine's time counting less; of a node that
+    /// Returns the part of the machines' time that lies after their last atoms, weighted by speed; for a node that
     /// traced nothing, all of its time. `None` while the picture is incomplete.
     pub fn tail_idle(&self) -> Option<f64> {
         let (start, finished) = (self.start?, self.finished?);
@@ -172,30 +174,30 @@ impl Metrics {
         (all > 0.0).then(|| idle / all)
     }
 
-    /// How many atoms each node has traced.
+    /// Returns the number of atoms traced, by node.
     pub fn atoms_by_node(&self) -> Vec<u32> {
         self.nodes.iter().map(|(atoms, _)| *atoms).collect()
     }
 
-    /// How much was said.
+    /// Returns the counts of messages.
     pub fn messages(&self) -> MessageCounts {
         self.messages
     }
 
-    /// CPU seconds of this computer that all machines together do in a second.
-    fn rate(&self, machines: &[MachineMetrics]) -> f64 {
+    /// Returns the CPU seconds of this computer that all machines together do per second.
+    fn rate(&self, machines: &[MachineCapacity]) -> f64 {
         let speeds = machines.iter().filter(|machine| machine.works()).map(|machine| machine.speed);
         (speeds.sum::<f64>() * self.pace).min(self.cores as f64)
     }
 }
 
-struct MachineMetrics {
+struct MachineCapacity {
     speed: f64,
     paused: bool,
     condition: Condition,
 }
 
-impl MachineMetrics {
+impl MachineCapacity {
     fn works(&self) -> bool {
         !self.paused && self.condition == Condition::Well
     }
@@ -207,14 +209,14 @@ mod tests {
     use super::*;
     use crate::balance::Party;
 
-    fn tally(header: &Header, records: &[Record]) -> Metrics {
-        let mut tally = Metrics::new(header);
-        records.iter().for_each(|record| tally.add(record));
-        tally
+    fn metrics_of(header: &Header, records: &[Record]) -> Metrics {
+        let mut metrics = Metrics::new(header);
+        records.iter().for_each(|record| metrics.add(record));
+        metrics
     }
 
     fn ideal(header: &Header, records: &[Record]) -> Option<Duration> {
-        tally(header, records).ideal()
+        metrics_of(header, records).ideal()
     }
 
     const PARENT: Party = Party::Parent;
@@ -246,31 +248,31 @@ mod tests {
     }
 
     #[test]
-    fn the_work_and_its_end() {
+    fn work_makespan_and_idle_time() {
         let run = run();
         let header = header(&[1.0; 3]);
-        let whole = tally(&header, &run);
+        let whole = metrics_of(&header, &run);
         assert_eq!((whole.makespan(), whole.work()), (secs(12), Duration::from_secs(20)));
-        assert_eq!(tally(&header, &run[..10]).makespan(), None, "before the end");
+        assert_eq!(metrics_of(&header, &run[..10]).makespan(), None, "before the end");
         assert_eq!(whole.finish_spread(), Duration::from_secs(3));
-        assert_eq!(tally(&header, &[]).finish_spread(), Duration::ZERO);
+        assert_eq!(metrics_of(&header, &[]).finish_spread(), Duration::ZERO);
         assert_eq!(whole.atoms_by_node(), [2, 1, 0]);
         // 1 s, 4 s, and all 12 s of the one that traced nothing.
         assert_eq!(whole.tail_idle(), Some(17.0 / 36.0));
     }
 
     #[test]
-    fn the_ideal_is_bounded_by_machines_and_by_cores() {
+    fn ideal_is_bounded_by_machines_and_by_cores() {
         let run = run();
         assert_eq!(ideal(&header(&[1.0, 1.0]), &run), secs(10));
         assert_eq!(ideal(&header(&[0.25, 0.25]), &run), secs(40));
         assert_eq!(ideal(&header(&[1.0; 8]), &run), secs(10), "eight machines on two cores");
         assert_eq!(ideal(&Header { pace: 0.1, ..header(&[1.0, 1.0]) }, &run), secs(100));
-        assert_eq!(tally(&header(&[1.0, 1.0]), &run).efficiency(), Some(10.0 / 12.0));
+        assert_eq!(metrics_of(&header(&[1.0, 1.0]), &run).efficiency(), Some(10.0 / 12.0));
     }
 
     #[test]
-    fn the_ideal_knows_when_speeds_changed() {
+    fn ideal_follows_changes_of_speed() {
         let header = header(&[1.0, 1.0]);
         let mut run = run();
         // Two a second for 3 s, from then on one a second for the 14 that are left.
@@ -283,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_paused_machine_counts_as_one_that_stands_still() {
+    fn paused_machine_counts_as_speed_0() {
         let header = header(&[1.0, 1.0]);
         let mut run = run();
         // Two a second for 3 s, one a second for 5, and again two a second for the 9 that are left.
@@ -297,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn an_ideal_beyond_all_time_is_none() {
+    fn ideal_longer_than_a_time_can_be_is_none() {
         let run = [sent(0, PARENT, node(0), Message::Band(0..20)), done(1, 0, 0, 1)];
         // The end of the second that this takes is more than 2⁶⁴ s away, if only since the change.
         let slow = 1.0 / (2f64.powi(64) + 1e10);
@@ -306,21 +308,21 @@ mod tests {
     }
 
     #[test]
-    fn a_change_after_the_ideal_end_does_not_matter() {
+    fn changes_after_the_ideal_end_do_not_matter() {
         let mut run = run();
         run.push(at(14, RecordKind::SpeedSet { node: 0, speed: 0.0 }));
         assert_eq!(ideal(&header(&[1.0, 1.0]), &run), secs(10));
     }
 
     #[test]
-    fn an_estimate_counts_from_its_beginning() {
+    fn makespan_includes_the_estimate() {
         let mut run = run();
         run.insert(0, at(0, RecordKind::Estimating));
-        assert_eq!(tally(&header(&[1.0, 1.0]), &run).makespan(), secs(13));
+        assert_eq!(metrics_of(&header(&[1.0, 1.0]), &run).makespan(), secs(13));
     }
 
     #[test]
-    fn messages_are_told_apart() {
+    fn messages_are_counted_by_kind() {
         let mut run = run();
         run.push(sent(14, node(0), PARENT, Message::Request));
         run.push(sent(14, PARENT, node(0), Message::Part(3..4)));
@@ -336,6 +338,6 @@ mod tests {
             bytes: 100,
             ..MessageCounts::default()
         };
-        assert_eq!(tally(&header(&[1.0, 1.0]), &run).messages(), expected);
+        assert_eq!(metrics_of(&header(&[1.0, 1.0]), &run).messages(), expected);
     }
 }

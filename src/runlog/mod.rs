@@ -1,18 +1,23 @@
-//! A run as it is kept: what it was asked to do, what happened, and what that amounts to.
+//! The run log: the settings of a run, its records, its file, and the metrics that are computed from them.
 
 #[cfg(test)]
 pub(crate) mod examples;
 mod file;
+mod file_error;
 mod header;
 mod log;
 mod messages;
 mod metadata;
 mod metrics;
+mod results_in_flight;
 mod validate;
 
-pub use file::{LogError, is_run_file};
+pub use file::is_run_file;
+pub use file_error::{LineError, LogError};
 pub use header::{Driver, Header, LinkSettings};
 pub use log::RunLog;
 pub use messages::MessageCounts;
 pub use metadata::Metadata;
 pub use metrics::Metrics;
+pub use results_in_flight::ResultsInFlight;
+pub use validate::{InvalidHeader, InvalidRecord};

@@ -1,4 +1,4 @@
-//! The scene file: RON, and errors that say where.
+//! The scene file: RON, with errors that say where.
 
 use std::path::{Path, PathBuf};
 
@@ -7,21 +7,21 @@ use super::syntax::SceneFile;
 use super::{BUILT_IN, Scene, built_in};
 use crate::ron_file::{self, FileError, find_name};
 
-/// A scene with what a run has to know of its file.
+/// A scene, with its file's name and text.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// The file's name without its ending.
+    /// The file's name without its extension.
     pub name: String,
-    /// The file that it was read from; `None` if it is built in or was given as text.
+    /// The path that it was read from; none for a built-in scene or a text.
     pub path: Option<PathBuf>,
-    /// The file's text.
+    /// The text of the file.
     pub text: String,
-    /// What it says.
+    /// The scene that the text describes.
     pub scene: Scene,
 }
 
 impl Opened {
-    /// Reads the scene file `argument`, or the built-in scene of that name if there is no such file.
+    /// Reads the scene file at the path `argument`, or the built-in scene of that name if there is no such file.
     ///
     /// # Errors
     /// A [`FileError`] that names the file.
@@ -33,32 +33,32 @@ impl Opened {
         {
             return Self::from_text(&name, text);
         }
-        let none = || {
-            let names: Vec<_> = BUILT_IN.iter().map(|(name, _)| *name).collect();
-            format!("there is no such file, and no built-in scene of that name (they are {})", names.join(", "))
-        };
-        let text = ron_file::read(path, "scene", none).map_err(|message| FileError::new(None, &message));
-        text.and_then(|text| Self::from_text(&name, &text))
+        let text = ron_file::read(path, "scene", BUILT_IN.iter().map(|(name, _)| *name));
+        text.map_err(FileError::from)
+            .and_then(|text| Self::from_text(&name, &text))
             .map(|opened| Self { path: Some(path.into()), ..opened })
-            .map_err(|error| error.of(argument))
+            .map_err(|error| error.in_file(argument))
     }
 
+    /// Parses a scene file's text, without a path.
+    ///
     /// # Errors
-    /// Those of [`Scene::parse`].
+    /// The errors of [`Scene::parse`].
     pub fn from_text(name: &str, text: &str) -> Result<Self, FileError> {
         Ok(Self { name: name.into(), path: None, text: text.into(), scene: Scene::parse(text)? })
     }
 }
 
 impl Scene {
-    /// Reads the text of a scene file.
+    /// Parses the text of a scene file.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its line, its column and its field.
+    /// The first mistake, with its line, column and field.
     pub fn parse(text: &str) -> Result<Self, FileError> {
-        const DEEP: &str = "solids stand in solids too deep; give the inner ones names";
+        const DEEP: &str = "solids are nested too deep; give the inner ones names";
         let file: SceneFile = ron_file::parse(text, "scene", "a camera and objects", DEEP)?;
-        resolve(file)
-            .map_err(|wrong| FileError::new(wrong.name.and_then(|name| find_name(text, &name)), &wrong.message))
+        resolve(file).map_err(|error| {
+            FileError::new(error.name.as_deref().and_then(|name| find_name(text, name)), &error.to_string())
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! What is drawn: solids, materials, lights and a camera, read from a scene file.
+//! The scene: solids, materials, lights and a camera, read from a scene file.
 
 mod file;
 mod resolve;
@@ -13,55 +13,56 @@ use serde::Deserialize;
 
 use crate::csg::Solid;
 
-/// A scene, ready to be compiled: names are resolved and every number is in its range.
+/// A scene ready to be compiled: names are resolved, and every number is in its range.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Who looks.
+    /// The camera.
     pub camera: Camera,
-    /// What is seen where no solid is; red, green and blue in linear light.
+    /// The colour of rays that hit nothing: red, green and blue in linear light.
     pub background: DVec3,
-    /// The article's Ia, the light that is everywhere.
+    /// The article's Ia, the ambient light.
     pub ambient: DVec3,
-    /// The article's sources of light.
+    /// The light sources.
     pub lights: Vec<Light>,
-    /// The materials; the tag of a primitive is a place in this list.
+    /// The materials. The tag of a primitive is an index into this list.
     pub materials: Vec<Material>,
-    /// What the materials are called, in their order. The first is that of solids without one and has no name.
+    /// The names of the materials, in the same order. The first is that of solids without a material; its name is
+    /// empty.
     pub names: Vec<String>,
-    /// The solids that stand in the scene.
+    /// The solids of the scene.
     pub solids: Vec<Solid>,
 }
 
-/// Who looks, from where to where; y is up unless `up` says otherwise.
+/// A pinhole camera. y is up unless `up` says otherwise.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, try_from = "syntax::CameraFields")]
 pub struct Camera {
-    /// Where the camera is.
+    /// The position of the camera.
     pub eye: DVec3,
-    /// The point in the middle of the picture.
+    /// The point at the centre of the picture.
     pub look_at: DVec3,
-    /// Which way is up in the picture; not along the line of sight.
+    /// The direction that is up in the picture; not along the line of sight.
     pub up: DVec3,
-    /// The vertical angle of view, in degrees, above 0 and below 180.
+    /// The vertical field of view in degrees, above 0 and below 180.
     pub field_of_view: f64,
 }
 
-/// A source of light. Its intensity is Ilj in the article: red, green and blue, which may exceed 1.
+/// A light source. Its intensity is the article's Ilj: red, green and blue, which may exceed 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Light {
-    /// Shines from a point in all directions; distance does not weaken it.
+    /// Shines from a point in all directions; its intensity does not decrease with distance.
     Point {
-        /// Where it is.
+        /// The position of the light.
         #[serde(deserialize_with = "validate::vector")]
         position: DVec3,
         /// Its intensity.
         #[serde(deserialize_with = "validate::light", default = "white")]
         colour: DVec3,
     },
-    /// Shines from infinitely far, as the sun does.
+    /// Shines from infinitely far away, as the sun does.
     Directional {
-        /// Where its light goes.
+        /// The direction in which its light travels.
         #[serde(deserialize_with = "validate::direction")]
         direction: DVec3,
         /// Its intensity.
@@ -70,11 +71,11 @@ pub enum Light {
     },
 }
 
-/// What a surface makes of light: the coefficients of the article's equation (§3).
+/// A material: the coefficients of the article's equation (§3).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
-    /// What it reflects of ambient and diffuse light: red, green and blue, 0 to 1.
+    /// The colour of ambient and diffuse reflection: red, green and blue, 0 to 1.
     #[serde(deserialize_with = "validate::colour")]
     pub colour: DVec3,
     /// Ambient reflection, 0 to 1.
@@ -83,16 +84,16 @@ pub struct Material {
     /// Diffuse reflection, 0 to 1.
     #[serde(deserialize_with = "validate::fraction")]
     pub kd: f64,
-    /// Specular reflection, of lights (Phong) and of other solids, 0 to 1.
+    /// Specular reflection of lights (Phong) and of other solids, 0 to 1.
     #[serde(deserialize_with = "validate::fraction")]
     pub ks: f64,
     /// Transmission, 0 to 1.
     #[serde(deserialize_with = "validate::fraction")]
     pub kt: f64,
-    /// Phong's exponent: the larger, the smaller the highlight.
+    /// Phong's exponent: the larger it is, the smaller is the highlight.
     #[serde(deserialize_with = "validate::exponent")]
     pub n: f64,
-    /// Index of refraction; that of air is 1.
+    /// Index of refraction; 1 is air.
     #[serde(deserialize_with = "validate::index_of_refraction")]
     pub ior: f64,
 }
@@ -104,7 +105,7 @@ impl Default for Material {
     }
 }
 
-/// The scenes that are built into the program: their names and texts.
+/// Names and texts of the built-in scenes.
 pub const BUILT_IN: &[(&str, &str)] = &[
     ("ten-objects", include_str!("../../scenes/ten-objects.ron")),
     ("csg-primer", include_str!("../../scenes/csg-primer.ron")),

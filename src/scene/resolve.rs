@@ -1,72 +1,99 @@
-//! From a scene file to a scene: names become what they name, and transforms become maps.
+//! Resolution of a scene file: replaces names by what they refer to, and transforms by affine maps.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DVec3};
+use thiserror::Error;
 
 use super::syntax::{SceneFile, SolidFields, Transform};
 use super::{Material, Scene};
-use crate::csg::{Primitive, QuadricCoefficients, Solid};
+use crate::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
 use crate::geometry::{rotation, turn_y_to};
 use crate::sentence;
 
-/// A name that leads nowhere, or too far.
-pub(super) struct NameError {
-    /// Which name, if it is one that is to be found in the text.
+/// An error in a scene's names, nesting or transforms.
+#[derive(Debug, Error)]
+#[error("{}{problem}", object.map(|index| format!("object {}: ", index + 1)).unwrap_or_default())]
+pub(super) struct ResolveError {
+    /// The name whose place in the text is the place of the error, if there is one.
     pub name: Option<String>,
-    pub message: String,
+    /// The index of the object with the error, if no name gives its place.
+    object: Option<usize>,
+    problem: Problem,
 }
 
-/// A scene that needs more leaves than this after all named solids are put in is a mistake.
-const MAX_LEAVES: usize = 200_000;
-/// So deep may solids stand in solids, through names too.
-const MAX_DEPTH: usize = 100;
+#[derive(Debug, Error)]
+enum Problem {
+    #[error("there is no {what} `{name}`; {known}")]
+    UnknownName { what: &'static str, name: String, known: String },
+    #[error("a solid uses itself: {0}")]
+    Circle(String),
+    #[error("solids are nested more than {MAX_DEPTH} deep; use fewer levels")]
+    TooDeep,
+    #[error("the scene has more than {MAX_LEAVES} primitives once its named solids are put in; use fewer")]
+    TooManyPrimitives,
+    #[error("its transforms make a solid too large or too small to be computed with; check the factors of Scale")]
+    OutOfRange,
+}
 
-pub(super) fn resolve(file: SceneFile) -> Result<Scene, NameError> {
+impl ResolveError {
+    fn new(name: Option<&str>, problem: Problem) -> Self {
+        Self { name: name.map(str::to_owned), object: None, problem }
+    }
+}
+
+/// The greatest number of leaves after named solids are put in; a scene with more is a mistake.
+const MAX_LEAVES: usize = 200_000;
+/// The greatest depth of solids in solids, uses of named solids included.
+const MAX_DEPTH: usize = 100;
+/// The tag of solids without a material.
+const NO_MATERIAL: MaterialTag = MaterialTag(0);
+
+pub(super) fn resolve(file: SceneFile) -> Result<Scene, ResolveError> {
     let mut materials: Vec<Material> = vec![Material::default()];
     let mut tags = BTreeMap::new();
-    let mut called = vec![String::new()];
+    let mut material_names = vec![String::new()];
     for (name, material) in file.materials.0 {
-        called.push(name.clone());
-        tags.insert(name, materials.len() as u32);
+        material_names.push(name.clone());
+        tags.insert(name, MaterialTag(materials.len() as u32));
         materials.push(material);
     }
     let mut names =
         NameResolver { tags, solids: &file.solids.0, used: BTreeSet::new(), path: Vec::new(), leaves: 0, depth: 0 };
     let mut solids = Vec::new();
     for (index, object) in file.objects.iter().enumerate() {
-        let solid = names.place(object, DAffine3::IDENTITY, 0);
-        // Of what has no name, at least the place in the list is told.
-        solids.push(solid.map_err(|wrong| match wrong.name {
-            None => NameError { message: format!("objects[{index}]: {}", wrong.message), ..wrong },
-            Some(_) => wrong,
+        let solid = names.solid(object, DAffine3::IDENTITY, NO_MATERIAL);
+        // An error without a name gives at least the object's number.
+        solids.push(solid.map_err(|error| match error.name {
+            None => ResolveError { object: Some(index), ..error },
+            Some(_) => error,
         })?);
     }
-    // What no object uses must make sense all the same.
+    // Solids that no object uses must be valid too.
     for (name, solid) in &file.solids.0 {
         if names.used.contains(name.as_str()) {
             continue;
         }
         names.path = vec![name];
-        names.place(solid, DAffine3::IDENTITY, 0)?;
+        names.solid(solid, DAffine3::IDENTITY, NO_MATERIAL)?;
     }
     let SceneFile { camera, background, ambient, lights, .. } = file;
-    Ok(Scene { camera, background, ambient, lights, materials, names: called, solids })
+    Ok(Scene { camera, background, ambient, lights, materials, names: material_names, solids })
 }
 
 struct NameResolver<'a> {
-    tags: BTreeMap<String, u32>,
+    tags: BTreeMap<String, MaterialTag>,
     solids: &'a BTreeMap<String, SolidFields>,
     used: BTreeSet<&'a str>,
-    /// The named solids that the one at hand stands in.
+    /// The chain of named solids that contain the current one.
     path: Vec<&'a str>,
     leaves: usize,
     depth: usize,
 }
 
 impl<'a> NameResolver<'a> {
-    /// `outer` and `tag` are the transform and material of what the solid stands in.
-    fn place(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    /// Resolves a solid. `outer` and `tag` are the transform and the material of the solid around it.
+    fn solid(&mut self, solid: &'a SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         use SolidFields as S;
         let (S::Sphere { material, transform, .. }
         | S::HalfSpace { material, transform, .. }
@@ -87,8 +114,7 @@ impl<'a> NameResolver<'a> {
         let outer = outer * map;
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            let name = self.path.last().map(|&name| name.to_owned());
-            return Err(NameError { name, message: format!("solids stand in solids more than {MAX_DEPTH} deep") });
+            return Err(ResolveError::new(self.path.last().copied(), Problem::TooDeep));
         }
         let placed = match solid {
             S::Union { of, .. } => Solid::Union(self.all(of, outer, tag)?),
@@ -101,43 +127,41 @@ impl<'a> NameResolver<'a> {
         Ok(placed)
     }
 
-    fn all(&mut self, solids: &'a [SolidFields], outer: DAffine3, tag: u32) -> Result<Vec<Solid>, NameError> {
-        solids.iter().map(|solid| self.place(solid, outer, tag)).collect()
+    fn all(
+        &mut self,
+        solids: &'a [SolidFields],
+        outer: DAffine3,
+        tag: MaterialTag,
+    ) -> Result<Vec<Solid>, ResolveError> {
+        solids.iter().map(|solid| self.solid(solid, outer, tag)).collect()
     }
 
-    fn used(&mut self, name: &'a str, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    fn used(&mut self, name: &'a str, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         let solid = self.solids.get(name).ok_or_else(|| unknown("solid", name, self.solids.keys()))?;
         if let Some(from) = self.path.iter().position(|&user| user == name) {
             let circle: Vec<_> = self.path[from..].iter().chain([&name]).map(|name| shown(name)).collect();
-            let circle = circle.join(" → ");
-            return Err(NameError { name: Some(name.into()), message: format!("a solid uses itself: {circle}") });
+            return Err(ResolveError::new(Some(name), Problem::Circle(circle.join(" → "))));
         }
         self.used.insert(name);
         self.path.push(name);
-        let placed = self.place(solid, outer, tag)?;
+        let placed = self.solid(solid, outer, tag)?;
         self.path.pop();
         Ok(placed)
     }
 
-    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: u32) -> Result<Solid, NameError> {
+    fn leaf(&mut self, leaf: &SolidFields, outer: DAffine3, tag: MaterialTag) -> Result<Solid, ResolveError> {
         self.leaves += 1;
         if self.leaves > MAX_LEAVES {
-            return Err(NameError {
-                name: self.path.last().map(|&name| name.to_owned()),
-                message: format!("the scene has more than {MAX_LEAVES} primitives once its named solids are put in"),
-            });
+            return Err(ResolveError::new(self.path.last().copied(), Problem::TooManyPrimitives));
         }
-        let (primitive, own) = primitive(leaf);
-        let scene_from_own = outer * own;
-        // A determinant that overflows would make the inverse 0.
-        let is_normal = scene_from_own.matrix3.determinant().is_normal();
-        if !is_normal || !scene_from_own.is_finite() || !scene_from_own.inverse().is_finite() {
-            return Err(NameError {
-                name: self.path.last().map(|&name| name.to_owned()),
-                message: "its transforms make a solid too large or too small to be computed with".into(),
-            });
+        let (primitive, outer_from_local) = primitive(leaf);
+        let scene_from_local = outer * outer_from_local;
+        // If the determinant overflowed, the inverse would be 0.
+        let is_normal = scene_from_local.matrix3.determinant().is_normal();
+        if !is_normal || !scene_from_local.is_finite() || !scene_from_local.inverse().is_finite() {
+            return Err(ResolveError::new(self.path.last().copied(), Problem::OutOfRange));
         }
-        Ok(Solid::Placed { primitive, scene_from_own, tag })
+        Ok(Solid::Placed { primitive, scene_from_local, tag })
     }
 }
 
@@ -151,27 +175,29 @@ impl Transform {
     }
 }
 
-/// The primitive that a leaf is, and where its fields put it.
+/// The primitive of a leaf, and the map from its own coordinates to those of the scene file.
 fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
     match *leaf {
         SolidFields::Sphere { centre, radius, .. } => {
-            let own = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(radius)), translation: centre };
-            (Primitive::Sphere, own)
+            let outer_from_local =
+                DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(radius)), translation: centre };
+            (Primitive::Sphere, outer_from_local)
         }
         SolidFields::HalfSpace { normal, offset, .. } => (Primitive::HalfSpace { normal, offset }, DAffine3::IDENTITY),
         SolidFields::Box { min, max, .. } => {
-            let own = DAffine3 { matrix3: DMat3::from_diagonal((max - min) / 2.0), translation: (min + max) / 2.0 };
-            (Primitive::Cube, own)
+            let outer_from_local =
+                DAffine3 { matrix3: DMat3::from_diagonal((max - min) / 2.0), translation: (min + max) / 2.0 };
+            (Primitive::Cube, outer_from_local)
         }
         SolidFields::Cylinder { from, to, radius, .. } => (Primitive::Cylinder, along(from, to, radius)),
         SolidFields::Cone { from, to, radius, to_radius, .. } => {
-            // The wider end has radius 1 in the cone's own coordinates.
+            // In the cone's own coordinates the wider end has radius 1.
             let wider = radius.max(to_radius);
             (Primitive::Cone { bottom: radius / wider, top: to_radius / wider }, along(from, to, wider))
         }
         SolidFields::Torus { centre, axis, radius, tube, .. } => {
-            let own = DAffine3 { matrix3: turn_y_to(axis) * radius, translation: centre };
-            (Primitive::Torus { tube: tube / radius }, own)
+            let outer_from_local = DAffine3 { matrix3: turn_y_to(axis) * radius, translation: centre };
+            (Primitive::Torus { tube: tube / radius }, outer_from_local)
         }
         SolidFields::Quadric { squares, products, linear, constant, .. } => {
             (Primitive::Quadric(QuadricCoefficients { squares, products, linear, constant }), DAffine3::IDENTITY)
@@ -179,11 +205,11 @@ fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
         SolidFields::Union { .. }
         | SolidFields::Intersection { .. }
         | SolidFields::Difference { .. }
-        | SolidFields::Use { .. } => unreachable!("these are no leaves: `place` never asks"),
+        | SolidFields::Use { .. } => unreachable!("these are no leaves: `solid` handles them"),
     }
 }
 
-/// Carries the y axis from −1 to 1 to the line between two points, and radius 1 to `radius`.
+/// Maps the y axis from −1 to 1 to the line between two points, and radius 1 to `radius`.
 fn along(from: DVec3, to: DVec3, radius: f64) -> DAffine3 {
     let half = (to - from) / 2.0;
     let turn = turn_y_to(half.normalize());
@@ -191,17 +217,20 @@ fn along(from: DVec3, to: DVec3, radius: f64) -> DAffine3 {
     DAffine3 { matrix3, translation: from + half }
 }
 
-fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k String>) -> NameError {
-    const SHOWN: usize = 12;
+fn unknown<'k>(what: &'static str, name: &str, known: impl Iterator<Item = &'k String>) -> ResolveError {
+    const MAX_SHOWN_NAMES: usize = 12;
     let mut known: Vec<_> = known.map(|name| shown(name)).collect();
-    let more = if known.len() > SHOWN { " and others" } else { "" };
-    known.truncate(SHOWN);
-    let known =
-        if known.is_empty() { "none is defined".into() } else { format!("known are {}{more}", known.join(", ")) };
-    NameError { name: Some(name.into()), message: format!("there is no {what} `{}`; {known}", shown(name)) }
+    let more = if known.len() > MAX_SHOWN_NAMES { " and others" } else { "" };
+    known.truncate(MAX_SHOWN_NAMES);
+    let known = if known.is_empty() {
+        "no name is defined".into()
+    } else {
+        format!("the known names are {}{more}", known.join(", "))
+    };
+    ResolveError::new(Some(name), Problem::UnknownName { what, name: shown(name), known })
 }
 
 fn shown(name: &str) -> String {
-    const LONGEST: usize = 40;
-    sentence::shown(name, LONGEST)
+    const MAX_NAME_CHARS: usize = 40;
+    sentence::shown(name, MAX_NAME_CHARS)
 }

@@ -5,10 +5,11 @@ use std::fmt;
 
 use glam::DVec3;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor};
+use thiserror::Error;
 
 use super::{Camera, Light, Material, validate};
 
-/// The file as it is written.
+/// A scene file as written.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields, rename = "Scene")]
 pub(super) struct SceneFile {
@@ -26,7 +27,7 @@ pub(super) struct SceneFile {
     pub objects: Vec<SolidFields>,
 }
 
-/// A map from names that refuses to be given the same name twice.
+/// A map from names in which no name may occur twice.
 pub(super) struct UniqueNames<T>(pub BTreeMap<String, T>);
 
 impl<T> Default for UniqueNames<T> {
@@ -35,8 +36,7 @@ impl<T> Default for UniqueNames<T> {
     }
 }
 
-/// A solid as it is written. Each may have a material, which its parts have too unless they have their own, and
-/// transforms, which act in the order written.
+/// A solid as written. Its parts have its material unless they have their own. Transforms act in the order written.
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields, remote = "Self", rename = "Solid")]
 pub(super) enum SolidFields {
@@ -85,7 +85,7 @@ pub(super) enum SolidFields {
         to: DVec3,
         #[serde(deserialize_with = "validate::positive")]
         radius: f64,
-        /// The radius at `to`: 0 is a whole cone, more a truncated one.
+        /// The radius at `to`: 0 for a whole cone, more for a truncated one.
         #[serde(default, deserialize_with = "validate::number")]
         to_radius: f64,
         material: Option<String>,
@@ -95,10 +95,10 @@ pub(super) enum SolidFields {
     Torus {
         #[serde(default, deserialize_with = "validate::vector")]
         centre: DVec3,
-        /// What the ring goes round.
+        /// The axis of rotation.
         #[serde(default = "upwards", deserialize_with = "validate::direction")]
         axis: DVec3,
-        /// From the centre to the middle of the tube.
+        /// The radius of the circle at the centre of the tube.
         #[serde(deserialize_with = "validate::positive")]
         radius: f64,
         /// The radius of the tube.
@@ -147,11 +147,11 @@ pub(super) enum SolidFields {
     },
 }
 
-/// One step of placing a solid.
+/// A step of a solid's transform.
 #[derive(serde::Deserialize)]
 pub(super) enum Transform {
     Translate(#[serde(deserialize_with = "validate::vector")] DVec3),
-    /// Degrees about x, then y, then z.
+    /// By degrees about x, then y, then z.
     Rotate(#[serde(deserialize_with = "validate::vector")] DVec3),
     Scale(#[serde(deserialize_with = "validate::factors")] DVec3),
 }
@@ -169,24 +169,33 @@ pub(super) struct CameraFields {
     field_of_view: f64,
 }
 
+/// Why a camera has no line of sight or no upward direction.
+#[derive(Debug, Error)]
+pub(super) enum CameraError {
+    #[error("eye and look_at must be different points")]
+    NoDirection,
+    #[error("up must not lie along the line from eye to look_at")]
+    NoUp,
+}
+
 impl TryFrom<CameraFields> for Camera {
-    type Error = &'static str;
+    type Error = CameraError;
 
     fn try_from(fields: CameraFields) -> Result<Self, Self::Error> {
         let CameraFields { eye, look_at, up, field_of_view } = fields;
         let sight = (look_at - eye).normalize_or_zero();
         if sight == DVec3::ZERO {
-            return Err("eye and look_at must be different points");
+            return Err(CameraError::NoDirection);
         }
         if sight.cross(up).length() < 1e-9 {
-            return Err("up must not lie along the line from eye to look_at");
+            return Err(CameraError::NoUp);
         }
         Ok(Self { eye, look_at, up, field_of_view })
     }
 }
 
 impl<'de> Deserialize<'de> for SolidFields {
-    /// Checks what fields say together, while the reader still knows where it is.
+    /// Checks conditions between fields here, where the parser still knows the position in the file.
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let solid = Self::deserialize(from)?;
         let wrong = match &solid {

@@ -1,17 +1,17 @@
-//! Numbers that are refused where they are read, so that the error can say where.
+//! Range checks of numbers while they are read, so that an error can give the position.
 
 use glam::DVec3;
 use serde::de::{Deserialize, Deserializer, Error};
 
-/// No coordinate exceeds this, so that squares and products of a few of them stay finite.
-const LARGEST: f64 = 1e12;
+/// The greatest absolute coordinate. Squares and products of a few coordinates stay finite.
+const MAX_COORDINATE: f64 = 1e12;
 
 pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    check(f64::deserialize(from)?, |x| x.abs() <= LARGEST, "a number between -1e12 and 1e12")
+    check(f64::deserialize(from)?, |x| x.abs() <= MAX_COORDINATE, "a number between -1e12 and 1e12")
 }
 
 pub(super) fn positive<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    check(f64::deserialize(from)?, |x| (1e-12..=LARGEST).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
+    check(f64::deserialize(from)?, |x| (1e-12..=MAX_COORDINATE).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
 }
 
 pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
@@ -31,12 +31,12 @@ pub(super) fn angle_of_view<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D
 }
 
 pub(super) fn vector<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
-    each(from, |x| x.abs() <= LARGEST, "three numbers between -1e12 and 1e12")
+    each(from, |x| x.abs() <= MAX_COORDINATE, "three numbers between -1e12 and 1e12")
 }
 
 pub(super) fn direction<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
     let vector = vector(from)?;
-    // The square of anything shorter may vanish.
+    // The square of a shorter vector may vanish.
     if vector.length() < 1e-12 {
         return Err(D::Error::custom("must not be of length 0"));
     }
@@ -51,7 +51,7 @@ pub(super) fn light<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Erro
     each(from, |x| (0.0..=1e6).contains(&x), "three numbers between 0 and 1e6")
 }
 
-/// Factors of a scaling: negative ones mirror.
+/// Reads the factors of a scaling; negative ones mirror.
 pub(super) fn factors<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
     each(from, |x| (1e-6..=1e6).contains(&x.abs()), "three factors other than 0 (from 1e-6 to 1e6, or negative)")
 }
@@ -69,7 +69,7 @@ fn check<E: Error>(number: f64, valid: impl Fn(f64) -> bool, what: &str) -> Resu
     if valid(number) { Ok(number) } else { Err(E::custom(format_args!("must be {what}, not {}", shown(number)))) }
 }
 
-/// A number as it can stand in a sentence.
+/// Formats a number for an error text.
 fn shown(number: f64) -> String {
     let plain = number == 0.0 || !number.is_finite() || (1e-6..1e15).contains(&number.abs());
     if plain { number.to_string() } else { format!("{number:e}") }

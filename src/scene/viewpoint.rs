@@ -1,71 +1,74 @@
-//! The same scene seen from elsewhere, and a scene's text that says so.
+//! Camera moves, and scene texts with a new camera.
 
 use glam::{DQuat, DVec3};
 
 use super::{Camera, Opened};
-use crate::ron_file::skipped;
+use crate::ron_file::comment_or_string_length;
 
-/// The line of sight keeps so many degrees from straight up and straight down, where it would flip over.
-const POLE: f64 = 4.0;
+/// The smallest angle between the line of sight and straight up or straight down, where the picture would flip over.
+const MIN_POLE_ANGLE_DEGREES: f64 = 4.0;
 
 impl Camera {
-    /// Goes round what it looks at, by angles in degrees: to the right, and up.
+    /// Rotates the camera around the point that it looks at, by angles in degrees: to the right, and up.
     pub fn orbit(&self, right: f64, up: f64) -> Self {
         let axis = self.up.normalize();
         let away = self.eye - self.look_at;
         let height = axis.angle_between(away).to_degrees();
-        // Up makes the angle to the pole smaller.
-        let wanted = (height - up).clamp(POLE.min(height), (180.0 - POLE).max(height));
+        // Upwards the angle to the pole decreases.
+        let new_height =
+            (height - up).clamp(MIN_POLE_ANGLE_DEGREES.min(height), (180.0 - MIN_POLE_ANGLE_DEGREES).max(height));
         let side = axis.cross(away).normalize();
-        let turned = DQuat::from_axis_angle(side, (wanted - height).to_radians()) * away;
+        let turned = DQuat::from_axis_angle(side, (new_height - height).to_radians()) * away;
         let turned = DQuat::from_axis_angle(axis, right.to_radians()) * turned;
         Self { eye: self.look_at + turned, ..*self }
     }
 
-    /// Goes to the right and up, without turning, by so many of the picture's heights as they are at what it looks at.
+    /// Moves the camera to the right and up without turning it. The unit is the height of the picture at the distance
+    /// of the point that it looks at.
     pub fn pan(&self, right: f64, up: f64) -> Self {
         let sight = self.look_at - self.eye;
-        let to_the_right = sight.cross(self.up).normalize();
-        let upwards = to_the_right.cross(sight).normalize();
+        let right_direction = sight.cross(self.up).normalize();
+        let upwards = right_direction.cross(sight).normalize();
         let height = 2.0 * sight.length() * (self.field_of_view.to_radians() / 2.0).tan();
-        let by = (to_the_right * right + upwards * up) * height;
+        let by = (right_direction * right + upwards * up) * height;
         Self { eye: self.eye + by, look_at: self.look_at + by, ..*self }
     }
 
-    /// Comes nearer to what it looks at (a factor below 1) or goes further away.
+    /// Moves the camera towards the point that it looks at (`factor` below 1) or away from it.
     pub fn dolly(&self, factor: f64) -> Self {
         Self { eye: self.look_at + (self.eye - self.look_at) * factor, ..*self }
     }
 }
 
 impl Opened {
-    /// The same scene seen by another camera, with a text that says so; `None` if the text cannot say it.
-    pub fn seen_by(&self, camera: Camera) -> Option<Self> {
-        let place = camera_in(&self.text)?;
+    /// The same scene with another camera, and with a text that states this camera; `None` if the text cannot be
+    /// changed.
+    pub fn with_camera(&self, camera: Camera) -> Option<Self> {
+        let range = camera_range(&self.text)?;
         let vector = |DVec3 { x, y, z }: DVec3| format!("({x:?}, {y:?}, {z:?})");
-        let said = format!(
+        let camera_text = format!(
             "(eye: {}, look_at: {}, up: {}, field_of_view: {:?})",
             vector(camera.eye),
             vector(camera.look_at),
             vector(camera.up),
             camera.field_of_view
         );
-        let text = format!("{}{said}{}", &self.text[..place.start], &self.text[place.end..]);
+        let text = format!("{}{camera_text}{}", &self.text[..range.start], &self.text[range.end..]);
         let opened = Self::from_text(&self.name, &text).ok()?;
         let read = &opened.scene.camera;
-        let is_it =
+        let is_exact =
             read.eye == camera.eye && read.look_at == camera.look_at && read.field_of_view == camera.field_of_view;
-        is_it.then(|| Self { path: self.path.clone(), ..opened })
+        is_exact.then(|| Self { path: self.path.clone(), ..opened })
     }
 }
 
-/// Where a scene's text has the fields of its camera, brackets included.
-fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
+/// The byte range of the camera's fields in a scene's text, brackets included.
+fn camera_range(text: &str) -> Option<std::ops::Range<usize>> {
     let bytes = text.as_bytes();
     let (mut at, mut depth, mut start) = (0, 0_i32, None);
     while at < bytes.len() {
         let rest = &text[at..];
-        if let Some(length) = skipped(rest) {
+        if let Some(length) = comment_or_string_length(rest) {
             at += length;
             continue;
         }
@@ -79,7 +82,7 @@ fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
                     return Some(start..at + 1);
                 }
             }
-            b'c' if depth == 1 && start.is_none() && is_camera(text, at) => {
+            b'c' if depth == 1 && start.is_none() && camera_begins(text, at) => {
                 at += rest.find('(')?;
                 (start, depth) = (Some(at), depth + 1);
             }
@@ -91,7 +94,7 @@ fn camera_in(text: &str) -> Option<std::ops::Range<usize>> {
 }
 
 /// Whether the field `camera` begins here.
-fn is_camera(text: &str, at: usize) -> bool {
+fn camera_begins(text: &str, at: usize) -> bool {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let before = text[..at].chars().next_back().is_some_and(is_word);
     let after = text[at..].strip_prefix("camera").is_some_and(|rest| rest.trim_start().starts_with(':'));
@@ -111,7 +114,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn an_orbit_keeps_the_distance_and_comes_back(right in -180.0..180.0f64, up in -20.0..20.0f64) {
+        fn orbit_keeps_distance_and_is_invertible(right in -180.0..180.0f64, up in -20.0..20.0f64) {
             let camera = opened("ten-objects").scene.camera;
             let turned = camera.orbit(right, up);
             let distance = |camera: &Camera| (camera.eye - camera.look_at).length();
@@ -121,31 +124,33 @@ mod tests {
         }
 
         #[test]
-        fn no_way_leads_over_the_pole(ways in prop::collection::vec((-200.0..200.0f64, -200.0..200.0f64), 1..20)) {
+        fn orbit_never_crosses_pole(ways in prop::collection::vec((-200.0..200.0f64, -200.0..200.0f64), 1..20)) {
             let mut camera = opened("corner").scene.camera;
             for (right, up) in ways {
                 camera = camera.orbit(right, up);
                 let angle = camera.up.angle_between(camera.eye - camera.look_at).to_degrees();
-                prop_assert!((POLE - 1e-6..=180.0 - POLE + 1e-6).contains(&angle), "{angle}");
+                let least = MIN_POLE_ANGLE_DEGREES - 1e-6;
+                prop_assert!((least..=180.0 - least).contains(&angle), "{angle}");
             }
         }
 
         #[test]
-        fn every_scene_says_where_it_is_seen_from(
-            scene in 0..BUILT_IN.len(), right in -90.0..90.0f64, up in -30.0..30.0f64, factor in 0.3..3.0f64, by in -1.0..1.0f64,
+        fn with_camera_changes_every_built_in_scene(
+            scene in 0..BUILT_IN.len(), right in -90.0..90.0f64, up in -30.0..30.0f64, factor in 0.3..3.0f64,
+            by in -1.0..1.0f64,
         ) {
             let opened = opened(BUILT_IN[scene].0);
             let camera = opened.scene.camera.orbit(right, up).dolly(factor).pan(by, -by);
-            let moved = opened.seen_by(camera).unwrap();
+            let moved = opened.with_camera(camera).unwrap();
             prop_assert_eq!(moved.scene.camera.eye, camera.eye);
             prop_assert_eq!(moved.scene.solids.len(), opened.scene.solids.len());
-            // And says it again.
-            prop_assert!(moved.seen_by(opened.scene.camera).is_some());
+            // The text can be changed again.
+            prop_assert!(moved.with_camera(opened.scene.camera).is_some());
         }
     }
 
     #[test]
-    fn a_pan_of_one_height_moves_the_picture_by_its_height() {
+    fn pan_of_1_moves_by_height_of_picture() {
         let camera = opened("ten-objects").scene.camera;
         let moved = camera.pan(0.0, 1.0);
         let half = (camera.field_of_view.to_radians() / 2.0).tan();
@@ -155,12 +160,12 @@ mod tests {
     }
 
     #[test]
-    fn comments_strings_and_other_cameras_do_not_mislead() {
+    fn camera_in_comments_and_strings_is_ignored() {
         let text = "// camera: (no)\nScene(/* camera: ( */ materials: {\"camera: (\": (ka: 0)}, solids: {\"(\": Sphere(radius: 1)},\n\
                     camera : Camera(eye: (0, 1, 5), look_at: (0, 0, 0)), objects: [Use(solid: \"(\")])";
         let opened = Opened::from_text("tricky", text).unwrap();
         let camera = opened.scene.camera.dolly(2.0);
-        let moved = opened.seen_by(camera).unwrap();
+        let moved = opened.with_camera(camera).unwrap();
         assert_eq!(moved.scene.camera.eye, DVec3::new(0.0, 2.0, 10.0));
         assert!(moved.text.starts_with("// camera: (no)\nScene(/* camera: ( */ materials: {\"camera: (\""));
     }

@@ -1,4 +1,4 @@
-//! What is going to happen in a run, in the order of time and, at one time, in the order in which it was planned.
+//! The queue of future events: by time, and at the same time in the order in which they were scheduled.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -8,28 +8,28 @@ use crate::balance::{Message, NodeId, Party};
 use crate::scenario::Command;
 use crate::time::Time;
 
-/// What happens.
+/// An event of a run in virtual time.
 #[derive(Debug)]
 pub(super) enum SimEvent {
-    /// The run begins.
+    /// The run starts.
     Started,
-    /// A message arrives; its receiver may be busy.
+    /// A message arrives; the parent may be busy.
     Arrival { to: Party, mail: InTransit },
     /// The parent has handled a message.
     Handled(InTransit),
-    /// The parent has sampled what the picture costs.
+    /// The parent has sampled the cost of the picture: these are the costs by stretch.
     Estimated(Vec<Duration>),
-    /// A worker is done with its atom, unless it has been given another due time since: only the latest plan holds.
-    AtomDone { node: NodeId, plan: u32 },
-    /// A party's timer, unless it has been set anew since.
+    /// A worker finishes its atom, unless the atom has a newer due time: only the latest `version` counts.
+    AtomDone { node: NodeId, version: u32 },
+    /// A party's timer fires, unless it was set again.
     Timer(Party),
-    /// A message would have arrived, had it not been lost.
+    /// The message with this id would arrive now, but is lost.
     Lost(u64),
-    /// Something is done to the run.
+    /// A command of the script is executed.
     Command(Command),
 }
 
-/// A message on its way.
+/// A message in transit.
 #[derive(Debug)]
 pub(super) struct InTransit {
     pub id: u64,
@@ -37,68 +37,69 @@ pub(super) struct InTransit {
     pub message: Message,
 }
 
-/// All that is planned.
+/// The future events of a run.
 #[derive(Debug, Default)]
 pub(super) struct EventQueue {
-    events: BinaryHeap<Reverse<Planned>>,
-    planned: u64,
+    events: BinaryHeap<Reverse<Scheduled>>,
+    /// Number of events scheduled so far.
+    scheduled: u64,
 }
 
 #[derive(Debug)]
-struct Planned {
+struct Scheduled {
     at: Time,
     sequence: u64,
-    happening: SimEvent,
+    event: SimEvent,
 }
 
 impl EventQueue {
-    /// Plans something.
-    pub fn plan(&mut self, at: Time, happening: SimEvent) {
-        self.events.push(Reverse(Planned { at, sequence: self.planned, happening }));
-        self.planned += 1;
+    /// Schedules an event.
+    pub fn schedule(&mut self, at: Time, event: SimEvent) {
+        self.events.push(Reverse(Scheduled { at, sequence: self.scheduled, event }));
+        self.scheduled += 1;
     }
 
-    /// When the next thing happens.
+    /// Returns the time of the next event.
     pub fn next(&self) -> Option<Time> {
-        self.events.peek().map(|Reverse(planned)| planned.at)
+        self.events.peek().map(|Reverse(scheduled)| scheduled.at)
     }
 
-    /// Whether anything of this kind is planned.
-    pub fn has(&self, kind: impl Fn(&SimEvent) -> bool) -> bool {
-        self.events.iter().any(|Reverse(planned)| kind(&planned.happening))
+    /// Returns whether an event matches `filter`.
+    pub fn any(&self, filter: impl Fn(&SimEvent) -> bool) -> bool {
+        self.events.iter().any(|Reverse(scheduled)| filter(&scheduled.event))
     }
 
-    /// Plans what is of this kind for another time, in the order in which it was to happen.
-    pub fn move_to(&mut self, at: impl Fn(Time) -> Time, kind: impl Fn(&SimEvent) -> bool) {
+    /// Moves the events that match `filter` to the times that `at` returns for theirs; they keep their order.
+    pub fn reschedule(&mut self, at: impl Fn(Time) -> Time, filter: impl Fn(&SimEvent) -> bool) {
         let (mut moved, others): (Vec<_>, Vec<_>) =
-            self.events.drain().map(|Reverse(planned)| planned).partition(|planned| kind(&planned.happening));
+            self.events.drain().map(|Reverse(scheduled)| scheduled).partition(|scheduled| filter(&scheduled.event));
         self.events = others.into_iter().map(Reverse).collect();
         moved.sort_unstable();
-        moved.into_iter().for_each(|planned| self.plan(at(planned.at), planned.happening));
+        moved.into_iter().for_each(|scheduled| self.schedule(at(scheduled.at), scheduled.event));
     }
 
-    /// Takes out what happens next, if that is until `horizon`.
+    /// Removes and returns the next event, if its time is not after `horizon`.
     pub fn pop(&mut self, horizon: Time) -> Option<(Time, SimEvent)> {
         self.next().filter(|&at| at <= horizon)?;
-        self.events.pop().map(|Reverse(planned)| (planned.at, planned.happening))
+        self.events.pop().map(|Reverse(scheduled)| (scheduled.at, scheduled.event))
     }
 }
 
-impl PartialEq for Planned {
+impl PartialEq for Scheduled {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Planned {}
+impl Eq for Scheduled {}
 
-impl PartialOrd for Planned {
+impl PartialOrd for Scheduled {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Planned {
+impl Ord for Scheduled {
     fn cmp(&self, other: &Self) -> Ordering {
         (self.at, self.sequence).cmp(&(other.at, other.sequence))
     }

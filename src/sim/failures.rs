@@ -1,109 +1,107 @@
-//! What is lost in a run in virtual time: machines that hang, are cut off or off, links that are cut, and what was on them.
+//! Failures in virtual time: machines that hang, are cut off or are off, delayed messages, and the end of a run in
+//! which nothing happens any more.
 
 use std::mem;
 use std::time::Duration;
 
 use super::event_queue::SimEvent;
 use super::simulation::{RecordSink, Sim};
-use crate::balance::{Condition, Event, NodeId, Party, Strategy};
+use crate::balance::{Condition, Event, NodeId, Party, Strategy, Transition};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 
-/// After so many beats in which nobody has worked nobody will, unless something is planned that may change it.
-const STANDSTILL: u32 = 400;
+/// Beats without work after which a run counts as stuck, unless an event in the queue may change that.
+const STANDSTILL_BEATS: u32 = 400;
 
 impl Sim {
-    /// Lets everything happen. A run in which the last node that has atoms stands still then is not finished, even where
-    /// others go on telling each other so.
-    pub fn run(&mut self, tell: &mut dyn FnMut(Record)) {
-        // In all other strategies nobody says anything then.
+    /// Processes all events. Ends without finishing the picture if the last node with atoms stands still, even if other
+    /// nodes keep sending messages.
+    pub fn run(&mut self, sink: &mut dyn FnMut(Record)) {
+        // In all other strategies no events are left then.
         if self.rules.strategy != Strategy::Adaptive {
-            return self.advance(Time(u64::MAX), tell);
+            return self.advance(Time(u64::MAX), sink);
         }
-        let mut worked = self.now;
+        let mut last_work = self.now;
         while let Some(next) = self.next() {
             let mut works = false;
             self.advance(next, &mut |record| {
                 works |= matches!(record.what, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. });
-                tell(record);
+                sink(record);
             });
             if works {
-                worked = self.now;
-            } else if self.now.since(worked) > self.rules.beat * STANDSTILL {
-                let may_change = |happening: &SimEvent| match happening {
+                last_work = self.now;
+            } else if self.now.since(last_work) > self.rules.beat * STANDSTILL_BEATS {
+                let may_change = |event: &SimEvent| match event {
                     SimEvent::Command(_) => true,
-                    SimEvent::AtomDone { node, plan } => self.nodes[usize::from(*node)].plan == *plan,
+                    SimEvent::AtomDone { node, version } => self.nodes[usize::from(*node)].due_version == *version,
                     SimEvent::Arrival { mail, .. } | SimEvent::Handled(mail) => {
                         mail.message.ranges().iter().any(|range| !range.is_empty())
                     }
                     _ => false,
                 };
-                if !self.future.has(may_change) {
+                if !self.events.any(may_change) {
                     return;
                 }
-                worked = self.now;
+                last_work = self.now;
             }
         }
     }
 
-    /// Something becomes of a node's machine.
-    pub(super) fn set_condition(&mut self, node: NodeId, condition: Condition, tell: RecordSink<'_>) {
+    /// Sets the condition of a node's machine, with the effects of the [`Transition`].
+    pub(super) fn set_condition(&mut self, node: NodeId, condition: Condition, sink: RecordSink<'_>) {
         let Some(index) = self.machine(node).filter(|_| !self.finished) else { return };
         let nodes = self.nodes.len() as NodeId;
         let party = &mut self.nodes[index];
-        // What is off cannot hang.
-        if party.condition == condition || (party.condition, condition) == (Condition::Off, Condition::Hung) {
-            return;
-        }
-        let before = mem::replace(&mut party.condition, condition);
+        let Some(transition) = party.condition.transition(condition) else { return };
+        party.condition = condition;
         party.machine.set_paused(party.paused || condition == Condition::Hung, self.now);
         self.faults.cut_off(node, condition == Condition::CutOff);
-        self.note(RecordKind::Condition { node, condition }, tell);
+        self.record(RecordKind::Condition { node, condition }, sink);
         let party = &mut self.nodes[index];
-        match (before, condition) {
-            (_, Condition::Off) => {
-                let unheard = mem::take(&mut party.mailbox);
-                party.lose_all(&self.rules, node, nodes, self.now);
-                unheard.into_iter().for_each(|mail| self.note(RecordKind::Lost { id: mail.id }, tell));
+        match transition {
+            Transition::MemoryLost => {
+                let lost = mem::take(&mut party.mailbox);
+                party.lose_memory(&self.rules, node, nodes, self.now);
+                lost.into_iter().for_each(|mail| self.record(RecordKind::Lost { id: mail.id }, sink));
             }
-            (Condition::Off, _) => self.hand_over(Party::Node(node), Event::Started, tell),
-            (Condition::Hung, _) => {
+            Transition::FreshStart => self.handle_event(Party::Node(node), Event::Started, sink),
+            Transition::Resumed => {
                 let mailbox = mem::take(&mut party.mailbox);
-                self.go_on(node, tell);
-                mailbox.into_iter().for_each(|mail| self.receive(Party::Node(node), mail, tell));
-                self.timer(node, tell);
+                self.resume_worker(node, sink);
+                mailbox.into_iter().for_each(|mail| self.receive(Party::Node(node), mail, sink));
+                self.fire_timer(node, sink);
             }
-            _ => self.go_on(node, tell),
+            Transition::MemoryKept => self.resume_worker(node, sink),
         }
     }
 
-    /// Holds up the way from one party to another.
-    pub(super) fn delay(&mut self, from: Party, to: Party, by: Duration, tell: RecordSink<'_>) {
+    /// Delays all messages from one party to another, also those in transit.
+    pub(super) fn delay(&mut self, from: Party, to: Party, by: Duration, sink: RecordSink<'_>) {
         let is_missing = |party| matches!(party, Party::Node(node) if self.machine(node).is_none());
         if self.finished || from == to || is_missing(from) || is_missing(to) {
             return;
         }
         let until = self.faults.delay(from, to, self.now, self.now + by);
-        let on_this_way = |happening: &SimEvent| match happening {
+        let is_on_this_way = |event: &SimEvent| match event {
             SimEvent::Arrival { to: other, mail } => (mail.from, *other) == (from, to),
             _ => false,
         };
         let faults = &self.faults;
-        self.future.move_to(|at| faults.arrival(from, to, at), on_this_way);
-        self.note(RecordKind::Delayed { from, to, until }, tell);
+        self.events.reschedule(|at| faults.arrival(from, to, at), is_on_this_way);
+        self.record(RecordKind::Delayed { from, to, until }, sink);
     }
 
-    /// The parent has nothing more to do. Nodes that its last message cannot reach are abandoned: whoever owns their machines
-    /// has to look after them.
+    /// Ends the parent. Nodes that the shutdown cannot reach end as well: in reality their owners would have to stop
+    /// them.
     pub(super) fn end(&mut self) {
         self.finished = true;
         for node in 0..self.nodes.len() as NodeId {
-            let unheard = self.faults.is_cut(Party::Parent, Party::Node(node));
+            let is_unreachable = self.faults.is_cut(Party::Parent, Party::Node(node));
             let party = &mut self.nodes[usize::from(node)];
-            if unheard || matches!(party.condition, Condition::Hung | Condition::Off) {
+            if is_unreachable || !party.condition.is_running() {
                 party.finished = true;
                 party.pipe.clear();
-                party.plan = party.plan.wrapping_add(1);
+                party.due_version = party.due_version.wrapping_add(1);
             }
         }
     }
@@ -116,7 +114,7 @@ mod tests {
     use crate::scenario::Command;
 
     #[test]
-    fn what_is_held_up_arrives_then_in_its_order_and_what_is_on_a_cut_link_never() {
+    fn delayed_messages_arrive_late_and_in_order_and_those_on_a_cut_link_never() {
         let header = Header { driver: Driver::Sim, ..examples::header(&[1.0, 1.0, 1.0]) };
         let (from, to, at) = (Party::Node(1), Party::Parent, Time(3_000));
         let until = Time::from_secs(0.01);
@@ -126,7 +124,10 @@ mod tests {
             let (mut sent, mut came, mut lost) = (Vec::new(), Vec::new(), 0);
             Sim::new(&header, &script, |_| Duration::from_micros(1)).run(&mut |record| match record.what {
                 RecordKind::Sent { id, from: Party::Node(1), to: Party::Parent, arrives, .. } => {
-                    assert!(is_cut || record.at <= at || arrives >= until, "it is known when it is sent");
+                    assert!(
+                        is_cut || record.at <= at || arrives >= until,
+                        "the delay is known when the message is sent"
+                    );
                     sent.push(id);
                 }
                 RecordKind::Received { id, by: Party::Parent } if sent.contains(&id) => came.push((record.at, id)),
@@ -144,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_in_which_nobody_will_ever_work_comes_to_its_end() {
+    fn run_ends_when_no_node_will_ever_work_again() {
         let plain = examples::header(&[1.0, 1.0]);
         let mut header = Header { driver: Driver::Sim, ..plain };
         header.rules.strategy = Strategy::Adaptive;

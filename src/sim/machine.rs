@@ -1,103 +1,104 @@
-//! The emulated machine: how long its worker takes for what the thread has already done.
+//! The emulated machine: it converts work that a thread has done already into the time that the machine takes for it.
 
 use std::time::Duration;
 
 use crate::time::Time;
 
-/// How far a machine may be behind the run's clock and still make up for it. Threads wake late and lose their core for
-/// a while; more than this means that the computer is too slow for the machines, and then the run takes longer.
-const MOST_LATE: Duration = Duration::from_millis(50);
+/// Longest time that a machine may be behind the run's clock and still catch up. Threads wake late and lose their core
+/// for a while; a longer delay means that the computer is too slow for the machines, and then the run takes longer.
+const MAX_LATENESS: Duration = Duration::from_millis(50);
 
-/// One machine's worker. Work is measured in CPU seconds of this computer, of which the machine does
-/// speed × pace in a second.
+/// The worker of one machine. Work is measured in CPU seconds of this computer; the machine does speed × pace of them
+/// per second.
 #[derive(Debug)]
 pub struct Machine {
     pace: f64,
-    /// As a fraction of the reference machine's; a pause does not change it.
+    /// Fraction of the reference machine's speed; a pause does not change it.
     speed: f64,
     paused: bool,
     time: Time,
-    /// Work of the piece in hand that is left at `time`, in CPU seconds.
-    left: f64,
+    /// Work left of the piece in hand at `time`, in CPU seconds.
+    work_left: f64,
 }
 
 impl Machine {
-    /// A machine without work at [`Time::ZERO`]. `speed` is a fraction of the reference machine's, which gets the
-    /// fraction `pace` of a core.
+    /// Creates a machine without work at [`Time::ZERO`]. `speed` is a fraction of the reference machine's speed, and
+    /// the reference machine gets the fraction `pace` of a core.
     pub fn new(speed: f64, pace: f64) -> Self {
-        Self { pace, speed, paused: false, time: Time::ZERO, left: 0.0 }
+        Self { pace, speed, paused: false, time: Time::ZERO, work_left: 0.0 }
     }
 
-    /// The machine's own time: up to here it has done what it had to.
+    /// Returns the machine's own time: it has done its work up to here.
     pub fn time(&self) -> Time {
         self.time
     }
 
-    /// Whether the machine is this computer itself: then it waits for nothing, and its times are real.
+    /// Returns whether the machine is as fast as this computer: then it never waits, and its times are those of the
+    /// clock.
     pub fn is_full(&self) -> bool {
         self.rate() >= 1.0
     }
 
-    /// Whether its worker stands still, because it is paused or has speed 0.
+    /// Returns whether the worker stands still, since it is paused or has speed 0.
     pub fn is_stopped(&self) -> bool {
         self.rate() == 0.0
     }
 
-    /// When the machine can begin something that it could have had since `available`: at once if it is idle. The
-    /// clock shows `now`.
+    /// Returns when the machine can begin a piece of work that has been available since `available`, at the clock's
+    /// time `now`: at once if it is idle.
     pub fn ready(&self, available: Time, now: Time) -> Time {
-        if self.is_full() { now } else { self.time.max(available).max(now - MOST_LATE) }
+        if self.is_full() { now } else { self.time.max(available).max(now - MAX_LATENESS) }
     }
 
-    /// Takes a piece of work in hand at `start`.
+    /// Begins a piece of work at `start`.
     pub fn begin(&mut self, start: Time, work: Duration) {
         self.time = start;
-        self.left = work.as_secs_f64();
+        self.work_left = work.as_secs_f64();
     }
 
-    /// When the piece in hand will be done; `None` if never, at the present speed.
+    /// Returns when the piece in hand will be done at the present speed; `None` if never.
     pub fn due(&self) -> Option<Time> {
-        if self.left == 0.0 {
+        if self.work_left == 0.0 {
             return Some(self.time);
         }
-        (!self.is_stopped()).then(|| self.time + Duration::from_nanos(Time::from_secs(self.left / self.rate()).0))
+        (!self.is_stopped()).then(|| self.time + Duration::from_nanos(Time::from_secs(self.work_left / self.rate()).0))
     }
 
-    /// The piece in hand is done at `at`.
+    /// Ends the piece in hand at `at`.
     pub fn finish(&mut self, at: Time) {
         self.time = at;
-        self.left = 0.0;
+        self.work_left = 0.0;
     }
 
-    /// Changes the speed at `at`: what is left of the piece in hand goes on at the new one, once the machine is not
+    /// Sets the speed at `at`: the rest of the piece in hand continues at the new speed, once the machine is not
     /// paused.
     pub fn set_speed(&mut self, speed: f64, at: Time) {
         self.work_until(at);
         self.speed = speed;
     }
 
-    /// Whether the machine is paused, whatever its speed.
+    /// Returns whether the machine is paused, at any speed.
     pub fn is_paused(&self) -> bool {
         self.paused
     }
 
-    /// Makes the machine stand still at `at`, in the middle of a piece too, or go on at its speed.
+    /// Pauses the machine at `at`, even in the middle of a piece, or lets it continue at its speed.
     pub fn set_paused(&mut self, paused: bool, at: Time) {
         self.work_until(at);
         self.paused = paused;
     }
 
-    /// Moves the machine's time on to `at`, if that is later.
+    /// Advances the machine's time to `at`, if that is later, and does the work of that time.
     fn work_until(&mut self, at: Time) {
         let done = at.since(self.time).as_secs_f64() * self.rate();
-        self.left = (self.left - done).max(0.0);
+        self.work_left = (self.work_left - done).max(0.0);
         self.time = self.time.max(at);
     }
 
-    /// CPU seconds of this computer that the machine does in a second, from 0 to 1.
+    /// Returns the CPU seconds of this computer that the machine does per second, from 0 to 1.
     fn rate(&self) -> f64 {
         let rate = if self.paused { 0.0 } else { self.speed * self.pace };
-        // NaN is not above 0 either: a machine that stands still.
+        // NaN is not above 0: such a machine stands still.
         if rate > 0.0 { rate.min(1.0) } else { 0.0 }
     }
 }
@@ -112,14 +113,14 @@ mod tests {
     }
 
     #[test]
-    fn work_takes_longer_on_a_slow_machine() {
+    fn slow_machine_takes_longer() {
         let mut machine = Machine::new(0.5, 0.5);
         machine.begin(Time::from_secs(1.0), Duration::from_secs(1));
         assert_eq!(machine.due(), secs(5.0));
     }
 
     #[test]
-    fn a_new_speed_is_for_what_is_left() {
+    fn new_speed_applies_to_the_rest_of_the_piece() {
         let mut machine = Machine::new(0.5, 1.0);
         machine.begin(Time::ZERO, Duration::from_secs(1));
         machine.set_speed(0.25, Time::from_secs(1.0));
@@ -131,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pause_stands_still_at_any_speed() {
+    fn paused_machine_stands_still_at_any_speed() {
         let mut machine = Machine::new(0.5, 1.0);
         machine.begin(Time::ZERO, Duration::from_secs(1));
         machine.set_paused(true, Time::from_secs(1.0));
@@ -143,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn lateness_is_made_up_within_bounds() {
+    fn machine_catches_up_within_bounds() {
         let mut machine = Machine::new(0.5, 1.0);
         machine.finish(Time::from_secs(1.0));
         let ready = |available, now| machine.ready(Time::from_secs(available), Time::from_secs(now)).secs();
@@ -152,9 +153,9 @@ mod tests {
     }
 
     proptest! {
-        /// However often the speed swings and the machine is paused, the work done is the integral of the rate.
+        /// The work done is the integral of the rate, for any sequence of speeds and pauses.
         #[test]
-        fn swings_and_pauses_do_the_work_once(
+        fn work_done_is_the_integral_of_the_rate(
             swings in prop::collection::vec((0.01f64..0.2, prop::option::of(0.0f64..1.0), any::<bool>()), 0..20),
         ) {
             let mut machine = Machine::new(0.3, 0.5);

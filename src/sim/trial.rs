@@ -1,4 +1,4 @@
-//! A run that could be: what is asked of it and done to it, and the same with one thing changed.
+//! Trials: runs in virtual time that are defined by a header and a script, and variants with one change.
 
 use std::time::Duration;
 
@@ -10,40 +10,40 @@ use crate::runlog::{Driver, Header, RunLog};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
-/// A run in virtual time: what is asked of it, and what is done to it while it goes on.
+/// Definition of a run in virtual time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// What is asked of it.
+    /// Settings of the run.
     pub header: Header,
-    /// What is done to it.
+    /// Commands during the run.
     pub script: Script,
 }
 
-/// One thing that is changed, all else being the same.
+/// One change of a trial; everything else stays the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// How the atoms are shared, with what is usual then.
+    /// Another strategy, with its default parameters.
     Strategy(Strategy),
-    /// As many machines; new ones run at full speed.
+    /// Another number of machines; added machines run at full speed.
     Nodes(usize),
-    /// A machine's speed from the beginning on.
+    /// The speed of a machine from the start.
     Speed(NodeId, f64),
-    /// A machine's speed from some time on.
+    /// The speed of a machine from a time on.
     SpeedAt(Time, NodeId, f64),
-    /// All machines run at full speed.
+    /// Full speed for all machines.
     Equal,
-    /// A ring that adapts lacks one of its remedies.
+    /// The adaptive ring without one of its remedies.
     Without(Remedy),
-    /// Pixels in an atom.
+    /// Another number of pixels in an atom.
     Atom(u32),
-    /// How long a message travels.
+    /// Another latency of all links.
     Latency(Duration),
-    /// How long the parent is busy with a message.
+    /// Another time that the parent is busy with each message.
     Handling(Duration),
 }
 
 impl Trial {
-    /// The run that a log is of, in virtual time, with all that was done to it.
+    /// Creates the trial of a recorded run, with all commands that were executed in it.
     pub fn of(log: &RunLog) -> Self {
         let command = |at: Time, what: &RecordKind| match *what {
             RecordKind::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
@@ -60,12 +60,12 @@ impl Trial {
         Self::new(log.header.clone(), script)
     }
 
-    /// The run of a header in virtual time.
+    /// Creates a trial; the driver of `header` is replaced by virtual time.
     pub fn new(header: Header, script: Script) -> Self {
         Self { header: Header { driver: Driver::Sim, cores: header.speeds.len(), ..header }, script }
     }
 
-    /// The same with one thing changed.
+    /// Returns a copy with one change.
     pub fn with(&self, change: Change) -> Self {
         let mut trial = self.clone();
         let header = &mut trial.header;
@@ -73,7 +73,7 @@ impl Trial {
             Change::Strategy(strategy) => {
                 header.rules.strategy = strategy;
                 if strategy != Strategy::Adaptive {
-                    // Nobody would let them in.
+                    // Only the adaptive ring lets spare machines in.
                     header.speeds.truncate(header.speeds.len() - usize::from(std::mem::take(&mut header.spares)));
                 }
             }
@@ -89,7 +89,7 @@ impl Trial {
             Change::SpeedAt(at, node, speed) => {
                 let later = trial.script.partition_point(|(other, _)| *other <= at);
                 trial.script.insert(later, (at, Command::Speed { node, speed }));
-                // What was done to the machine afterwards would take it back.
+                // Later speeds of this machine would undo the change.
                 let of_it = |command: &Command| matches!(command, Command::Speed { node: of, .. } if *of == node);
                 let mut place = 0;
                 trial.script.retain(|(_, command)| {
@@ -114,7 +114,7 @@ impl Trial {
         trial
     }
 
-    /// A machine's speed at a time.
+    /// Returns the speed of a machine at a time.
     pub fn speed_at(&self, at: Time, node: NodeId) -> f64 {
         let set = |(when, command): &(Time, Command)| match *command {
             Command::Speed { node: of, speed } if of == node && *when <= at => Some(speed),
@@ -124,10 +124,11 @@ impl Trial {
         self.script.iter().rev().find_map(set).unwrap_or_else(at_first)
     }
 
-    /// The whole run, if pixels cost so much. Its picture is not completed if machines that have atoms stand still for good.
+    /// Runs the trial with these costs of pixels, and returns its log. The picture stays incomplete if machines with
+    /// atoms stand still for ever.
     ///
     /// # Panics
-    /// If the costs are those of a picture of another size.
+    /// If the costs are for a picture of another size.
     pub fn run(&self, costs: &PixelCosts) -> RunLog {
         let costs = costs.of_atoms(self.header.division);
         let mut sim = Sim::new(&self.header, &self.script, move |atom| costs[atom as usize]);
@@ -138,19 +139,19 @@ impl Trial {
     }
 }
 
-/// What each pixel of a picture costs the reference machine, so that it can be cut into atoms of any size.
+/// Costs of all pixels of a picture on the reference machine, from which the costs of atoms of any size follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelCosts {
     size: Size,
-    /// By pixel: the cost of all before it.
+    /// By pixel: the summed cost of all pixels before it.
     before: Vec<Duration>,
 }
 
 impl PixelCosts {
-    /// A pixel a cost, in scan order.
+    /// Creates the costs from one cost for each pixel, in scan order.
     ///
     /// # Panics
-    /// If they are not as many as the picture has pixels.
+    /// If the number of costs is not the number of pixels.
     pub fn new(size: Size, costs: &[Duration]) -> Self {
         assert_eq!(costs.len(), size.pixels() as usize, "a cost for each pixel");
         let mut sum = Duration::ZERO;
@@ -161,12 +162,12 @@ impl PixelCosts {
         Self { size, before: before.collect() }
     }
 
-    /// The whole picture's.
+    /// Returns the cost of the whole picture.
     pub fn whole(&self) -> Duration {
         self.before[self.size.pixels() as usize]
     }
 
-    /// What atoms cost.
+    /// Returns the cost of each atom.
     fn of_atoms(&self, division: Division) -> Vec<Duration> {
         let cost = |atom| {
             let pixels = division.pixels(atom);
@@ -195,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn one_thing_is_changed_and_all_else_is_the_same() {
+    fn each_change_leaves_everything_else_the_same() {
         let trial = Trial::new(header(&[1.0, 1.0, 1.0, 0.1]), Vec::new());
         let bands = trial.with(Change::Strategy(Strategy::Static));
         assert!(makespan(&bands) > 2 * makespan(&trial), "{:?} {:?}", makespan(&bands), makespan(&trial));
@@ -206,13 +207,13 @@ mod tests {
         assert_eq!(trial.with(Change::Nodes(6)).header.speeds, [1.0, 1.0, 1.0, 0.1, 1.0, 1.0]);
         assert_eq!(trial.with(Change::Nodes(6)).header.cores, 6);
         let busy = trial.with(Change::Handling(Duration::from_millis(20)));
-        assert!(busy.header.rules.beat > trial.header.rules.beat, "a busy parent hears of its nodes less often");
+        assert!(busy.header.rules.beat > trial.header.rules.beat, "a busy parent gets fewer beats");
         let later = trial.with(Change::Latency(Duration::from_millis(300)));
         assert!(makespan(&later) > makespan(&trial));
     }
 
     #[test]
-    fn spares_stay_only_where_they_may_join() {
+    fn spares_stay_only_in_the_adaptive_ring() {
         let mut trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
         trial = trial.with(Change::Strategy(Strategy::Adaptive));
         trial.header.spares = 1;
@@ -223,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fork_is_the_same_until_it_parts() {
+    fn fork_equals_the_original_until_its_change() {
         let trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
         let half = Time::ZERO + makespan(&trial) / 2;
         let (one, other) = (trial.run(&costs(trial.header.size)), trial.with(Change::SpeedAt(half, 1, 0.05)));
@@ -234,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_done_to_a_run_is_done_to_its_twin() {
+    fn trial_of_a_log_has_the_same_commands_and_records() {
         let trial = Trial::new(header(&[1.0, 1.0]), vec![(Time(500_000), Command::Speed { node: 1, speed: 0.2 })]);
         let log = trial.run(&costs(trial.header.size));
         assert_eq!(Trial::of(&log), trial);
@@ -249,7 +250,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn an_atom_costs_what_its_pixels_do(costs in prop::collection::vec(0..1000u64, 48), atom in 1..60u32) {
+        fn cost_of_an_atom_is_the_sum_of_its_pixels(costs in prop::collection::vec(0..1000u64, 48), atom in 1..60u32) {
             let costs: Vec<_> = costs.into_iter().map(Duration::from_nanos).collect();
             let size = Size::new(8, 6).expect("a picture");
             let (pixels, division) = (PixelCosts::new(size, &costs), Division::new(48, atom));

@@ -1,32 +1,32 @@
-//! Who owns which leaves of the octree.
+//! Division of the octree's leaves among owners.
 
-/// How leaves are dealt to owners.
+/// A method of division.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deal {
-    /// Each owner gets a run of leaves in Morton order, such that all have about the same work. Neighbours mostly have
-    /// one owner.
+pub enum Partition {
+    /// Each owner gets consecutive leaves in Morton order, with about the same work as all others. Neighbours mostly
+    /// have one owner.
     Runs,
-    /// One leaf after the other goes to the next owner, as cards are dealt: to be compared with.
+    /// Leaf after leaf goes to the next owner in turn; for comparison.
     RoundRobin,
 }
 
-/// The owner of each leaf, below `owners`, which must not be 0. `work` tells each leaf's work, in any unit.
-pub fn deal(how: Deal, work: &[u64], owners: u32) -> Vec<u32> {
+/// The owner of each leaf, from 0 to `owners` − 1; `owners` must not be 0. `work` is each leaf's work, in any unit.
+pub fn assign_owners(how: Partition, work: &[u64], owners: u32) -> Vec<u32> {
     match how {
-        Deal::Runs => runs(work, owners),
-        Deal::RoundRobin => (0..work.len() as u32).map(|leaf| leaf % owners).collect(),
+        Partition::Runs => runs(work, owners),
+        Partition::RoundRobin => (0..work.len() as u32).map(|leaf| leaf % owners).collect(),
     }
 }
 
-/// All work laid end to end is cut into equal parts; a leaf belongs to the part that its middle lies in. So nobody's
-/// work differs from the mean by more than that of one leaf.
+/// Cuts the sequence of all work into equal parts. A leaf belongs to the part that contains its middle, so no owner's
+/// work differs from the mean by more than the work of one leaf.
 fn runs(work: &[u64], owners: u32) -> Vec<u32> {
     let all = u128::from(work.iter().sum::<u64>().max(1));
     let mut before = 0;
     let mut owner_of = |own: &u64| {
         let twice_middle = u128::from(2 * before + own);
         before += own;
-        // The middle of a leaf without work may be the end of all.
+        // The middle of a leaf without work may be the end of the sequence.
         (twice_middle * u128::from(owners) / (2 * all)).min(u128::from(owners) - 1) as u32
     };
     work.iter().map(&mut owner_of).collect()
@@ -43,7 +43,7 @@ mod tests {
             work in prop::collection::vec(prop_oneof![Just(0), 0u64..100, 0u64..10_000], 0..100),
             owners in 1u32..40,
         ) {
-            let dealt = deal(Deal::Runs, &work, owners);
+            let dealt = assign_owners(Partition::Runs, &work, owners);
             prop_assert_eq!(dealt.len(), work.len());
             prop_assert!(dealt.is_sorted() && dealt.iter().all(|&owner| owner < owners));
             let mean = work.iter().sum::<u64>() as f64 / f64::from(owners);

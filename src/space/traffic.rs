@@ -1,45 +1,44 @@
-//! How often rays would change hands.
+//! The number of times that rays would change owners.
 
-use super::{Deal, Octree, deal};
-use crate::tracer::{Path, RayKind, Tracer, step_for};
+use super::{Octree, Partition, assign_owners};
+use crate::tracer::{Path, RayKind, Tracer, sampling_step};
 
-/// What a ray weighs on a wire, in bytes, at least: an envelope of 16 (as every message has, see
-/// [`Message::bytes`](crate::balance::Message::bytes)), origin and direction as six 64-bit floats, 8 for its weight,
-/// 4 for its pixel, and 4 for its kind and level.
+/// The smallest size of a ray in a message, in bytes: an envelope of 16 (as for every message, see
+/// [`Message::bytes`](crate::balance::Message::bytes)), origin and direction as six 64-bit floats, 8 for its weight, 4
+/// for its pixel, and 4 for its kind and level.
 pub const RAY_BYTES: u64 = 80;
 
-/// What a ray's result weighs on its way back, in bytes: an envelope of 16, three 32-bit floats, and 4 for whose result
-/// it is.
+/// The size of a ray's result on its way back, in bytes: an envelope of 16, three 32-bit floats, and 4 for the ray.
 pub const ANSWER_BYTES: u64 = 32;
 
-/// What dividing a scene's space among owners means for one picture. Rays and messages are for the whole picture, also
-/// where only some of its pixels were looked at.
+/// The cost of a division of space for one picture. Counts are for the whole picture, even if only some of its pixels
+/// were sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traffic {
-    /// Those among whom the octree was dealt.
+    /// The number of owners.
     pub owners: u32,
-    /// Leaves of the octree that hold something.
+    /// The number of non-empty leaves of the octree.
     pub leaves: u32,
-    /// Rays of all kinds.
+    /// The number of rays of all kinds.
     pub rays: u64,
-    /// Of these, rays that never change hands.
+    /// The number of rays that never change owners.
     pub staying: u64,
-    /// How often a ray is sent from one owner to another.
+    /// The number of times that a ray is sent from one owner to another.
     pub messages: u64,
-    /// How often the result of a shadow, reflected or refracted ray has to be sent back, because the ray ends with
-    /// another owner than the one where it began and where it is waited for. Not part of `messages`: owners that add
-    /// each ray's share to the picture themselves could do without.
+    /// The number of results of shadow, reflected and refracted rays that are sent back, because the ray ends with
+    /// another owner than the one where it began, which waits for it. They are not part of `messages`: owners that add
+    /// each ray's contribution to the picture themselves do not need them.
     pub answers: u64,
-    /// How often the ray that changes hands most often does.
+    /// The greatest number of changes of owner of one ray.
     pub most: u32,
-    /// Each owner's share of all work; they sum up to 1, unless there is none at all. A ray that crosses a leaf is as
-    /// much work as the leaf holds primitives.
+    /// Each owner's part of all work; the sum is 1, or 0 if there is no work. The work of a ray in a leaf is the number
+    /// of primitives in the leaf.
     pub shares: Vec<f64>,
 }
 
 impl Traffic {
-    /// The work of the busiest owner, as a multiple of the mean: this much longer than ideal they need together, even
-    /// if messages took no time. 1 if there is no work.
+    /// The work of the busiest owner as a multiple of the mean: all owners together need this factor longer than ideal,
+    /// even if messages took no time. 1 if there is no work.
     pub fn imbalance(&self) -> f64 {
         let largest = self.shares.iter().copied().fold(0.0, f64::max);
         if largest > 0.0 { largest * f64::from(self.owners) } else { 1.0 }
@@ -56,26 +55,26 @@ impl Traffic {
     }
 }
 
-/// Counts what dividing the space of the tracer's scene among `owners` would mean. Looks at every `every`-th pixel in
-/// scan order; a number that has no divisor in common with the picture's width spreads them best. Neither may be 0.
+/// Counts the messages if the space of the tracer's scene were divided among `owners`. Samples each `every`-th pixel in
+/// scan order; a number coprime to the picture's width spreads the samples best. Neither may be 0.
 ///
-/// A ray that starts where another ended begins with the owner where that one ended. Outside of the octree and in its
-/// empty cells nothing has to be done that not everybody could do, so a ray stays there with whoever has it.
-pub fn traffic(tracer: &Tracer, owners: u32, how: Deal, every: u32) -> Traffic {
+/// A secondary ray begins with the owner where its parent ended. Outside the octree and in empty cells there is no
+/// work, so a ray stays with its owner there.
+pub fn traffic(tracer: &Tracer, owners: u32, how: Partition, every: u32) -> Traffic {
     let octree = Octree::new(&tracer.boxes());
-    let owner_of = deal(how, &work(tracer, &octree), owners);
-    let mut count = Count::new(&octree, &owner_of, owners);
+    let owner_of = assign_owners(how, &work(tracer, &octree), owners);
+    let mut count = TrafficCounter::new(&octree, &owner_of, owners);
     tracer.paths_of_some(every, |path| count.add(&path));
     count.scaled(tracer.size().pixels().into(), tracer.size().pixels().div_ceil(every).into())
 }
 
-/// Each leaf's work, from a coarse sample of the picture. How many primitives a leaf holds says little about it: most
-/// rays meet few of the leaves.
+/// Estimates each leaf's work from a coarse sample of the picture. The number of primitives in a leaf says little about
+/// it: most rays meet few of the leaves.
 fn work(tracer: &Tracer, octree: &Octree) -> Vec<u64> {
-    /// Pixels looked at, about: few, but thousands of rays.
+    /// Approximate number of pixels in the sample: few, but thousands of rays.
     const PIXELS: u32 = 2000;
     let mut work = vec![0; octree.leaves().len()];
-    tracer.paths_of_some(step_for(tracer.size(), PIXELS), |path| {
+    tracer.paths_of_some(sampling_step(tracer.size(), PIXELS), |path| {
         octree.walk(&path.ray, path.to, |leaf| {
             work[leaf as usize] += u64::from(octree.leaves()[leaf as usize].boxes);
         });
@@ -84,10 +83,10 @@ fn work(tracer: &Tracer, octree: &Octree) -> Vec<u64> {
 }
 
 /// Follows rays from owner to owner.
-struct Count<'a> {
+struct TrafficCounter<'a> {
     octree: &'a Octree,
     owner_of: &'a [u32],
-    /// With whom the rays of the present sample ended, by their numbers; nobody, if they met no leaf.
+    /// The owners with which the current sample's rays ended, by ray number; none for a ray that met no leaf.
     ended: Vec<Option<u32>>,
     rays: u64,
     staying: u64,
@@ -98,7 +97,7 @@ struct Count<'a> {
     work: Vec<u64>,
 }
 
-impl<'a> Count<'a> {
+impl<'a> TrafficCounter<'a> {
     fn new(octree: &'a Octree, owner_of: &'a [u32], owners: u32) -> Self {
         let (ended, work) = (Vec::new(), vec![0; owners as usize]);
         Self { octree, owner_of, ended, rays: 0, staying: 0, messages: 0, answers: 0, most: 0, work }
@@ -113,7 +112,7 @@ impl<'a> Count<'a> {
         self.octree.walk(&path.ray, path.to, |leaf| {
             let owner = self.owner_of[leaf as usize];
             self.work[owner as usize] += u64::from(self.octree.leaves()[leaf as usize].boxes);
-            // Who meets a ray first that nobody has, made it.
+            // The first owner that a ray meets has made it, if no other has it.
             began = began.or(Some(owner));
             changes += u32::from(at.is_some_and(|at| at != owner));
             at = Some(owner);
@@ -128,7 +127,7 @@ impl<'a> Count<'a> {
         self.most = self.most.max(changes);
     }
 
-    /// For a picture of `pixels`, of which `seen` were looked at.
+    /// Scales the counts to a picture of `pixels`, of which `seen` were sampled.
     fn scaled(self, pixels: u64, seen: u64) -> Traffic {
         let scaled = |count: u64| (count as f64 * (pixels as f64 / seen as f64)).round() as u64;
         let all = self.work.iter().sum::<u64>().max(1) as f64;

@@ -1,22 +1,23 @@
-//! How soon there is something to see of a scene.
+//! Time until a preview of a scene is ready.
 
 use cpu_time::ThreadTime;
 
+use crate::cancel::CancelToken;
 use crate::driver::TimedPicture;
 use crate::tracer::Tracer;
 
-/// How long looking at a scene takes, in seconds of CPU time on this thread.
+/// CPU times on this thread until a scene can be seen, in seconds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PreviewTimes {
-    /// Until it is compiled.
+    /// Until the scene is compiled.
     pub compiled: f64,
-    /// Until its coarsest preview is there.
+    /// Until the coarsest preview is ready.
     pub first: f64,
-    /// Until the picture is there, which began with that preview.
+    /// Until the picture that began with that preview is ready.
     pub exact: f64,
-    /// Until the picture is there without a preview.
+    /// Until the picture is ready without a preview.
     pub plain: f64,
-    /// Whether both pictures are the same.
+    /// Whether both pictures are identical.
     pub same: bool,
 }
 
@@ -27,14 +28,14 @@ impl PreviewTimes {
         let compiled = begun.elapsed().as_secs_f64();
         tracer.refine();
         let first = begun.elapsed().as_secs_f64();
-        let (with, without) = (picture(&tracer), picture(&compile()));
+        let (with, without) = (trace_timed(&tracer), trace_timed(&compile()));
         let [exact, plain] = [first + with.cpu.as_secs_f64(), compiled + without.cpu.as_secs_f64()];
         Self { compiled, first, exact, plain, same: with.frame.pixels() == without.frame.pixels() }
     }
 }
 
-/// A picture that is traced on this thread, and what that takes.
-pub(super) fn picture(tracer: &Tracer) -> TimedPicture {
-    // Nobody ends it before.
-    TimedPicture::of(tracer, &|| false).expect("a whole picture")
+/// Traces a picture on this thread and measures its CPU time.
+pub(super) fn trace_timed(tracer: &Tracer) -> TimedPicture {
+    // Nothing cancels it.
+    TimedPicture::of(tracer, &CancelToken::default()).expect("a whole picture")
 }

@@ -1,9 +1,9 @@
-//! How far a study is.
+//! Progress of a study.
 
-/// Whoever wants to know how far a study is: steps done, steps in all, and what comes next.
+/// Callback for a study's progress: steps done, steps in all, and the name of the next step.
 pub type ProgressSink<'a> = &'a mut dyn FnMut(usize, usize, &str);
 
-/// Counts the steps of a study.
+/// Counts a study's steps and reports them.
 pub(super) struct Progress<'a> {
     done: usize,
     steps: usize,
@@ -11,12 +11,12 @@ pub(super) struct Progress<'a> {
 }
 
 impl<'a> Progress<'a> {
-    /// A study of so many steps.
+    /// Starts a study of `steps` steps.
     pub fn new(steps: usize, tell: ProgressSink<'a>) -> Self {
         Self { done: 0, steps, tell }
     }
 
-    /// The next step begins.
+    /// Reports that the next step begins.
     pub fn next(&mut self, what: &str) {
         (self.tell)(self.done, self.steps, what);
         self.done += 1;

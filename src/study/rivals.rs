@@ -1,55 +1,56 @@
-//! What sharing costs at full speed, a node a core: the ring, the ring with two threads a node (§10), and rayon's work
-//! stealing.
+//! Overhead of distributing work at full speed, with a node per core: the ring, the ring with two threads a node (§10),
+//! and rayon's work stealing.
 
-use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::fixture::{Fixture, cost_of};
+use super::fixture::{Fixture, estimate_cost};
+use super::format::or_dash;
+use super::markdown::Report;
 use super::progress::Progress;
-use super::{ProgressSink, Study, median};
+use super::{ProgressSink, Study, StudyError, median};
 use crate::balance::Strategy;
 use crate::driver::{cores, run_to_end};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, Metrics};
 use crate::scene::Opened;
 
-/// Runs of each kind.
+/// Runs of each rival.
 const TURNS: usize = 9;
 
-/// The rivals, the one first with which the others are compared.
+/// The rivals; the others are compared with the first.
 const RIVALS: [Driver; 3] = [Driver::Threads, Driver::Pairs, Driver::WorkStealing];
 
-/// What one rival needs for a scene's picture: medians of its runs.
+/// Result of one rival for a scene's picture: medians of its runs.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Needs {
+pub(super) struct RivalRow {
     pub scene: String,
     pub driver: &'static str,
     pub nodes: usize,
-    /// From the start of its threads to their end.
+    /// Time from the start of its threads to their end.
     pub wall_s: f64,
     pub makespan_s: f64,
-    /// Its wall time over that of the ring just before.
+    /// Wall time over that of the ring in the same turn.
     pub wall_over_ring: f64,
     pub makespan_over_ring: f64,
-    /// Of all its threads; `None` where the computer does not count them.
+    /// Context switches of all its threads; `None` where the system does not count them.
     pub context_switches: Option<u64>,
 }
 
-/// The rivals on each of the scenes.
+/// Runs the rivals on each of the scenes.
 ///
 /// # Errors
-/// A sentence, if a run failed.
-pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String> {
+/// A [`StudyError`], if a run fails.
+pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * STEPS, tell);
-    let size = Size::new(640, 480)?;
+    let size = Size::new(640, 480).map_err(StudyError::size)?;
     let mut rows = Vec::new();
     for scene in scenes {
-        // Enough that starting threads does not show.
+        // Long enough that starting threads has no visible cost.
         let least = Duration::from_millis(500) * cores() as u32;
-        let samples = (1..8).find(|&samples| cost_of(scene, size, samples) >= least).unwrap_or(8);
-        rows.extend(compete(&Fixture::new(scene, size, samples)?, &mut progress)?);
+        let samples = (1..8).find(|&samples| estimate_cost(scene, size, samples) >= least).unwrap_or(8);
+        rows.extend(run_rivals(&Fixture::new(scene, size, samples)?, &mut progress)?);
     }
     let mut study = Study::new("rivals");
     study.add_rows(&rows)?;
@@ -57,29 +58,29 @@ pub fn rivals(scenes: &[Opened], tell: ProgressSink<'_>) -> Result<Study, String
     Ok(study)
 }
 
-/// How many steps [`compete`] takes.
+/// Number of steps that [`run_rivals`] takes.
 pub(super) const STEPS: usize = TURNS * RIVALS.len();
 
-/// Lets the rivals trace the bench's picture in turn, so that what disturbs the computer disturbs all alike.
+/// Runs the rivals in turn on the fixture's picture, so that a disturbance of the computer affects all alike.
 ///
 /// # Errors
-/// A sentence, if a run failed.
-pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[Needs; 3], String> {
-    let header = bench.header(50, Strategy::Ring, vec![1.0; cores()]);
+/// [`StudyError::Run`], if a run fails.
+pub(super) fn run_rivals(fixture: &Fixture, progress: &mut Progress<'_>) -> Result<[RivalRow; 3], StudyError> {
+    let header = fixture.header(50, Strategy::Ring, vec![1.0; cores()]);
     let mut turns = Vec::new();
     for _ in 0..TURNS {
-        let mut turn = [Sample::default(); RIVALS.len()];
-        for (driver, sample) in RIVALS.into_iter().zip(&mut turn) {
-            progress.next(&format!("{} at full speed: {}", bench.scene.name, driver.name()));
-            *sample = Sample::take(bench, &Header { driver, ..header.clone() })?;
+        let mut turn = [RivalRun::default(); RIVALS.len()];
+        for (driver, run) in RIVALS.into_iter().zip(&mut turn) {
+            progress.next(&format!("{} at full speed: {}", fixture.scene.name, driver.name()));
+            *run = RivalRun::measure(fixture, &Header { driver, ..header.clone() })?;
         }
         turns.push(turn);
     }
-    let needs = |rival: usize| {
-        let of_turns = |of: &dyn Fn(&[Sample; 3]) -> f64| median(&mut turns.iter().map(of).collect::<Vec<f64>>());
+    let row = |rival: usize| {
+        let of_turns = |of: &dyn Fn(&[RivalRun; 3]) -> f64| median(&mut turns.iter().map(of).collect::<Vec<f64>>());
         let switches = turns.iter().all(|turn| turn[rival].switches.is_some());
-        Needs {
-            scene: bench.scene.name.clone(),
+        RivalRow {
+            scene: fixture.scene.name.clone(),
             driver: RIVALS[rival].name(),
             nodes: header.speeds.len(),
             wall_s: of_turns(&|turn| turn[rival].wall),
@@ -89,22 +90,22 @@ pub(super) fn compete(bench: &Fixture, progress: &mut Progress<'_>) -> Result<[N
             context_switches: switches.then(|| of_turns(&|turn| turn[rival].switches.unwrap_or(0) as f64) as u64),
         }
     };
-    Ok([needs(0), needs(1), needs(2)])
+    Ok([row(0), row(1), row(2)])
 }
 
-/// One run.
+/// Measurement of one run.
 #[derive(Clone, Copy, Default)]
-struct Sample {
+struct RivalRun {
     wall: f64,
     makespan: f64,
     switches: Option<u64>,
 }
 
-impl Sample {
-    #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
-    fn take(bench: &Fixture, header: &Header) -> Result<Self, String> {
+impl RivalRun {
+    #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as the user experiences it")]
+    fn measure(fixture: &Fixture, header: &Header) -> Result<Self, StudyError> {
         let (begun, before) = (Instant::now(), context_switches());
-        let log = run_to_end(&bench.tracer, header, &[])?;
+        let log = run_to_end(&fixture.tracer, header, &[]).map_err(StudyError::run)?;
         let wall = begun.elapsed().as_secs_f64();
         let switches = context_switches().zip(before).map(|(after, before)| after - before);
         let makespan = Metrics::of(&log).makespan().unwrap_or_default().as_secs_f64();
@@ -112,7 +113,7 @@ impl Sample {
     }
 }
 
-/// How often the program's threads have left a core so far.
+/// Returns how often the program's threads have left a core so far.
 #[cfg(unix)]
 fn context_switches() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -126,8 +127,8 @@ fn context_switches() -> Option<u64> {
 }
 
 #[cfg(test)]
-impl Needs {
-    /// What something needs.
+impl RivalRow {
+    /// Returns an example row.
     pub fn example() -> Self {
         Self {
             scene: "an example".into(),
@@ -142,33 +143,34 @@ impl Needs {
     }
 }
 
-fn report(rows: &[Needs]) -> String {
-    let mut text = String::from("# What sharing costs at full speed\n\n");
-    _ = writeln!(
-        text,
-        "Each scene's picture of 640 × 480 in atoms of 50 pixels, on {} nodes at full speed, a node a core, without a network: the ring, \
-         the ring with two threads a node (one answers, one traces, as the article has it), and rayon's work stealing. Medians of {TURNS} \
-         turns, in one program that is warm; ratios are those within a turn. A makespan is from the first band to the last pixel, wall \
-         time from the start of the threads to their end.\n",
+fn report(rows: &[RivalRow]) -> Report {
+    let mut report = Report::titled("Overhead at full speed");
+    report.line(format!(
+        "Each scene's picture of 640 × 480 pixels in atoms of 50 pixels, on {} nodes at full speed, one per core, \
+         without a network: the ring, the ring with two threads a node (one answers, one traces, as in the article), \
+         and rayon's work stealing. Medians of {TURNS} turns in one warm process; ratios are within a turn. The \
+         makespan is from the first band to the last pixel, the wall time from the start of the threads to their \
+         end.\n",
         cores()
+    ));
+    report.line(
+        "| scene | ring, s | ring / rayon | makespans: ring / rayon | two threads / one | context switches: ring | \
+         two threads | rayon |\n",
     );
-    text.push_str("| scene | ring, s | ring / rayon | their makespans | two threads / one | context switches: ring | two threads | rayon |\n");
-    text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|\n");
+    report.line("|---|---:|---:|---:|---:|---:|---:|---:|");
     for scene in rows.chunks_exact(RIVALS.len()) {
         let [ring, pairs, rayon] = scene else { continue };
-        let switches = |needs: &Needs| needs.context_switches.map_or("–".into(), |count| count.to_string());
-        _ = writeln!(
-            text,
+        report.line(format!(
             "| {} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {} | {} |",
             ring.scene,
             ring.wall_s,
             1.0 / rayon.wall_over_ring,
             1.0 / rayon.makespan_over_ring,
             pairs.wall_over_ring,
-            switches(ring),
-            switches(pairs),
-            switches(rayon)
-        );
+            or_dash(ring.context_switches),
+            or_dash(pairs.context_switches),
+            or_dash(rayon.context_switches)
+        ));
     }
-    text
+    report
 }

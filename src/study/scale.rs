@@ -1,10 +1,11 @@
-//! From one machine to a thousand: how each strategy's efficiency decays.
+//! Runs from 1 to 1,024 machines: how each strategy's efficiency falls.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use serde::Serialize;
 
+use super::StudyError;
 use super::fixture::{AtomCosts, Fixture, STRATEGIES, simulate};
 use super::progress::{Progress, ProgressSink};
 use crate::balance::Rules;
@@ -12,58 +13,58 @@ use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scene::Opened;
 
-/// What an atom costs on average: a run of one machine on the strong picture takes about half a minute.
+/// Mean cost of an atom: one machine needs about half a minute for the strong picture.
 pub(super) const ATOM_COST: Duration = Duration::from_millis(2);
 
-/// The strong picture, whose size does not change.
-pub(super) const SIZE: (u32, u32) = (1024, 768);
+/// Width and height of the strong picture, whose size is constant, in pixels.
+pub(super) const STRONG_PX: (u32, u32) = (1024, 768);
 
-/// Atoms a node in the weak picture, which grows with the nodes.
-pub(super) const ATOMS_A_NODE: u32 = 1024;
+/// Atoms per node in the weak picture, whose size grows with the nodes.
+pub(super) const ATOMS_PER_NODE: u32 = 1024;
 
-/// What a message takes to travel, and how long the parent is busy with it, in milliseconds. Without the latter, the parent
-/// of a farm could answer any number of machines at once.
-pub(super) const NETWORKS: [(f64, f64); 4] = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (1.0, 0.1)];
+/// Latency of a message, and time for which the parent is busy with it, in ms. If the second were always 0, a farm's
+/// parent could answer any number of machines at once.
+pub(super) const NETWORKS_MS: [(f64, f64); 4] = [(0.1, 0.0), (1.0, 0.0), (10.0, 0.0), (1.0, 0.1)];
 
-const ATOM: u32 = 50;
+const ATOM_PX: u32 = 50;
 
 /// One run.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct ScaleRow {
     pub nodes: usize,
     pub latency_s: f64,
-    /// How long the parent is busy with each message.
+    /// Time for which the parent is busy with each message.
     pub handling_s: f64,
     pub weak: bool,
     pub strategy: &'static str,
     pub atoms: u32,
     pub makespan_s: f64,
     pub efficiency: f64,
-    /// The efficiency of a makespan of W/m + 3.65 log₂ W, for W atoms on m nodes.
+    /// Efficiency of a makespan of W/m + 3.65 log₂ W, for W atoms on m nodes.
     pub bound_efficiency: f64,
     pub messages_per_node: f64,
     pub bytes_per_node: f64,
     pub hops_per_node: f64,
     pub atoms_moved: u64,
     pub transfers: u64,
-    /// The share of the machines' time after their last atoms.
+    /// Share of the machines' time after their last atoms.
     pub tail_idle: f64,
 }
 
-/// How many machines there are.
+/// Returns the numbers of machines: 1, 2, 4 … 1,024.
 pub(super) fn node_counts() -> impl Iterator<Item = usize> + Clone {
     (0..=10).map(|power| 1 << power)
 }
 
-/// Runs all of it in virtual time.
+/// Simulates all runs in virtual time.
 ///
 /// # Errors
-/// A sentence, if the scene could not be traced.
-pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, String> {
-    let size = Size::new(SIZE.0, SIZE.1)?;
-    let bench = Fixture::new(scene, size, 1)?;
-    let atoms = Division::new(size.pixels(), ATOM).atoms();
-    let strong = bench.costs(ATOM, ATOM_COST * atoms);
+/// A [`StudyError`], if the scene cannot be traced.
+pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<ScaleRow>, StudyError> {
+    let size = Size::new(STRONG_PX.0, STRONG_PX.1).map_err(StudyError::size)?;
+    let fixture = Fixture::new(scene, size, 1)?;
+    let atoms = Division::new(size.pixels(), ATOM_PX).atoms();
+    let strong = fixture.costs(ATOM_PX, ATOM_COST * atoms);
     let mut progress = Progress::new(2 * node_counts().count(), tell);
     let mut rows = Vec::new();
     for weak in [false, true] {
@@ -71,10 +72,10 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
             let kind = if weak { "the picture grown with them" } else { "the same picture" };
             progress.next(&format!("{nodes} machines, {kind}"));
             let (costs, size) = if weak { resample(&strong, nodes)? } else { (strong.clone(), size) };
-            for network in NETWORKS {
+            for network in NETWORKS_MS {
                 for strategy in STRATEGIES {
-                    let plain = bench.header(ATOM, strategy, vec![1.0; nodes]);
-                    let plain = Header { size, division: Division::new(size.pixels(), ATOM), ..plain };
+                    let plain = fixture.header(ATOM_PX, strategy, vec![1.0; nodes]);
+                    let plain = Header { size, division: Division::new(size.pixels(), ATOM_PX), ..plain };
                     rows.push(row(plain, network, weak, &costs));
                 }
             }
@@ -83,15 +84,15 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
     Ok(rows)
 }
 
-/// What the strong picture's atoms cost, for a picture of [`ATOMS_A_NODE`] atoms a node: each has the cost of the atom at the
-/// same height of the picture; and that picture's size.
-fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), String> {
-    let atoms = ATOMS_A_NODE as usize * nodes;
+/// Stretches the strong picture's costs over a picture of [`ATOMS_PER_NODE`] atoms per node, and returns the costs and
+/// that picture's size: each atom costs what the atom at the same height costs, scaled to the same mean.
+fn resample(costs: &AtomCosts, nodes: usize) -> Result<(AtomCosts, Size), StudyError> {
+    let atoms = ATOMS_PER_NODE as usize * nodes;
     let at = |atom: usize| costs[(atom as u64 * costs.len() as u64 / atoms as u64) as usize];
     let total: Duration = (0..atoms).map(at).sum();
     let even = ATOM_COST.as_secs_f64() * atoms as f64 / total.as_secs_f64();
     let costs: Arc<[Duration]> = (0..atoms).map(|atom| at(atom).mul_f64(even)).collect();
-    Ok((costs, Size::new(ATOM * 32, atoms as u32 / 32)?))
+    Ok((costs, Size::new(ATOM_PX * 32, atoms as u32 / 32).map_err(StudyError::size)?))
 }
 
 fn row(plain: Header, network: (f64, f64), weak: bool, costs: &AtomCosts) -> ScaleRow {
@@ -100,8 +101,8 @@ fn row(plain: Header, network: (f64, f64), weak: bool, costs: &AtomCosts) -> Sca
     let nodes = header.speeds.len();
     header.rules.beat = Rules::beat_for(handling, nodes);
     header.rules.part = header.rules.strategy.usual_part(header.division, nodes);
-    let tally = simulate(&header, &[], costs);
-    let (messages, atoms) = (tally.messages(), header.division.atoms());
+    let metrics = simulate(&header, &[], costs);
+    let (messages, atoms) = (metrics.messages(), header.division.atoms());
     let a_node = |count: u64| count as f64 / nodes as f64;
     let (w, m) = (f64::from(atoms), nodes as f64);
     ScaleRow {
@@ -111,15 +112,15 @@ fn row(plain: Header, network: (f64, f64), weak: bool, costs: &AtomCosts) -> Sca
         weak,
         strategy: header.rules.strategy.name(),
         atoms,
-        makespan_s: tally.makespan().unwrap_or_default().as_secs_f64(),
-        efficiency: tally.efficiency().unwrap_or_default(),
+        makespan_s: metrics.makespan().unwrap_or_default().as_secs_f64(),
+        efficiency: metrics.efficiency().unwrap_or_default(),
         bound_efficiency: (w / m) / (w / m + if nodes == 1 { 0.0 } else { 3.65 * w.log2() }),
         messages_per_node: a_node(messages.total),
         bytes_per_node: a_node(messages.bytes),
         hops_per_node: a_node(messages.hops),
         atoms_moved: messages.atoms_moved,
         transfers: messages.transfers,
-        tail_idle: tally.tail_idle().unwrap_or_default(),
+        tail_idle: metrics.tail_idle().unwrap_or_default(),
     }
 }
 
@@ -128,12 +129,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_grown_picture_costs_as_much_an_atom_and_where_the_old_one_did() {
+    fn grown_picture_keeps_costs_and_their_places() {
         let costs: AtomCosts = (0..3000u64).map(|atom| Duration::from_micros(500 + atom)).collect();
         for nodes in [1, 8] {
             let (grown, size) = resample(&costs, nodes).unwrap();
             assert_eq!(grown.len(), 1024 * nodes);
-            assert_eq!(Division::new(size.pixels(), ATOM).atoms() as usize, grown.len());
+            assert_eq!(Division::new(size.pixels(), ATOM_PX).atoms() as usize, grown.len());
             let mean = grown.iter().sum::<Duration>() / grown.len() as u32;
             assert!(mean.abs_diff(ATOM_COST) < Duration::from_micros(1), "{mean:?}");
             assert!(grown.is_sorted());

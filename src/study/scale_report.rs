@@ -1,33 +1,35 @@
-//! What the study of scaling says.
-
-use std::fmt::Write;
+//! The report of the study of scaling.
 
 use super::fixture::STRATEGIES;
-use super::scale::{ATOM_COST, ATOMS_A_NODE, NETWORKS, SIZE, ScaleRow, measure, node_counts};
-use super::{ProgressSink, Study};
+use super::markdown::Report;
+use super::scale::{ATOM_COST, ATOMS_PER_NODE, NETWORKS_MS, STRONG_PX, ScaleRow, measure, node_counts};
+use super::{ProgressSink, Study, StudyError};
 use crate::balance::Strategy;
 use crate::language::Language;
 use crate::scene::Opened;
 use crate::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue};
 
-/// From one machine to 1,024, in virtual time: the same picture, and one that grows with the machines, at latencies of 0.1, 1
-/// and 10 ms, for every strategy.
+/// Runs every strategy with 1 to 1,024 machines in virtual time, on the same picture and on one that grows with the
+/// machines, at latencies of 0.1, 1 and 10 ms.
 ///
 /// # Errors
-/// A sentence, if the scene could not be traced.
-pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+/// A [`StudyError`], if the scene cannot be traced.
+pub fn scale(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let rows = measure(scene, tell)?;
     let mut study = Study::new("scale");
     study.add_rows(&rows)?;
     for weak in [false, true] {
         let kind = if weak { "weak" } else { "strong" };
-        for network in NETWORKS {
+        for network in NETWORKS_MS {
             let chart = efficiency(&rows, weak, network);
-            study.add_chart(&format!("{kind}-{}", file_name(network)), &chart.marks(CHART_SIZE, Language::English));
+            study.add_chart(
+                &format!("{kind}-{}", network_file_name(network)),
+                &chart.marks(CHART_SIZE, Language::English),
+            );
         }
         study.add_chart(&format!("{kind}-messages"), &messages(&rows, weak).marks(CHART_SIZE, Language::English));
     }
-    study.add_chart("ring", &decay(&rows).marks(CHART_SIZE, Language::English));
+    study.add_chart("ring", &ring_chart(&rows).marks(CHART_SIZE, Language::English));
     study.add_report(report(&rows, &scene.name));
     Ok(study)
 }
@@ -36,18 +38,18 @@ fn nodes_axis() -> Axis {
     Axis { label: "machines".into(), scale: Scale::Log2, range: None }
 }
 
-/// A network in a file's name.
-fn file_name((latency, handling): (f64, f64)) -> String {
+/// Returns a network's part of a file name.
+fn network_file_name((latency, handling): (f64, f64)) -> String {
     if handling > 0.0 { format!("{latency}ms-busy-parent") } else { format!("{latency}ms") }
 }
 
-/// A network in words.
-fn words((latency, handling): (f64, f64)) -> String {
+/// Describes a network.
+fn network_words((latency, handling): (f64, f64)) -> String {
     let busy = if handling > 0.0 { format!(", the parent busy for {handling} ms with each") } else { String::new() };
     format!("{latency} ms a message{busy}")
 }
 
-fn of(
+fn select(
     rows: &[ScaleRow],
     weak: bool,
     network: (f64, f64),
@@ -70,25 +72,21 @@ fn efficiency(rows: &[ScaleRow], weak: bool, network: (f64, f64)) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, network, strategy), |row| row.efficiency),
+        points: points(select(rows, weak, network, strategy), |row| row.efficiency),
         style: Style::Line,
     };
     let mut series: Vec<Series> = STRATEGIES.into_iter().enumerate().map(line).collect();
     series.push(Series {
         name: "W/m + 3.65 log₂W".into(),
         hue: series_hue(STRATEGIES.len()),
-        points: points(of(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
+        points: points(select(rows, weak, network, Strategy::Ring), |row| row.bound_efficiency),
         style: Style::Dashed,
     });
     LineChart {
         title: if weak { "A picture that grows with the machines" } else { "The same picture" }.into(),
-        note: format!("{}; dashed: work stealing whose messages cost nothing", words(network)),
+        note: format!("{}; dashed: work stealing with free messages", network_words(network)),
         x: nodes_axis(),
-        y: Axis {
-            label: "efficiency: ideal time over real time".into(),
-            scale: Scale::Linear,
-            range: Some((0.0, 1.0)),
-        },
+        y: Axis { label: "efficiency: ideal / makespan".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
         series,
     }
 }
@@ -97,30 +95,30 @@ fn messages(rows: &[ScaleRow], weak: bool) -> LineChart {
     let line = |(i, strategy): (usize, Strategy)| Series {
         name: strategy.name().into(),
         hue: series_hue(i),
-        points: points(of(rows, weak, NETWORKS[1], strategy), |row| row.messages_per_node),
+        points: points(select(rows, weak, NETWORKS_MS[1], strategy), |row| row.messages_per_node),
         style: Style::Line,
     };
     LineChart {
-        title: format!("Messages a machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
-        note: words(NETWORKS[1]),
+        title: format!("Messages per machine, {}", if weak { "a picture that grows" } else { "the same picture" }),
+        note: network_words(NETWORKS_MS[1]),
         x: nodes_axis(),
-        y: Axis { label: "messages a machine".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "messages per machine".into(), scale: Scale::Log10, range: None },
         series: STRATEGIES.into_iter().enumerate().map(line).collect(),
     }
 }
 
-/// How the ring decays: the one chart that later work has to beat.
-fn decay(rows: &[ScaleRow]) -> LineChart {
+/// Charts how the ring's efficiency falls: the baseline for improvements.
+fn ring_chart(rows: &[ScaleRow]) -> LineChart {
     let line = |(i, (weak, network)): (usize, (bool, (f64, f64)))| Series {
         name: format!("{} {} ms", if weak { "grown," } else { "same," }, network.0),
         hue: series_hue(i),
-        points: points(of(rows, weak, network, Strategy::Ring), |row| row.efficiency),
+        points: points(select(rows, weak, network, Strategy::Ring), |row| row.efficiency),
         style: if weak { Style::Dashed } else { Style::Line },
     };
-    let free = NETWORKS.into_iter().filter(|(_, handling)| *handling == 0.0);
+    let free = NETWORKS_MS.into_iter().filter(|(_, handling)| *handling == 0.0);
     let kinds = [false, true].into_iter().flat_map(|weak| free.clone().map(move |network| (weak, network)));
     LineChart {
-        title: "How the ring decays".into(),
+        title: "How the ring's efficiency falls".into(),
         note: "Dashed: the picture grows with the machines".into(),
         x: nodes_axis(),
         y: Axis { label: "efficiency".into(), scale: Scale::Linear, range: Some((0.0, 1.0)) },
@@ -128,34 +126,31 @@ fn decay(rows: &[ScaleRow]) -> LineChart {
     }
 }
 
-fn report(rows: &[ScaleRow], scene: &str) -> String {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let mut say = |line: std::fmt::Arguments<'_>| _ = writeln!(text, "{line}");
-    say(format_args!("# From one machine to a thousand\n"));
-    say(format_args!(
-        "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, as dear or as cheap \
-         as its rays make it. *The same picture* has {} × {} pixels; *the grown one* has {ATOMS_A_NODE} atoms a machine. \
-         Results leave a machine when its atoms have run out. Efficiency is the ideal time over the real one. The bound is \
-         W/m + 3.65 log₂W atoms' time, of work stealing on m machines whose messages take no time (M. Tchiboukdjian, N. Gast, \
-         D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
+fn report(rows: &[ScaleRow], scene: &str) -> Report {
+    let mut report = Report::titled("From 1 to 1,024 machines");
+    report.line(format!(
+        "All runs are in virtual time. The scene is {scene}; an atom of 50 pixels costs {} ms on average, in \
+         proportion to its rays. *The same picture* has {} × {} pixels; *the grown picture* has {ATOMS_PER_NODE} atoms \
+         per machine. A machine sends its results when it has no atoms left. Efficiency is ideal / makespan. The \
+         bound is W/m + 3.65 log₂W atoms' time, for work stealing on m machines with messages that take no time (M. \
+         Tchiboukdjian, N. Gast, D. Trystram, J.-L. Roch, J. Bernard, 2010).\n",
         ATOM_COST.as_millis(),
-        SIZE.0,
-        SIZE.1
+        STRONG_PX.0,
+        STRONG_PX.1
     ));
     for weak in [false, true] {
-        for network in NETWORKS {
+        for network in NETWORKS_MS {
             let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
-            say(format_args!("## {kind}, {}\n", words(network)));
+            report.line(format!("## {kind}, {}\n", network_words(network)));
             let names = STRATEGIES.map(Strategy::name).join(" | ");
-            say(format_args!("| machines | {names} | bound | ring: messages a machine | idle at the end |"));
-            say(format_args!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
+            report.line(format!("| machines | {names} | bound | ring: messages per machine | idle at the end |"));
+            report.line(format!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {
-                let at = |strategy| of(rows, weak, network, strategy).find(|row| row.nodes == nodes);
+                let at = |strategy| select(rows, weak, network, strategy).find(|row| row.nodes == nodes);
                 let cells = STRATEGIES
                     .map(|strategy| at(strategy).map_or(String::new(), |row| format!("{:.3}", row.efficiency)));
                 let Some(ring) = at(Strategy::Ring) else { continue };
-                say(format_args!(
+                report.line(format!(
                     "| {nodes} | {} | {:.3} | {:.1} | {:.3} |",
                     cells.join(" | "),
                     ring.bound_efficiency,
@@ -163,50 +158,51 @@ fn report(rows: &[ScaleRow], scene: &str) -> String {
                     ring.tail_idle
                 ));
             }
-            let chart = file_name(network);
-            say(format_args!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
+            let chart = network_file_name(network);
+            report.line(format!("\n![](scale-{}-{chart}.svg)\n", if weak { "weak" } else { "strong" }));
         }
     }
-    say(format_args!("## Messages\n"));
-    say(format_args!("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n"));
-    say(format_args!("## Why the ring decays\n"));
-    say(format_args!("![](scale-ring.svg)\n"));
-    say(format_args!("{}", why(rows)));
-    text
+    report.line("## Messages\n");
+    report.line("![](scale-strong-messages.svg)\n\n![](scale-weak-messages.svg)\n");
+    report.line("## Why the ring's efficiency falls\n");
+    report.line("![](scale-ring.svg)\n");
+    report.line(explanation(rows));
+    report
 }
 
-/// The paragraph on the ring's decay, with the figures that bear it out.
-fn why(rows: &[ScaleRow]) -> String {
-    let ring = |weak, network, nodes| of(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
+/// Explains why the ring's efficiency falls, with the figures.
+fn explanation(rows: &[ScaleRow]) -> String {
+    let ring = |weak, network, nodes| select(rows, weak, network, Strategy::Ring).find(|row| row.nodes == nodes);
     let most = node_counts().max().unwrap_or(1);
     let (Some(few), Some(many), Some(slow)) =
-        (ring(true, NETWORKS[0], 16), ring(true, NETWORKS[0], most), ring(true, NETWORKS[2], most))
+        (ring(true, NETWORKS_MS[0], 16), ring(true, NETWORKS_MS[0], most), ring(true, NETWORKS_MS[2], most))
     else {
         return String::new();
     };
     let parcel = |row: &ScaleRow| row.atoms_moved as f64 / row.transfers.max(1) as f64;
     format!(
-        "An offer goes to the left neighbour first and ends at the first node that still has one atom to give. Neighbours have \
-         neighbouring bands, which cost about the same, so the first that could take it is usually nearly done itself: it gives \
-         a crumb, the offerer traces it and offers again. At 16 machines a transfer moves {:.1} atoms, at {most} only {:.1} \
-         ({:.0} transfers a machine), while the atoms that should move lie hundreds of hops away; work spreads round the ring \
-         as heat does, from neighbour to neighbour, and a node whose offer has gone round once retires for good. Every hop \
-         takes a message's time: at {most} machines one lap is {:.2} s at {} ms and {:.1} s at {} ms, against an ideal time of \
-         {:.1} s. With the same picture the bands shrink as well: an offer's lap grows with N while the work of a node falls \
-         with 1/N. Efficiency at {most} machines, with the picture grown: {:.2} at {} ms, {:.2} at {} ms; the machines stand \
-         idle at the end for {:.0} and {:.0} % of all time.",
+        "An offer goes to the left neighbour first and ends at the first node that has an atom to give. Neighbours \
+         have neighbouring bands, which cost about the same, so the first node that could give atoms has usually \
+         little work left itself: it gives a few atoms, the offerer traces them and offers again. At 16 machines a \
+         transfer moves {:.1} atoms, at {most} only {:.1} ({:.0} transfers per machine), while the atoms that should \
+         move lie hundreds of hops away. Work spreads round the ring as heat does, from neighbour to neighbour, and a \
+         node whose offer has gone round once retires for good. Every hop takes a message's time: at {most} machines \
+         one lap is {:.2} s at {} ms and {:.1} s at {} ms, against an ideal time of {:.1} s. With the same picture \
+         the bands shrink as well: an offer's lap grows with N while a node's work falls with 1/N. Efficiency at \
+         {most} machines with the grown picture: {:.2} at {} ms, {:.2} at {} ms; the machines are idle at the end for \
+         {:.0} and {:.0} % of all time.",
         parcel(few),
         parcel(many),
         many.transfers as f64 / many.nodes as f64,
-        most as f64 * NETWORKS[0].0 * 1e-3,
-        NETWORKS[0].0,
-        most as f64 * NETWORKS[2].0 * 1e-3,
-        NETWORKS[2].0,
+        most as f64 * NETWORKS_MS[0].0 * 1e-3,
+        NETWORKS_MS[0].0,
+        most as f64 * NETWORKS_MS[2].0 * 1e-3,
+        NETWORKS_MS[2].0,
         many.makespan_s * many.efficiency,
         many.efficiency,
-        NETWORKS[0].0,
+        NETWORKS_MS[0].0,
         slow.efficiency,
-        NETWORKS[2].0,
+        NETWORKS_MS[2].0,
         100.0 * many.tail_idle,
         100.0 * slow.tail_idle,
     )

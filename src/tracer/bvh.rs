@@ -1,16 +1,17 @@
-//! A hierarchy of bounding boxes over solids.
+//! A bounding volume hierarchy over solids.
 
-use crate::geometry::{Aabb, MAX_UNBALANCED, Ray, fast_max, fast_min, split};
+use crate::csg::RootId;
+use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
 
-/// A binary tree of boxes. A node holds the boxes of both its children, so that one look tells about two.
+/// A binary tree of boxes. A node stores the boxes of both its children, so that one visit tests both.
 #[derive(Debug, Default)]
 pub(super) struct Bvh {
     top: Option<(Aabb, Child)>,
     nodes: Vec<Node>,
-    roots: Vec<u32>,
+    roots: Vec<RootId>,
 }
 
-/// Two boxes side by side: by axis, then by child.
+/// The boxes of two children, by axis and then by child.
 #[derive(Debug, Default)]
 struct Node {
     min: [[f64; 2]; 3],
@@ -20,16 +21,17 @@ struct Node {
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Child {
-    /// An inner node: its number. A leaf: its first root.
+    /// For an inner node its index, for a leaf the index of its first root.
     to: u32,
-    /// How many roots a leaf has; 0 for an inner node.
+    /// The number of roots in a leaf; 0 for an inner node.
     count: u32,
 }
 
-/// Boxes still to be visited, and where the ray enters them: one at most on each unbalanced level, and on the 32 that
-/// halve at most 2³² solids. Kept from ray to ray, since clearing it would cost more than a box.
+/// The boxes that a ray has yet to visit, and where it enters them: at most one for each level, of which
+/// [`MAX_SAH_DEPTH`] are split by area, and 32 halve at most 2³² solids. Kept from ray to ray, since clearing it would
+/// cost more than a box.
 #[derive(Debug)]
-pub(super) struct Pending([(f64, Child); MAX_UNBALANCED as usize + 32]);
+pub(super) struct Pending([(f64, Child); MAX_SAH_DEPTH as usize + 32]);
 
 impl Default for Pending {
     fn default() -> Self {
@@ -38,7 +40,7 @@ impl Default for Pending {
 }
 
 impl Bvh {
-    pub fn new(mut solids: Vec<(u32, Aabb)>) -> Self {
+    pub fn new(mut solids: Vec<(RootId, Aabb)>) -> Self {
         let mut bvh = Self::default();
         if !solids.is_empty() {
             bvh.top = Some(bvh.build(&mut solids, 0));
@@ -46,27 +48,27 @@ impl Bvh {
         bvh
     }
 
-    /// No hierarchy: all solids in one box.
-    pub fn flat(solids: Vec<(u32, Aabb)>) -> Self {
+    /// All solids in one box, without a hierarchy.
+    pub fn flat(solids: Vec<(RootId, Aabb)>) -> Self {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let roots: Vec<_> = solids.iter().map(|(root, _)| *root).collect();
         let top = (!roots.is_empty()).then_some((bounds, Child { to: 0, count: roots.len() as u32 }));
         Self { top, nodes: Vec::new(), roots }
     }
 
-    pub fn roots(&self) -> impl Iterator<Item = u32> {
+    pub fn roots(&self) -> impl Iterator<Item = RootId> {
         self.roots.iter().copied()
     }
 
-    /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` answers with a new
-    /// `t_max`; a negative one ends the search.
+    /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` returns the new `t_max`; a
+    /// negative one ends the search.
     #[inline(always)]
     pub fn visit(
         &self,
         ray: &Ray,
         mut t_max: f64,
         Pending(stack): &mut Pending,
-        mut visit: impl FnMut(u32, f64) -> f64,
+        mut visit: impl FnMut(RootId, f64) -> f64,
     ) {
         let Some((bounds, mut at)) = self.top else { return };
         let Some(mut entry) = bounds.entry(ray, 0.0, t_max) else { return };
@@ -104,7 +106,7 @@ impl Bvh {
         }
     }
 
-    fn build(&mut self, solids: &mut [(u32, Aabb)], depth: u32) -> (Aabb, Child) {
+    fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> (Aabb, Child) {
         let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let Some(place) = split(solids, depth) else {
             let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
@@ -127,13 +129,13 @@ impl Bvh {
 }
 
 impl Node {
-    /// Where `ray` enters each child's box before `t_max`; infinite where it does not. As [`Aabb::entry`], but for
-    /// two boxes at once: written so that the compiler can use one instruction for both.
+    /// The distances at which `ray` enters the children's boxes before `t_max`; infinite for a box that it misses. The
+    /// same as [`Aabb::entry`], for two boxes at once, so that the compiler can use vector instructions.
     #[inline(always)]
     fn entries(&self, ray: &Ray, t_max: f64) -> [f64; 2] {
         let (mut near, mut far) = ([0.0; 2], [t_max; 2]);
         for axis in 0..3 {
-            let (origin, inverse) = (ray.origin[axis], ray.inverse[axis]);
+            let (origin, inverse) = (ray.origin[axis], ray.inverse_direction[axis]);
             let distance = |places: [f64; 2]| places.map(|place| (place - origin) * inverse);
             let (a, b) = (distance(self.min[axis]), distance(self.max[axis]));
             for side in 0..2 {

@@ -1,4 +1,4 @@
-//! Primary rays: from the eye through a point of the picture's plane (§3).
+//! Primary rays, from the eye through a point of the image plane (§3).
 
 use glam::DVec3;
 
@@ -9,9 +9,9 @@ use crate::scene;
 #[derive(Debug)]
 pub(super) struct RayCamera {
     eye: DVec3,
-    /// From the eye to the upper left corner of the picture's plane.
+    /// From the eye to the upper left corner of the image plane.
     corner: DVec3,
-    /// From one pixel to the next on its right, and to the next below.
+    /// From one pixel to the next on the right, and to the next below.
     right: DVec3,
     down: DVec3,
 }
@@ -22,7 +22,7 @@ impl RayCamera {
         let right = forward.cross(camera.up).normalize();
         let up = right.cross(forward);
         let (width, height) = (f64::from(size.width()), f64::from(size.height()));
-        // The plane is at distance 1.
+        // The image plane is at distance 1.
         let plane_height = 2.0 * (camera.field_of_view.to_radians() / 2.0).tan();
         let pixel = plane_height / height;
         Self {
@@ -33,7 +33,7 @@ impl RayCamera {
         }
     }
 
-    /// The ray through a place in a pixel: `[0, 0]` is its upper left corner, `[1, 1]` the lower right one.
+    /// The ray through a point of a pixel: `[0, 0]` is the pixel's upper left corner, `[1, 1]` its lower right one.
     pub fn ray(&self, x: u32, y: u32, [u, v]: [f64; 2]) -> Ray {
         let (across, along) = (self.right * (f64::from(x) + u), self.down * (f64::from(y) + v));
         Ray::new(self.eye, (self.corner + across + along).normalize())

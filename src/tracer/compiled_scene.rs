@@ -1,32 +1,32 @@
-//! A scene compiled to only what it needs.
+//! A scene compiled for tracing.
 
 use glam::DVec3;
 
 use super::bvh::Bvh;
 use super::media::Medium;
 use super::scene_stats::SourceCounts;
-use crate::csg::{Pass, Passes, Solid, Surface, Tree};
+use crate::csg::{Pass, Passes, RootId, Solid, Surface, Tree};
 use crate::scene::{Light, Material, Scene};
 
 #[derive(Debug)]
 pub(super) struct CompiledScene {
     pub tree: Tree,
-    /// The roots with bounds.
+    /// The roots with finite bounds.
     pub bounded: Bvh,
-    /// The roots without.
-    pub unbounded: Vec<u32>,
+    /// The roots without finite bounds.
+    pub unbounded: Vec<RootId>,
     pub background: DVec3,
     pub lights: Vec<Light>,
-    /// The solids that transmit and that the eye is in.
+    /// The transmitting solids that contain the eye.
     pub eye_media: Vec<Medium>,
-    pub finishes: Vec<Shading>,
-    /// What the scene's file has.
-    pub given: SourceCounts,
-    /// Solids that were proved empty.
+    pub shadings: Vec<Shading>,
+    /// Counts of what the scene file states.
+    pub source: SourceCounts,
+    /// The number of solids that were proved empty.
     pub dropped: usize,
 }
 
-/// A material with its constants multiplied out.
+/// A material's coefficients for the equation, with the constants multiplied.
 #[derive(Debug)]
 pub(super) struct Shading {
     /// Ka Ia times the colour.
@@ -39,7 +39,7 @@ pub(super) struct Shading {
     pub ior: f64,
 }
 
-/// Phong's exponent: whole ones, the usual case, need no logarithm.
+/// Phong's exponent. Whole exponents, the usual case, need no logarithm.
 #[derive(Debug)]
 pub(super) enum Exponent {
     Whole(i32),
@@ -56,13 +56,13 @@ impl Exponent {
 }
 
 impl CompiledScene {
-    pub fn new(scene: &Scene, reductions: Passes) -> Self {
-        let mut tree = Tree::new(reductions);
+    pub fn new(scene: &Scene, passes: Passes) -> Self {
+        let mut tree = Tree::new(passes);
         let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
         let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
         for solid in &scene.solids {
-            if reductions.has(Pass::Apart) {
-                split(solid, scene, &mut solids);
+            if passes.has(Pass::SplitUnions) {
+                split_unions(solid, scene, &mut solids);
             } else {
                 solids.push(solid);
             }
@@ -77,7 +77,7 @@ impl CompiledScene {
             } else {
                 unbounded.push(root);
             }
-            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag as usize]);
+            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag.index()]);
             let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
             if let Some(material) = transmitting.filter(|_| solid.contains(scene.camera.eye)) {
                 eye_media.push(Medium { root, ior: material.ior });
@@ -86,32 +86,33 @@ impl CompiledScene {
         tree.finish();
         Self {
             tree,
-            bounded: if reductions.has(Pass::Hierarchy) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
+            bounded: if passes.has(Pass::Bvh) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
             unbounded,
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
-            finishes: scene
-                .materials
-                .iter()
-                .map(|material| Shading::new(material, scene.ambient, reductions))
-                .collect(),
-            given: SourceCounts::of(&scene.solids),
+            shadings: scene.materials.iter().map(|material| Shading::new(material, scene.ambient, passes)).collect(),
+            source: SourceCounts::of(&scene.solids),
             dropped,
         }
     }
 
-    pub fn finish(&self, surface: Surface) -> &Shading {
-        &self.finishes[self.tree.leaf(surface).tag as usize]
+    /// All roots: the unbounded ones first, then those of the hierarchy.
+    pub fn roots(&self) -> impl Iterator<Item = RootId> {
+        self.unbounded.iter().copied().chain(self.bounded.roots())
+    }
+
+    pub fn shading(&self, surface: Surface) -> &Shading {
+        &self.shadings[self.tree.leaf(surface).tag.index()]
     }
 }
 
-/// Takes unions apart where nobody can tell: an opaque union seen from outside looks like its parts one by one, and
-/// each of them has closer bounds.
-fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
+/// Splits opaque unions that the eye is outside of: these look like their operands one by one, and each operand has
+/// closer bounds.
+fn split_unions<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
     match solid {
         Solid::Union(solids) if is_opaque(solid, scene) && !solid.contains(scene.camera.eye) => {
-            solids.iter().for_each(|solid| split(solid, scene, parts));
+            solids.iter().for_each(|solid| split_unions(solid, scene, parts));
         }
         _ => parts.push(solid),
     }
@@ -119,7 +120,7 @@ fn split<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
 
 fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
     match solid {
-        Solid::Placed { tag, .. } => scene.materials[*tag as usize].kt == 0.0,
+        Solid::Placed { tag, .. } => scene.materials[tag.index()].kt == 0.0,
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
             solids.iter().all(|solid| is_opaque(solid, scene))
         }
@@ -127,14 +128,14 @@ fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
 }
 
 impl Shading {
-    fn new(material: &Material, ambient: DVec3, reductions: Passes) -> Self {
+    fn new(material: &Material, ambient: DVec3, passes: Passes) -> Self {
         let Material { colour, ka, kd, ks, kt, n, ior } = *material;
         Self {
             ambient: colour * ambient * ka,
             diffuse: colour * kd,
             ks,
             kt,
-            exponent: if n.fract() == 0.0 && reductions.has(Pass::Powers) {
+            exponent: if n.fract() == 0.0 && passes.has(Pass::IntegerPowers) {
                 Exponent::Whole(n as i32)
             } else {
                 Exponent::Real(n)

@@ -1,76 +1,75 @@
-//! Why a pixel has its colour and why it took so long: the tree of rays of each of its samples (Figure 3), and every term of
-//! the equation (§3).
+//! Explanation of a pixel: the tree of rays of each of its samples (Figure 3), and every term of the equation (§3).
 
 use glam::DVec3;
 
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::{Scratch, Tracer};
-use crate::csg::{RayStart, SpanDiagram};
+use crate::csg::{RayStart, RootId, SpanDiagram};
 use crate::geometry::Ray;
 
-/// One sample of a pixel.
+/// A sample of a pixel, with all its rays.
 #[derive(Clone, Debug, Default)]
-pub struct Explained {
-    /// Its primary, reflected and refracted rays in the order in which they were traced; a ray's number is its place here.
-    pub rays: Vec<RayNotes>,
-    /// Whether it is one of those whose mean the pixel is: a corner may only tell that more samples are needed.
+pub struct ExplainedSample {
+    /// Its primary, reflected and refracted rays in the order of tracing. A ray's number is its index here.
+    pub rays: Vec<ExplainedRay>,
+    /// Whether the pixel's mean includes the sample. A corner may serve only to show that more samples are needed.
     pub counts: bool,
-    /// What the rays that were left out would have counted together: no more than the cutoff.
+    /// The total weight of the rays that were left out: at most the cutoff.
     pub left_out: f64,
-    /// How many they were.
+    /// The number of rays that were left out.
     pub rays_left_out: u64,
 }
 
-/// A ray, and all that it brings but for what comes by the rays that start at its end.
+/// A ray, with the terms of the equation where it ends. The colours of secondary rays are not included.
 #[derive(Clone, Debug)]
-pub struct RayNotes {
-    /// Its way.
+pub struct ExplainedRay {
+    /// The ray with its start and end.
     pub path: Path,
 
-    /// What it met; nothing, if it met no solid.
+    /// What the ray hit; nothing if it hit no solid.
     pub met: Option<Intersection>,
-    /// In how many solids that transmit it was.
+    /// The number of transmitting solids that the ray was in.
     pub inside: usize,
-    /// The term Ka Ia; the background's colour if it met nothing.
+    /// The term Ka Ia, or the background's colour if the ray hit nothing.
     pub ambient: DVec3,
-    /// The terms Kd Il (N·L) and Ks Il (S·R)ⁿ of each light that is on its side.
+    /// The terms Kd Il (N·L) and Ks Il (S·R)ⁿ of each light on the ray's side of the surface.
     pub lights: Vec<LightTerm>,
-    /// The ways of the rays to these lights.
+    /// The shadow rays to these lights.
     pub shadows: Vec<Path>,
-    /// What rays from its end would count, which the limit of the tree of rays forbids.
+    /// The weight of secondary rays that the depth limit did not allow.
     pub too_deep: f64,
 }
 
-impl RayNotes {
-    /// What it brings, but for what comes by rays that start at its end.
+impl ExplainedRay {
+    /// The ray's colour without that of its secondary rays.
     pub fn colour(&self) -> DVec3 {
         self.lights.iter().fold(self.ambient, |sum, lit| sum + lit.coming * (lit.diffuse + lit.specular))
     }
 }
 
-impl Explained {
-    /// The sample's colour: what all its rays bring, each times what the sample keeps of it.
+impl ExplainedSample {
+    /// The sample's colour: the sum over its rays of colour times weight.
     pub fn colour(&self) -> DVec3 {
         self.rays.iter().fold(DVec3::ZERO, |sum, ray| sum + ray.colour() * ray.path.weight)
     }
 
-    /// The colour of the pixel of these samples.
+    /// The colour of the pixel that has these samples.
     pub fn mean(samples: &[Self]) -> DVec3 {
         let counting = || samples.iter().filter(|sample| sample.counts);
         counting().map(Self::colour).sum::<DVec3>() / counting().count() as f64
     }
 
-    /// What part of the pixel it is, that has all these samples.
+    /// The sample's part of the pixel that has these samples, 0 to 1.
     pub fn share(&self, samples: &[Self]) -> f64 {
         let counting = samples.iter().filter(|sample| sample.counts).count();
         if self.counts { 1.0 / counting as f64 } else { 0.0 }
     }
 
-    /// What comes by the ray of this number (its place in [`Explained::rays`]) and all that follow from it, times what the
-    /// sample keeps of it.
-    pub fn brings(&self, number: usize) -> DVec3 {
+    /// The part of the sample's colour that comes from a ray, given by its number, and from all rays that follow from
+    /// it.
+    pub fn contribution_of(&self, number: usize) -> DVec3 {
         let mut sums: Vec<DVec3> = self.rays.iter().map(|ray| ray.colour() * ray.path.weight).collect();
-        // A ray comes after that at whose end it starts.
+        // A ray comes after its parent.
         for place in (number + 1..self.rays.len()).rev() {
             if let Some(from) = self.rays[place].path.from {
                 let sum = sums[place];
@@ -82,37 +81,38 @@ impl Explained {
 }
 
 impl Tracer {
-    /// Traces one pixel (its position in scan order) and tells all of each of its samples.
-    pub fn explain(&self, pixel: u32, scratch: &mut Scratch) -> Vec<Explained> {
+    /// Traces one pixel (a position in scan order) and records all its samples.
+    pub fn explain(&self, pixel: u32, scratch: &mut Scratch) -> Vec<ExplainedSample> {
         let mut notes = Notes::default();
         self.pixel(pixel, scratch, &mut notes);
         notes.0
     }
 
-    /// What a ray from `start` passes until the distance `to`, solid by solid in the order in which it enters what they are
-    /// made of: its stays in each and in all its operands. So a solid that it only goes through the bore of is there too.
-    pub fn figures(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(u32, SpanDiagram)> {
-        let roots = self.world.unbounded.iter().copied().chain(self.world.bounded.roots());
-        let figures = roots.map(|root| (root, self.world.tree.figure(root, ray, start)));
-        let mut passed: Vec<(f64, u32, SpanDiagram)> =
-            figures.map(|(root, figure)| (entered(&figure), root, figure)).filter(|(enter, ..)| *enter <= to).collect();
+    /// The spans of a ray from `start` to the distance `to`, for every solid that it enters, in order of first entry
+    /// into any of the solid's operands. A solid whose bore the ray passes through is therefore listed too.
+    pub fn span_diagrams(&self, ray: &Ray, start: Option<RayStart>, to: f64) -> Vec<(RootId, SpanDiagram)> {
+        let diagrams = self.scene.roots().map(|root| (root, self.scene.tree.span_diagram(root, ray, start)));
+        let mut passed: Vec<(f64, RootId, SpanDiagram)> = diagrams
+            .map(|(root, diagram)| (first_entry(&diagram), root, diagram))
+            .filter(|(enter, ..)| *enter <= to)
+            .collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
-        passed.into_iter().map(|(_, root, figure)| (root, figure)).collect()
+        passed.into_iter().map(|(_, root, diagram)| (root, diagram)).collect()
     }
 }
 
-/// Where a ray first enters a solid or any of its operands; infinite if it enters none.
-fn entered(figure: &SpanDiagram) -> f64 {
-    let own = figure.stays.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
-    figure.operands.iter().map(entered).fold(own, f64::min)
+/// The distance at which a ray first enters a solid or any of its operands; infinite if it enters none.
+fn first_entry(diagram: &SpanDiagram) -> f64 {
+    let own = diagram.spans.iter().find(|[_, leave]| *leave > 0.0).map_or(f64::INFINITY, |[enter, _]| *enter);
+    diagram.operands.iter().map(first_entry).fold(own, f64::min)
 }
 
-/// Writes everything down.
+/// Records everything.
 #[derive(Default)]
-struct Notes(Vec<Explained>);
+struct Notes(Vec<ExplainedSample>);
 
 impl Observer for Notes {
-    fn see(&mut self, path: impl FnOnce() -> Path) {
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path) {
         let path = path();
         match path.kind {
             RayKind::Shadow => {
@@ -120,10 +120,10 @@ impl Observer for Notes {
                 ray.into_iter().for_each(|ray| ray.shadows.push(path));
                 return;
             }
-            RayKind::Primary => self.0.push(Explained::default()),
+            RayKind::Primary => self.0.push(ExplainedSample::default()),
             RayKind::Reflected | RayKind::Refracted => {}
         }
-        let ray = RayNotes {
+        let ray = ExplainedRay {
             path,
 
             met: None,
@@ -138,7 +138,7 @@ impl Observer for Notes {
 
     fn note(&mut self, note: impl FnOnce() -> Note) {
         let note = note();
-        if let Note::FirstCount(count) = note {
+        if let Note::CornersCount(count) = note {
             self.0.iter_mut().enumerate().for_each(|(place, sample)| sample.counts = count || place >= 4);
             return;
         }
@@ -151,9 +151,9 @@ impl Observer for Notes {
             }
             Note::LightTerm(lit) => ray.lights.push(lit),
             Note::TooDeep(weight) => ray.too_deep = weight,
-            // What is left of a sum may be less than nothing by rounding.
+            // Rounding may leave less than 0.
             Note::LeftOut(weight, rays) => (sample.left_out, sample.rays_left_out) = (weight.max(0.0), rays),
-            Note::FirstCount(_) => {}
+            Note::CornersCount(_) => {}
         }
     }
 }

@@ -1,53 +1,55 @@
-//! What a ray meets among all solids.
+//! A ray's nearest hit among all solids, and the light that reaches a point.
 //!
-//! What traces is compiled twice, watched and not (see [`super::observer`]). Functions with one caller in the source then
-//! have two, and the compiler would no longer take them in by itself, which costs 3 to 4 %: so it is told to.
+//! The tracing code is compiled twice, with an observer and without (see [`super::observer`]). Functions with one
+//! caller in the source then have two, and the compiler stops inlining them, which costs 3 to 4 %; hence the
+//! `#[inline(always)]`.
 
 use super::bvh::Pending;
 use super::compiled_scene::CompiledScene;
 use super::media::Medium;
-use crate::csg::{Hit, RayStart, Stack, rank};
+use crate::csg::{Hit, RayStart, RootId, Stack, tie_break};
 use crate::geometry::Ray;
 
-/// What finding a hit needs of memory, kept from ray to ray.
+/// Scratch memory of a search for hits, kept from ray to ray.
 #[derive(Debug, Default)]
 pub(super) struct HitScratch {
     spans: Stack,
     boxes: Pending,
-    surfaces: Vec<Transparent>,
-    media: Vec<u32>,
+    surfaces: Vec<TransparentCrossing>,
+    media: Vec<RootId>,
 }
 
-/// A surface that lets light through, on the way of a shadow ray.
+/// A shadow ray's crossing of a transmitting surface.
 #[derive(Debug)]
-struct Transparent {
+struct TransparentCrossing {
     t: f64,
-    root: u32,
+    root: RootId,
     enters: bool,
     kt: f64,
 }
 
-/// Whether a ray is on its way back at the distance `t`: it turned where it starts and is still there.
-pub(super) fn has_turned_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
-    start.is_some_and(|start| start.turned) && t <= ray.tolerance(0.0)
+/// Whether a ray at the distance `t` passes coincident boundaries in reverse: it is reversed, and still at its start.
+pub(super) fn is_reversed_at(start: Option<RayStart>, ray: &Ray, t: f64) -> bool {
+    start.is_some_and(|start| start.reversed) && t <= ray.tolerance(0.0)
 }
 
 impl CompiledScene {
-    /// The nearest boundary on `ray`, and the root that it bounds.
+    /// Finds the nearest boundary on `ray`, and the root that it belongs to.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, memory: &mut HitScratch) -> Option<(u32, Hit)> {
-        let HitScratch { spans, boxes, .. } = memory;
-        let mut nearest: Option<(u32, Hit)> = None;
-        let mut test = |root: u32, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
+    pub fn nearest(&self, ray: &Ray, start: Option<RayStart>, scratch: &mut HitScratch) -> Option<(RootId, Hit)> {
+        let HitScratch { spans, boxes, .. } = scratch;
+        let mut nearest: Option<(RootId, Hit)> = None;
+        let test = |root: RootId, t_max: f64| match self.tree.nearest(root, ray, start, t_max, spans) {
             Some(hit) => {
                 let slack = ray.tolerance(hit.t);
                 let is_nearer = nearest.is_none_or(|(other, best)| {
                     if (hit.t - best.t).abs() > slack {
                         return hit.t < best.t;
                     }
-                    let turned = has_turned_at(start, ray, hit.t);
-                    let (this, other) = (rank(root, hit.enters, turned), rank(other, best.enters, turned));
-                    if turned { this > other } else { this < other }
+                    let reversed = is_reversed_at(start, ray, hit.t);
+                    let (this, other) =
+                        (tie_break(root, hit.enters, reversed), tie_break(other, best.enters, reversed));
+                    if reversed { this > other } else { this < other }
                 });
                 if is_nearer {
                     nearest = Some((root, hit));
@@ -58,60 +60,64 @@ impl CompiledScene {
             }
             None => t_max,
         };
-        let mut t_max = f64::INFINITY;
-        for &root in &self.unbounded {
-            t_max = test(root, t_max);
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, f64::INFINITY, boxes, test);
         nearest
     }
 
-    /// What part of a light's intensity arrives over the distance `t_max` at a place in `media`: a product of the Kt of
-    /// every surface between two media on the way, 0 behind anything that does not transmit.
+    /// Visits the solids that `ray` may meet before `t_max`: those without bounds, then the others, nearer boxes first.
+    /// `visit` returns the new `t_max`; a negative one ends the search.
     #[inline(always)]
-    pub fn light_arriving(
+    fn visit_roots(&self, ray: &Ray, mut t_max: f64, pending: &mut Pending, mut visit: impl FnMut(RootId, f64) -> f64) {
+        for &root in &self.unbounded {
+            t_max = visit(root, t_max);
+            if t_max < 0.0 {
+                return;
+            }
+        }
+        self.bounded.visit(ray, t_max, pending, visit);
+    }
+
+    /// The part of a light's intensity that arrives at a point in `media` over the distance `t_max`: the product of Kt
+    /// over all surfaces between two media on the way, and 0 behind any surface that does not transmit.
+    #[inline(always)]
+    pub fn light_transmittance(
         &self,
         ray: &Ray,
         start: RayStart,
         media: &[Medium],
         t_max: f64,
-        memory: &mut HitScratch,
+        scratch: &mut HitScratch,
     ) -> f64 {
-        let HitScratch { spans, boxes, surfaces, media: inside } = memory;
+        let HitScratch { spans, boxes, surfaces, media: inside } = scratch;
         let mut arriving = 1.0;
         surfaces.clear();
-        let mut test = |root: u32, t_max: f64| {
+        let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
-                let kt = self.finish(hit.surface).kt;
-                surfaces.push(Transparent { t: hit.t, root, enters: hit.enters, kt });
+                let kt = self.shading(hit.surface).kt;
+                surfaces.push(TransparentCrossing { t: hit.t, root, enters: hit.enters, kt });
                 arriving = if kt > 0.0 { arriving } else { 0.0 };
                 kt > 0.0
             });
             if arriving > 0.0 { t_max } else { -1.0 }
         };
-        for &root in &self.unbounded {
-            if test(root, t_max) < 0.0 {
-                return 0.0;
-            }
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, t_max, boxes, test);
         if arriving == 0.0 || surfaces.is_empty() {
             return arriving;
         }
         inside.clear();
         inside.extend(media.iter().map(|medium| medium.root));
-        passing(surfaces, inside, ray, start.turned)
+        transmittance(surfaces, inside, ray, start.reversed)
     }
 
-    /// Where the light that comes against `ray` from the distance `t_max` is stopped: at the nearest surface that
-    /// transmits nothing, else at `t_max`. Unlike [`CompiledScene::light_arriving`] it goes on from the first that it finds to
-    /// the nearest.
-    pub fn light_ends(&self, ray: &Ray, start: RayStart, t_max: f64, memory: &mut HitScratch) -> f64 {
-        let HitScratch { spans, boxes, .. } = memory;
+    /// The distance at which the light that comes against `ray` from `t_max` is blocked: that of the nearest surface
+    /// that does not transmit, or `t_max`. Unlike [`CompiledScene::light_transmittance`], which stops at any such
+    /// surface, it finds the nearest.
+    pub fn shadow_ray_end(&self, ray: &Ray, start: RayStart, t_max: f64, scratch: &mut HitScratch) -> f64 {
+        let HitScratch { spans, boxes, .. } = scratch;
         let mut end = t_max;
-        let mut test = |root: u32, t_max: f64| {
+        let test = |root: RootId, t_max: f64| {
             self.tree.crossings(root, ray, Some(start), t_max, spans, |hit| {
-                let passes = self.finish(hit.surface).kt > 0.0;
+                let passes = self.shading(hit.surface).kt > 0.0;
                 if !passes {
                     end = hit.t;
                 }
@@ -119,28 +125,24 @@ impl CompiledScene {
             });
             end
         };
-        let mut t_max = t_max;
-        for &root in &self.unbounded {
-            t_max = test(root, t_max);
-        }
-        self.bounded.visit(ray, t_max, boxes, test);
+        self.visit_roots(ray, t_max, boxes, test);
         end
     }
 }
 
-/// What part of light passes these surfaces, of which those inside a medium that stands before theirs are not there.
-/// `inside` are the roots that the ray is in where it starts; it may have `turned` there.
-fn passing(surfaces: &mut [Transparent], inside: &mut Vec<u32>, ray: &Ray, turned: bool) -> f64 {
+/// The part of light that passes these surfaces. Surfaces inside a medium of higher priority do not exist. `inside` are
+/// the roots that contain the ray's start, where the ray may be `reversed`.
+fn transmittance(surfaces: &mut [TransparentCrossing], inside: &mut Vec<RootId>, ray: &Ray, reversed: bool) -> f64 {
     surfaces.sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
-    let touch = |a: &Transparent, b: &Transparent| b.t - a.t <= ray.tolerance(b.t);
+    let touch = |a: &TransparentCrossing, b: &TransparentCrossing| b.t - a.t <= ray.tolerance(b.t);
     let mut part = 1.0;
     for together in surfaces.chunk_by_mut(touch) {
-        let turned = turned && together[0].t <= ray.tolerance(0.0);
-        together.sort_unstable_by_key(|surface| rank(surface.root, surface.enters, turned));
-        if turned {
+        let reversed = reversed && together[0].t <= ray.tolerance(0.0);
+        together.sort_unstable_by_key(|surface| tie_break(surface.root, surface.enters, reversed));
+        if reversed {
             together.reverse();
         }
-        for &mut Transparent { root, enters, kt, .. } in together {
+        for &mut TransparentCrossing { root, enters, kt, .. } in together {
             if !inside.iter().any(|&other| other < root) {
                 part *= kt;
             }

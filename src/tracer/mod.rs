@@ -1,4 +1,4 @@
-//! Traces pixels: a scene compiled to only what it needs, and the article's equation (§3).
+//! The tracer: a compiled scene, and the article's equation (§3).
 
 mod bvh;
 mod camera;
@@ -14,7 +14,7 @@ mod ray_queue;
 mod scene_stats;
 mod shade;
 
-pub use explain::{Explained, RayNotes};
+pub use explain::{ExplainedRay, ExplainedSample};
 pub use observer::{Intersection, LightTerm, Path, RayKind};
 pub use preview::Preview;
 pub use scene_stats::SceneStats;
@@ -32,23 +32,23 @@ use crate::scene::Scene;
 use camera::RayCamera;
 use compiled_scene::CompiledScene;
 use observer::{Note, Observer};
-use pattern::Pattern;
+use pattern::SamplePattern;
 
-/// How many rays of each kind were traced.
+/// The number of rays of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RayCounts {
     /// From the camera.
     pub primary: u64,
-    /// Towards lights.
+    /// Towards a light.
     pub shadow: u64,
-    /// Reflected.
+    /// From a reflecting surface.
     pub reflected: u64,
-    /// Refracted.
+    /// Through a transmitting surface.
     pub refracted: u64,
 }
 
 impl RayCounts {
-    /// Rays of all kinds.
+    /// The sum over all kinds.
     pub fn total(&self) -> u64 {
         self.primary + self.shadow + self.reflected + self.refracted
     }
@@ -72,10 +72,10 @@ impl AddAssign for RayCounts {
     }
 }
 
-/// A compiled scene, seen by its camera at one size and quality; shared by all threads.
+/// A compiled scene with its camera, at one size and quality; shared by all threads.
 #[derive(Debug)]
 pub struct Tracer {
-    world: CompiledScene,
+    scene: CompiledScene,
     camera: RayCamera,
     size: Size,
     quality: Quality,
@@ -85,13 +85,13 @@ pub struct Tracer {
 impl Tracer {
     /// Compiles `scene`.
     pub fn new(scene: &Scene, size: Size, quality: Quality) -> Self {
-        Self::reduced(scene, size, quality, Passes::default())
+        Self::with_passes(scene, size, quality, Passes::default())
     }
 
-    /// Compiles `scene` by some of the reductions only. The picture is the same.
-    pub fn reduced(scene: &Scene, size: Size, quality: Quality, reductions: Passes) -> Self {
+    /// Compiles `scene` by some of the passes only. The picture is the same.
+    pub fn with_passes(scene: &Scene, size: Size, quality: Quality, passes: Passes) -> Self {
         Self {
-            world: CompiledScene::new(scene, reductions),
+            scene: CompiledScene::new(scene, passes),
             camera: RayCamera::new(&scene.camera, size),
             size,
             quality,
@@ -104,51 +104,56 @@ impl Tracer {
         self.size
     }
 
-    /// How good the picture is.
+    /// The quality of the picture.
     pub fn quality(&self) -> Quality {
         self.quality
     }
 
-    /// The boxes of all primitives of solids with bounds, each no larger than its solid's. Outside of its box a
-    /// primitive cannot matter.
+    /// The boxes of all primitives of bounded solids, each clipped to its solid's bounds. Outside its box a primitive
+    /// cannot matter.
     pub fn boxes(&self) -> Vec<Aabb> {
-        self.world.bounded.roots().flat_map(|root| self.world.tree.boxes_of(root)).collect()
+        self.scene.bounded.roots().flat_map(|root| self.scene.tree.boxes_of(root)).collect()
     }
 
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.
     ///
-    /// The colour of a pixel depends on nothing but the scene, the size, the quality and its position.
+    /// A pixel's colour depends only on the scene, the size, the quality and the pixel's position.
     pub fn trace(&self, pixels: Range<u32>, scratch: &mut Scratch, out: &mut Vec<Colour>) {
-        out.extend(pixels.map(|pixel| self.known_or_traced(pixel, scratch)));
+        out.extend(pixels.map(|pixel| self.previewed_or_traced(pixel, scratch)));
     }
 
-    fn pixel(&self, pixel: u32, scratch: &mut Scratch, watch: &mut impl Observer) -> Colour {
+    fn pixel(&self, pixel: u32, scratch: &mut Scratch, observer: &mut impl Observer) -> Colour {
         let (x, y) = (pixel % self.size.width(), pixel / self.size.width());
-        let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, watch);
+        let mut at = |place| self.sample(&self.camera.ray(x, y, place), scratch, observer);
         let Quality { samples, threshold, .. } = self.quality;
-        let pattern = || Pattern::new(x, y, self.quality.pattern);
+        let pattern = || SamplePattern::new(x, y, self.quality.pattern);
         let (colour, corners_count) = match samples {
             1 => (at([0.5; 2]), true),
-            _ if threshold > 0.0 => enough(samples.pow(2), threshold, pattern(), at),
+            _ if threshold > 0.0 => adaptive_mean(samples.pow(2), threshold, pattern(), at),
             _ => {
                 let pattern = pattern();
                 let all = (0..samples.pow(2)).map(|index| at(pattern.sample(index)));
                 (all.sum::<DVec3>() / f64::from(samples.pow(2)), true)
             }
         };
-        watch.note(|| Note::FirstCount(corners_count));
+        observer.note(|| Note::CornersCount(corners_count));
         colour.as_vec3().to_array()
     }
 }
 
-/// The mean of no more samples than are needed, at most `most` (at least 4).
+/// Takes samples until their mean is good enough, at most `max_samples` (at least 4). Returns the mean, and whether it
+/// includes the corners.
 ///
-/// At first those at the corners and four of the pattern: an edge that goes through the pixel parts the corners, however
-/// little it cuts off (Whitted 1980 looks at corners too), and what is small is likely met within. If they are the same
-/// within `threshold` that is all. Else the pattern goes on, four times as far each time, until the error of its mean is
-/// estimated as no more than that.
-/// Also returns whether the corners are among the samples whose mean it is.
-fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 2]) -> DVec3) -> (DVec3, bool) {
+/// The first samples are the four corners and four of the pattern: an edge through the pixel separates the corners,
+/// however little it cuts off (Whitted 1980 compares corners too), and the other four probably hit small details. If
+/// all eight agree within `threshold`, they suffice. Otherwise the pattern goes on, with four times as many samples
+/// each time, until the estimated error of its mean is at most `threshold`.
+fn adaptive_mean(
+    max_samples: u32,
+    threshold: f64,
+    pattern: SamplePattern,
+    mut at: impl FnMut([f64; 2]) -> DVec3,
+) -> (DVec3, bool) {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(&mut at);
     let within = [0, 1, 2, 3].map(|index| at(pattern.sample(index)));
     let all = || corners.iter().chain(&within);
@@ -160,16 +165,16 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
     let mut sum: DVec3 = within.iter().sum();
     let mut squares: DVec3 = within.iter().map(|&colour| colour * colour).sum();
     let mut count = 4;
-    while count < most {
-        for index in count..most.min(4 * count) {
+    while count < max_samples {
+        for index in count..max_samples.min(4 * count) {
             let colour = at(pattern.sample(index));
             sum += colour;
             squares += colour * colour;
         }
-        count = most.min(4 * count);
+        count = max_samples.min(4 * count);
         let samples = f64::from(count);
-        // As if the samples were independent. They are spread better than that, so that this is too much rather than
-        // too little.
+        // The estimate assumes independent samples. These are spread more evenly, so it is too large rather than too
+        // small.
         let variance = (squares - sum * sum / samples).max_element() / (samples - 1.0);
         if variance <= threshold * threshold * samples {
             break;
@@ -178,9 +183,9 @@ fn enough(most: u32, threshold: f64, pattern: Pattern, mut at: impl FnMut([f64; 
     (sum / f64::from(count), false)
 }
 
-/// A step in scan order at which about so many pixels of a picture are looked at.
+/// A step in scan order that takes about `looked_at` pixels of a picture.
 ///
-/// An odd one seldom divides a width, so that the pixels are in many columns.
-pub fn step_for(size: Size, looked_at: u32) -> u32 {
+/// It is odd: an odd number seldom divides the width, so that the pixels lie in many columns.
+pub fn sampling_step(size: Size, looked_at: u32) -> u32 {
     (size.pixels() / looked_at) | 1
 }

@@ -1,74 +1,74 @@
-//! The ways of single rays, for those who study them.
+//! Observation of single rays, to explain pixels and to count rays.
 
 use glam::DVec3;
 
-use crate::csg::RayStart;
+use crate::csg::{MaterialTag, RayStart};
 use crate::geometry::Ray;
 
-/// A ray's way, from where it starts to where it ends.
+/// A traced ray, from its start to its end.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
-    /// Why the ray was sent.
+    /// The kind of ray.
     pub kind: RayKind,
-    /// Its place in the tree of rays: 1 for a primary ray, one more for each reflection and refraction. A shadow ray
-    /// has the level of the ray at whose end it starts.
+    /// The ray's level in the tree of rays: 1 for a primary ray, one more for each reflection or refraction. A shadow
+    /// ray has the level of its parent.
     pub level: u32,
-    /// The ray at whose end it starts, by its number among the sample's: the primary ray has 0, and the others are
-    /// numbered as they are traced, but for shadow rays. None for a primary ray.
+    /// The number of the parent, the ray at whose end this one starts; none for a primary ray. A sample's rays except
+    /// shadow rays are numbered in the order of tracing, from 0.
     pub from: Option<u64>,
-    /// What the sample keeps of its colour; of a shadow ray's, what it keeps of that of the ray at whose end it starts.
+    /// The factor of the ray's colour in the sample's colour; for a shadow ray, its parent's.
     pub weight: f64,
-    /// Where it starts and where it goes.
+    /// The ray's origin and direction.
     pub ray: Ray,
-    /// The face that it starts on; a primary ray starts on none.
+    /// The surface that it starts on; none for a primary ray.
     pub start: Option<RayStart>,
-    /// The distance at which it ends: at what it hits; a shadow ray at its light, or at the nearest surface that lets
-    /// no light through. Infinite if it ends nowhere.
+    /// The distance at which it ends: at its hit, or for a shadow ray at its light or the nearest surface that does not
+    /// transmit. Infinite if the ray has no end.
     pub to: f64,
 }
 
-/// Why a ray is sent.
+/// The reason why a ray is sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayKind {
     /// From the camera.
     Primary,
     /// Towards a light.
     Shadow,
-    /// From a surface that reflects.
+    /// From a reflecting surface.
     Reflected,
-    /// Through a surface that transmits.
+    /// Through a transmitting surface.
     Refracted,
 }
 
-/// What a ray met.
+/// A ray's hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intersection {
-    /// The solid and its face, and where a ray starts that goes on from there.
+    /// The face that was hit, as the start of secondary rays.
     pub start: RayStart,
-    /// The primitive's number for its surface (which material it has).
-    pub tag: u32,
-    /// The solid is entered; else left.
+    /// The tag of the surface: its material.
+    pub tag: MaterialTag,
+    /// Whether the ray enters the solid; otherwise it leaves it.
     pub enters: bool,
-    /// Of length 1, on the side that the ray came from.
+    /// The unit normal on the side of the incoming ray.
     pub normal: DVec3,
 }
 
-/// What a light adds where a ray ends.
+/// The terms of the equation that a light adds at a ray's end.
 #[derive(Clone, Debug)]
 pub struct LightTerm {
-    /// The light's place in the scene's list.
+    /// The light's index in the scene.
     pub light: usize,
-    /// What part of its intensity arrives.
+    /// The part of its intensity that arrives, 0 to 1.
     pub arriving: f64,
-    /// The light that arrives: Il.
+    /// Il, the intensity that arrives.
     pub coming: DVec3,
-    /// Kd (N·L), by the surface's colour.
+    /// Kd (N·L) times the surface's colour.
     pub diffuse: DVec3,
-    /// Ks (S·R)ⁿ
+    /// Ks (S·R)ⁿ.
     pub specular: f64,
 }
 
-/// What is known of a ray.
+/// An event of tracing.
 pub(super) enum Note {
     Background(DVec3),
     Intersection {
@@ -78,43 +78,43 @@ pub(super) enum Note {
     },
     LightTerm(LightTerm),
     TooDeep(f64),
-    /// What was left out of the whole sample, and how many rays these were.
+    /// The total weight and the number of the rays that the sample left out.
     LeftOut(f64, u64),
-    /// Of all samples: whether the pixel is the mean of all of them, or of all but the first four.
-    FirstCount(bool),
+    /// Whether the pixel's mean includes the samples at the corners, which are the first four.
+    CornersCount(bool),
 }
 
 impl LightTerm {
-    /// Kd Il (N·L)
+    /// The term Kd Il (N·L).
     pub fn diffuse(&self) -> DVec3 {
         self.coming * self.diffuse
     }
 
-    /// Ks Il (S·R)ⁿ
+    /// The term Ks Il (S·R)ⁿ.
     pub fn specular(&self) -> DVec3 {
         self.coming * self.specular
     }
 }
 
-/// Whoever looks on while rays are traced. It is compiled in, so that nobody costs nothing.
+/// Observer of traced rays. A type parameter, so that [`NoObserver`] costs nothing.
 pub(super) trait Observer {
-    /// A ray was traced; `path` tells its way, which may take work.
-    fn see(&mut self, path: impl FnOnce() -> Path);
+    /// Is told of a traced ray. `path` may be costly to compute.
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path);
 
-    /// Something is known of the ray whose path was seen last, but for shadow rays.
+    /// Is told of the ray that was traced last, shadow rays not counted.
     fn note(&mut self, _: impl FnOnce() -> Note) {}
 }
 
-/// Does not look, so that no path is ever worked out.
+/// Observes nothing, so that no path is ever computed.
 pub(super) struct NoObserver;
 
 impl Observer for NoObserver {
     #[inline(always)]
-    fn see(&mut self, _: impl FnOnce() -> Path) {}
+    fn ray_traced(&mut self, _: impl FnOnce() -> Path) {}
 }
 
 impl<F: FnMut(Path)> Observer for F {
-    fn see(&mut self, path: impl FnOnce() -> Path) {
+    fn ray_traced(&mut self, path: impl FnOnce() -> Path) {
         self(path());
     }
 }

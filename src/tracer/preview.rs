@@ -1,31 +1,31 @@
-//! A first look at the whole picture: every 16th pixel of every 16th row, then every 8th of every 8th, and so on.
+//! A preview of the whole picture: every 16th pixel of every 16th row, then every 8th of every 8th, and so on.
 //!
-//! Its pixels are those of the picture itself and are never traced again, so that it costs the picture nothing.
+//! Its pixels are pixels of the final picture and are not traced again, so that the preview costs nothing.
 
 use super::observer::NoObserver;
 use super::{RayCounts, Scratch, Tracer};
 use crate::picture::{Colour, Size};
 
-/// Some pixels of a picture, spread evenly.
+/// Evenly spread pixels of a picture.
 #[derive(Clone, Debug)]
 pub struct Preview {
     size: Size,
     step: u32,
-    /// Row by row; with the rays that each took.
+    /// Colours by row, with the number of rays that each took.
     known: Vec<(Colour, RayCounts)>,
 }
 
 impl Preview {
-    /// What the first look leaves out: it has every 16th pixel of every 16th row.
+    /// The first step: every 16th pixel of every 16th row.
     pub const COARSEST: u32 = 16;
 
-    /// It has every so many pixels of every so many rows.
+    /// The distance between known pixels, in columns and in rows.
     pub fn step(&self) -> u32 {
         self.step
     }
 
-    /// What the picture probably looks like there: between the pixels around that are known, as far as each is away.
-    pub fn guess(&self, x: u32, y: u32) -> Colour {
+    /// Estimates the colour of any pixel, by bilinear interpolation between the known ones.
+    pub fn interpolate(&self, x: u32, y: u32) -> Colour {
         let (column, row) = (x / self.step, y / self.step);
         let part = |place: u32| (place % self.step) as f32 / self.step as f32;
         let (across, along) = (part(x), part(y));
@@ -53,13 +53,13 @@ impl Preview {
 }
 
 impl Tracer {
-    /// What is known of the picture beforehand.
+    /// The preview, if there is one.
     pub fn preview(&self) -> Option<&Preview> {
         self.preview.as_ref()
     }
 
-    /// Begins a preview, or makes it twice as fine; at last it is the whole picture. The rays are counted by whoever
-    /// traces the picture later.
+    /// Begins a preview, or halves its step, down to the whole picture. The rays are counted when the picture is
+    /// traced.
     pub fn refine(&mut self) {
         let step = self.preview.as_ref().map_or(Preview::COARSEST, |preview| (preview.step / 2).max(1));
         let mut finer = Preview { size: self.size, step, known: Vec::new() };
@@ -77,9 +77,9 @@ impl Tracer {
         self.preview = Some(finer);
     }
 
-    /// The pixel at this position in scan order, traced now unless it was before.
+    /// The colour of the pixel at this position in scan order, from the preview or traced now.
     #[inline(always)]
-    pub(super) fn known_or_traced(&self, pixel: u32, scratch: &mut Scratch) -> Colour {
+    pub(super) fn previewed_or_traced(&self, pixel: u32, scratch: &mut Scratch) -> Colour {
         match self.preview.as_ref().and_then(|preview| preview.get(pixel)) {
             Some((colour, rays)) => {
                 scratch.rays += *rays;

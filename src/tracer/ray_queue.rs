@@ -1,4 +1,4 @@
-//! The tree of rays of a sample: which of its rays is traced next.
+//! The order in which the rays of a sample's tree are traced.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -8,56 +8,56 @@ use super::observer::RayKind;
 use crate::csg::RayStart;
 use crate::geometry::Ray;
 
-/// A ray of the tree of rays.
+/// A ray that waits to be traced.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct QueuedRay {
     pub kind: RayKind,
-    /// What the sample keeps of the ray's colour.
+    /// The factor of the ray's colour in the sample's colour.
     pub weight: f64,
-    /// 1 for a primary ray.
+    /// Its level in the tree of rays; 1 for a primary ray.
     pub level: u32,
-    /// Its number among the sample's rays, as they are traced.
+    /// Its number among the sample's rays, in the order of tracing.
     pub number: u64,
-    /// That of the ray at whose end it starts.
+    /// The number of its parent, the ray at whose end it starts.
     pub from: Option<u64>,
     pub ray: Ray,
     pub start: Option<RayStart>,
-    /// What it is in.
+    /// The media that it starts in.
     pub media: Media,
 }
 
-/// So many rays wait in the order of their weights at most; others are traced at once, so that however many rays a
-/// sample needs, they take some megabytes at most.
-const MOST_WAITING: usize = 1 << 16;
+/// The greatest number of rays that wait in the order of their weights. Further rays are traced first, so that a sample
+/// with any number of rays takes a few megabytes at most.
+const MAX_WAITING_RAYS: usize = 1 << 16;
 
-/// Of those that are traced at once, one is left out that counts no more than this part of what may still be left out:
-/// else each would be followed to the last level.
-const LEFT_OUT: f64 = 1e-3;
+/// An overflowing ray is left out if its weight is at most this part of the weight that may still be left out:
+/// otherwise each would be followed down to the last level.
+const NEGLIGIBLE_PART: f64 = 1e-3;
 
 /// The rays of a sample that wait to be traced.
 ///
-/// The ray that counts most is traced first, until all that wait together count no more than the cutoff. So what is lost
-/// has a limit: to end each branch where it is weak (Hall and Greenberg, *A Testbed for Realistic Image Synthesis*, 1983)
-/// says nothing of what many weak branches add up to.
+/// The ray with the greatest weight is traced first, until the total weight of all that wait is at most the cutoff. So
+/// the error has a bound. Ending each ray where it is weak (Hall and Greenberg, *A Testbed for Realistic Image
+/// Synthesis*, 1983) gives no bound for the sum of many weak branches.
 #[derive(Debug, Default)]
 pub(super) struct RayQueue {
     waiting: BinaryHeap<Waiting>,
-    /// Where those that wait are, and places that are free.
-    places: Vec<QueuedRay>,
-    free: Vec<u32>,
-    /// To be traced before those that wait, the last one first.
-    at_once: Vec<QueuedRay>,
-    /// What all of them count together, and what was left out already.
+    /// The waiting rays, and free slots between them.
+    slots: Vec<QueuedRay>,
+    free_slots: Vec<u32>,
+    /// Rays to be traced before those that wait, the last one first.
+    overflow: Vec<QueuedRay>,
+    /// The total weight of all rays in the queue and of those left out.
     weight: f64,
-    /// What was left out of those to be traced at once: at most half of the cutoff.
+    /// The weight of overflowing rays that were left out: at most half the cutoff.
     left_out: f64,
-    /// How many rays these are.
-    dropped: u64,
-    /// How many were traced.
+    /// The number of overflowing rays that were left out.
+    rays_left_out: u64,
+    /// The number of rays that were traced.
     traced: u64,
 }
 
-/// A branch that waits: its weight, when it came, and its place.
+/// A waiting ray: its weight, the number of its parent, and its slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Waiting(f64, Reverse<u64>, u32);
 
@@ -65,7 +65,7 @@ impl Eq for Waiting {}
 
 impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equal ones that which starts at the older ray, so that the order is always the same.
+        // Of equal weights the ray with the older parent comes first, so that the order is always the same.
         self.0.total_cmp(&other.0).then(self.1.cmp(&other.1)).then(self.2.cmp(&other.2))
     }
 }
@@ -77,43 +77,43 @@ impl PartialOrd for Waiting {
 }
 
 impl RayQueue {
-    /// Begins with a primary ray, which is traced now.
+    /// Empties the queue for a sample whose primary ray is traced now.
     pub fn restart(&mut self) {
         self.waiting.clear();
-        self.places.clear();
-        self.free.clear();
-        self.at_once.clear();
+        self.slots.clear();
+        self.free_slots.clear();
+        self.overflow.clear();
         self.weight = 0.0;
         self.left_out = 0.0;
-        self.dropped = 0;
+        self.rays_left_out = 0;
         self.traced = 1;
     }
 
     #[inline(always)]
-    pub fn add(&mut self, branch: QueuedRay) {
-        self.weight += branch.weight;
-        if self.waiting.len() == MOST_WAITING {
-            self.at_once.push(branch);
+    pub fn add(&mut self, ray: QueuedRay) {
+        self.weight += ray.weight;
+        if self.waiting.len() == MAX_WAITING_RAYS {
+            self.overflow.push(ray);
             return;
         }
-        let place = self.free.pop().unwrap_or(self.places.len() as u32);
-        match self.places.get_mut(place as usize) {
-            Some(free) => *free = branch,
-            None => self.places.push(branch),
+        let slot = self.free_slots.pop().unwrap_or(self.slots.len() as u32);
+        match self.slots.get_mut(slot as usize) {
+            Some(free) => *free = ray,
+            None => self.slots.push(ray),
         }
-        self.waiting.push(Waiting(branch.weight, Reverse(branch.from.unwrap_or(0)), place));
+        self.waiting.push(Waiting(ray.weight, Reverse(ray.from.unwrap_or(0)), slot));
     }
 
-    /// The next to be traced, unless what waits counts no more than `cutoff`.
+    /// The next ray to be traced; none if the remaining weight is at most `cutoff`.
     #[inline(always)]
     pub fn next(&mut self, cutoff: f64) -> Option<QueuedRay> {
         if self.weight <= cutoff {
             return None;
         }
-        let next = self.next_at_once(cutoff).or_else(|| {
-            let Waiting(_, _, place) = self.waiting.pop()?;
-            self.free.push(place);
-            Some(self.places[place as usize])
+        let next = self.next_overflow(cutoff).or_else(|| {
+            let Waiting(_, _, slot) = self.waiting.pop()?;
+            self.free_slots.push(slot);
+            Some(self.slots[slot as usize])
         })?;
         self.weight -= next.weight;
         let number = self.traced;
@@ -121,24 +121,24 @@ impl RayQueue {
         Some(QueuedRay { number, ..next })
     }
 
-    /// What all of them that were not traced count together.
-    pub fn weight(&self) -> f64 {
+    /// The total weight of the rays that were not traced.
+    pub fn remaining_weight(&self) -> f64 {
         self.weight
     }
 
-    /// How many of them were not traced.
-    pub fn rays(&self) -> u64 {
-        (self.waiting.len() + self.at_once.len()) as u64 + self.dropped
+    /// The number of rays that were not traced.
+    pub fn remaining_rays(&self) -> u64 {
+        (self.waiting.len() + self.overflow.len()) as u64 + self.rays_left_out
     }
 
     #[inline(always)]
-    fn next_at_once(&mut self, cutoff: f64) -> Option<QueuedRay> {
-        while let Some(next) = self.at_once.pop() {
-            if next.weight > LEFT_OUT * (cutoff / 2.0 - self.left_out) {
+    fn next_overflow(&mut self, cutoff: f64) -> Option<QueuedRay> {
+        while let Some(next) = self.overflow.pop() {
+            if next.weight > NEGLIGIBLE_PART * (cutoff / 2.0 - self.left_out) {
                 return Some(next);
             }
             self.left_out += next.weight;
-            self.dropped += 1;
+            self.rays_left_out += 1;
         }
         None
     }
@@ -151,7 +151,7 @@ mod tests {
 
     use super::*;
 
-    fn branch(weight: f64) -> QueuedRay {
+    fn ray_of(weight: f64) -> QueuedRay {
         let ray = Ray::new(DVec3::ZERO, DVec3::Y);
         let (kind, level, number) = (RayKind::Reflected, 2, 0);
         QueuedRay { kind, weight, level, number, from: Some(0), ray, start: None, media: Media::default() }
@@ -159,35 +159,35 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_counts_most_comes_first_and_what_is_left_counts_no_more_than_the_cutoff(
+        fn heaviest_ray_is_first_and_remainder_is_below_cutoff(
             weights in prop::collection::vec(1e-6..1.0f64, 0..50), cutoff in 0.0..3.0f64
         ) {
-            let mut branches = RayQueue::default();
-            branches.restart();
-            weights.iter().for_each(|&weight| branches.add(branch(weight)));
-            let traced: Vec<f64> = std::iter::from_fn(|| branches.next(cutoff)).map(|branch| branch.weight).collect();
+            let mut queue = RayQueue::default();
+            queue.restart();
+            weights.iter().for_each(|&weight| queue.add(ray_of(weight)));
+            let traced: Vec<f64> = std::iter::from_fn(|| queue.next(cutoff)).map(|ray| ray.weight).collect();
             prop_assert!(traced.is_sorted_by(|a, b| a >= b));
             let mut left = weights;
             left.sort_by(|a, b| b.total_cmp(a));
             prop_assert_eq!(&left[..traced.len()], &traced[..]);
             prop_assert!(left[traced.len()..].iter().sum::<f64>() <= cutoff + 1e-12);
-            // One ray less would not have been enough.
+            // With one ray less the remaining weight would exceed the cutoff.
             prop_assert!(traced.is_empty() || left[traced.len() - 1..].iter().sum::<f64>() > cutoff - 1e-12);
         }
     }
 
     #[test]
-    fn however_many_rays_there_are_they_take_little_memory() {
-        let mut branches = RayQueue::default();
-        branches.restart();
-        branches.add(branch(1.0));
+    fn many_rays_take_little_memory() {
+        let mut queue = RayQueue::default();
+        queue.restart();
+        queue.add(ray_of(1.0));
         for _ in 0..1_000_000 {
-            let next = branches.next(0.0).expect("more of them");
-            branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.6) });
+            let next = queue.next(0.0).expect("more of them");
+            queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight * 0.6) });
             if next.level < 60 {
-                branches.add(QueuedRay { level: next.level + 1, ..branch(next.weight * 0.4) });
+                queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight * 0.4) });
             }
         }
-        assert!(branches.places.len() <= MOST_WAITING && branches.at_once.len() < 100);
+        assert!(queue.slots.len() <= MAX_WAITING_RAYS && queue.overflow.len() < 100);
     }
 }

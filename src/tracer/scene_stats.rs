@@ -1,44 +1,45 @@
-//! What compiling kept of a scene, and what it dropped: tells why a picture costs what it costs.
+//! Statistics of a compiled scene, which explain the cost of its picture.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{RayKind, Tracer, step_for};
-use crate::csg::{Dropped, Solid};
+use super::{RayKind, Tracer, sampling_step};
+use crate::csg::{DroppedCounts, RootId, Solid};
 
-/// What a compiled scene kept and dropped.
+/// Counts of what a compiled scene keeps and what was dropped.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SceneStats {
-    /// What the scene has as it is written.
-    pub given: SourceCounts,
-    /// Solids that a ray is tested against one by one. Opaque unions count as their parts.
+    /// Counts of what the scene file states.
+    #[serde(rename = "given")]
+    pub source: SourceCounts,
+    /// Solids that rays are tested with. A split union counts as its operands.
     pub solids: usize,
-    /// Solids of these that are made of several primitives.
+    /// Those of them with more than one primitive.
     pub compositions: usize,
-    /// Solids without bounds, which every ray has to be tested against.
+    /// Solids without finite bounds, which every ray is tested with.
     pub unbounded: usize,
-    /// Primitives that were kept, by their kind.
+    /// Primitives that were kept, by shape.
     pub primitives: BTreeMap<&'static str, usize>,
     /// Boolean operations that were kept.
     pub operations: usize,
     /// Solids that were proved empty and dropped.
     pub dropped: usize,
-    /// What of other solids was dropped.
+    /// Parts of other solids that were dropped.
     #[serde(flatten)]
-    pub parts_dropped: Dropped,
+    pub parts_dropped: DroppedCounts,
     /// Lights.
     pub lights: usize,
-    /// Whether any surface reflects other solids: if not, no reflection code runs.
+    /// Whether any surface reflects other solids. If not, no reflection code runs.
     pub reflects: bool,
-    /// Whether any surface transmits: if not, no refraction code runs and a shadow ray ends at the first solid.
+    /// Whether any surface transmits. If not, no refraction code runs, and a shadow ray ends at the first solid.
     pub transmits: bool,
 }
 
-/// What a scene has as it is written.
+/// Counts of what a scene file states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct SourceCounts {
-    /// Placed primitives.
+    /// Primitives, with named solids put in.
     pub primitives: usize,
     /// Unions, intersections and differences.
     pub operations: usize,
@@ -46,55 +47,55 @@ pub struct SourceCounts {
 
 impl SourceCounts {
     pub(super) fn of(solids: &[Solid]) -> Self {
-        let mut given = Self::default();
+        let mut counts = Self::default();
         for solid in solids {
             match solid {
-                Solid::Placed { .. } => given.primitives += 1,
+                Solid::Placed { .. } => counts.primitives += 1,
                 Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
                     let inner = Self::of(solids);
-                    given.primitives += inner.primitives;
-                    given.operations += 1 + inner.operations;
+                    counts.primitives += inner.primitives;
+                    counts.operations += 1 + inner.operations;
                 }
             }
         }
-        given
+        counts
     }
 }
 
 impl Tracer {
-    /// What the compiled scene kept and dropped, in figures.
-    pub fn compiled(&self) -> SceneStats {
-        let world = &self.world;
-        let roots: Vec<u32> = world.bounded.roots().chain(world.unbounded.iter().copied()).collect();
-        let leaves: Vec<_> = roots.iter().flat_map(|&root| world.tree.leaves_of(root)).collect();
-        let finishes = || leaves.iter().map(|leaf| &world.finishes[leaf.tag as usize]);
+    /// The statistics of the compiled scene.
+    pub fn scene_stats(&self) -> SceneStats {
+        let scene = &self.scene;
+        let roots: Vec<RootId> = scene.roots().collect();
+        let leaves: Vec<_> = roots.iter().flat_map(|&root| scene.tree.leaves_of(root)).collect();
+        let shadings = || leaves.iter().map(|leaf| &scene.shadings[leaf.tag.index()]);
         let mut primitives = BTreeMap::new();
         for leaf in &leaves {
             *primitives.entry(leaf.kind()).or_default() += 1;
         }
-        let operations = roots.iter().map(|&root| world.tree.operations_of(root));
+        let operations = roots.iter().map(|&root| scene.tree.operations_of(root));
         SceneStats {
-            given: world.given,
+            source: scene.source,
             solids: roots.len(),
             compositions: operations.clone().filter(|&operations| operations > 0).count(),
-            unbounded: world.unbounded.len(),
+            unbounded: scene.unbounded.len(),
             operations: operations.sum(),
             primitives,
-            dropped: world.dropped,
-            parts_dropped: world.tree.dropped(),
-            lights: world.lights.len(),
-            reflects: finishes().any(|finish| finish.ks > 0.0),
-            transmits: finishes().any(|finish| finish.kt > 0.0),
+            dropped: scene.dropped,
+            parts_dropped: scene.tree.dropped(),
+            lights: scene.lights.len(),
+            reflects: shadings().any(|shading| shading.ks > 0.0),
+            transmits: shadings().any(|shading| shading.kt > 0.0),
         }
     }
 
-    /// How many primary, reflected and refracted rays a sample of the pixels needs on each level of their trees, as far as
-    /// the deepest that any of them reaches.
+    /// The number of primary, reflected and refracted rays on each level of their trees, for a sample of the pixels,
+    /// down to the deepest level that any ray reaches.
     pub fn levels(&self) -> Vec<u64> {
-        /// About so many pixels are looked at.
+        /// Approximate number of pixels in the sample.
         const PIXELS: u32 = 3000;
         let mut levels = Vec::new();
-        self.paths_of_some(step_for(self.size, PIXELS), |path| {
+        self.paths_of_some(sampling_step(self.size, PIXELS), |path| {
             if path.kind != RayKind::Shadow {
                 let level = path.level as usize;
                 levels.resize(levels.len().max(level), 0);

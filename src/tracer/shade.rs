@@ -1,61 +1,61 @@
-//! The article's equation (§3; Whitted 1980): the colour that a ray brings.
+//! The article's equation (§3; Whitted 1980): the colour of a ray.
 //!
 //! Cp = Ka Ia + Kd Σ Ilj (N·Lj) + Ks Σ Ilj (S·Rj)ⁿ + Ks Is + Kt It
 
 use glam::DVec3;
 
 use super::compiled_scene::Shading;
-use super::intersect::{HitScratch, has_turned_at};
+use super::intersect::{HitScratch, is_reversed_at};
 use super::media::{Media, MediaSets, Medium};
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::ray_queue::{QueuedRay, RayQueue};
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, RayStart, rank};
+use crate::csg::{Hit, RayStart, RootId, tie_break};
 use crate::geometry::Ray;
 use crate::scene::Light;
 
-/// What a thread needs to trace, kept from pixel to pixel so that nothing is allocated; it counts the rays.
+/// Scratch memory of a thread, kept from pixel to pixel so that nothing is allocated, and the thread's ray counts.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    /// Rays traced with this scratch so far.
+    /// Rays that were traced with this scratch.
     pub rays: RayCounts,
-    memory: HitScratch,
+    hits: HitScratch,
     media: MediaSets,
-    branches: RayQueue,
+    queue: RayQueue,
 }
 
-/// A hit with what the equation needs of it.
+/// A hit, with the values that the equation needs.
 struct ShadingPoint<'a> {
     start: RayStart,
     enters: bool,
     t: f64,
-    /// Of length 1, on the side that the ray comes from.
+    /// The unit normal on the side of the incoming ray.
     normal: DVec3,
-    finish: &'a Shading,
-    /// What the ray is in before it.
+    shading: &'a Shading,
+    /// The media that the incoming ray is in.
     media: Media,
-    /// What is around the solid, if that transmits and it is not air.
-    around: Option<Medium>,
+    /// The medium around the solid, if the solid transmits; none is air.
+    surrounding: Option<Medium>,
 }
 
 impl ShadingPoint<'_> {
     /// The solid as a medium.
     fn medium(&self) -> Medium {
-        Medium { root: self.start.root, ior: self.finish.ior }
+        Medium { root: self.start.root, ior: self.shading.ior }
     }
 
-    /// For rays that stay on the side from which the place was met: to a light, or reflected.
-    fn turned(&self) -> RayStart {
-        RayStart { turned: !self.start.turned, ..self.start }
+    /// The start of rays that stay on the incoming ray's side: shadow rays and reflected rays.
+    fn reversed(&self) -> RayStart {
+        RayStart { reversed: !self.start.reversed, ..self.start }
     }
 }
 
 impl Tracer {
-    /// The colour that a primary ray brings, in linear light.
-    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
+    /// The colour of a sample, given its primary ray, in linear light.
+    pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
         scratch.rays.count(RayKind::Primary);
-        let media = scratch.media.restart(&self.world.eye_media);
-        scratch.branches.restart();
+        let media = scratch.media.restart(&self.scene.eye_media);
+        scratch.queue.restart();
         let primary = QueuedRay {
             kind: RayKind::Primary,
             weight: 1.0,
@@ -66,148 +66,148 @@ impl Tracer {
             start: None,
             media,
         };
-        let mut colour = self.colour(&primary, scratch, watch);
-        while let Some(branch) = scratch.branches.next(self.quality.cutoff) {
-            scratch.rays.count(branch.kind);
-            colour += self.colour(&branch, scratch, watch) * branch.weight;
+        let mut colour = self.colour(&primary, scratch, observer);
+        while let Some(queued) = scratch.queue.next(self.quality.cutoff) {
+            scratch.rays.count(queued.kind);
+            colour += self.colour(&queued, scratch, observer) * queued.weight;
         }
-        watch.note(|| Note::LeftOut(scratch.branches.weight(), scratch.branches.rays()));
+        observer.note(|| Note::LeftOut(scratch.queue.remaining_weight(), scratch.queue.remaining_rays()));
         colour
     }
 
-    /// The colour that a ray brings, but for what comes by rays that start at its end: these now wait.
+    /// The colour of a ray without that of its secondary rays, which are added to the queue.
     #[inline(always)]
-    fn colour(&self, branch: &QueuedRay, scratch: &mut Scratch, watch: &mut impl Observer) -> DVec3 {
-        let QueuedRay { ray, start, media, .. } = branch;
-        let nearest = self.world.nearest(ray, *start, &mut scratch.memory);
-        let around = self.around(nearest, *media, scratch);
-        if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, around)) {
-            let turned = has_turned_at(*start, ray, hit.t);
-            let place = self.place(ray, root, &hit, turned, *media, around);
-            return self.colour_behind(branch, place, scratch, watch);
+    fn colour(&self, queued: &QueuedRay, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
+        let QueuedRay { ray, start, media, .. } = queued;
+        let nearest = self.scene.nearest(ray, *start, &mut scratch.hits);
+        let surrounding = self.surrounding(nearest, *media, scratch);
+        if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, surrounding)) {
+            let reversed = is_reversed_at(*start, ray, hit.t);
+            let point = self.shading_point(ray, root, &hit, reversed, *media, surrounding);
+            return self.colour_behind(queued, point, scratch, observer);
         }
-        watch.see(|| path(branch, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
+        observer.ray_traced(|| path(queued, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
         let Some((root, hit)) = nearest else {
-            watch.note(|| Note::Background(self.world.background));
-            return self.world.background;
+            observer.note(|| Note::Background(self.scene.background));
+            return self.scene.background;
         };
-        let place = self.place(ray, root, &hit, has_turned_at(*start, ray, hit.t), *media, around);
-        self.shade(ray, &place, branch, scratch, watch)
+        let point = self.shading_point(ray, root, &hit, is_reversed_at(*start, ray, hit.t), *media, surrounding);
+        self.shade(ray, &point, queued, scratch, observer)
     }
 
-    /// The colour of a ray that meets a boundary that is not there, since another medium fills the place: of what it meets
-    /// further on.
+    /// The colour of a ray whose first boundary does not exist, since another medium fills the space: goes on to the
+    /// first boundary that exists.
     #[cold]
     fn colour_behind<'a>(
         &'a self,
-        branch: &QueuedRay,
-        mut place: ShadingPoint<'a>,
+        queued: &QueuedRay,
+        mut point: ShadingPoint<'a>,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
-        let (mut ray, mut passed) = (branch.ray, 0.0);
+        let (mut ray, mut passed) = (queued.ray, 0.0);
         loop {
-            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
-            ray = ray.onward(place.t, ray.direction);
-            passed += place.t;
-            let start = Some(place.start);
-            let nearest = self.world.nearest(&ray, start, &mut scratch.memory);
-            let around = self.around(nearest, media, scratch);
+            let media = scratch.media.after_crossing(point.media, point.medium(), point.enters);
+            ray = ray.onward(point.t, ray.direction);
+            passed += point.t;
+            let start = Some(point.start);
+            let nearest = self.scene.nearest(&ray, start, &mut scratch.hits);
+            let surrounding = self.surrounding(nearest, media, scratch);
             if let Some((root, hit)) = nearest {
-                place = self.place(&ray, root, &hit, has_turned_at(start, &ray, hit.t), media, around);
-                if is_hidden(root, around) {
+                point = self.shading_point(&ray, root, &hit, is_reversed_at(start, &ray, hit.t), media, surrounding);
+                if is_hidden(root, surrounding) {
                     continue;
                 }
             }
-            watch.see(|| path(branch, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
+            observer.ray_traced(|| path(queued, passed + nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
             return match nearest {
-                Some(_) => self.shade(&ray, &place, branch, scratch, watch),
+                Some(_) => self.shade(&ray, &point, queued, scratch, observer),
                 None => {
-                    watch.note(|| Note::Background(self.world.background));
-                    self.world.background
+                    observer.note(|| Note::Background(self.scene.background));
+                    self.scene.background
                 }
             };
         }
     }
 
-    /// What is around the solid that is met, if that transmits and it is not air.
+    /// The medium around the solid that was hit, if the solid transmits; none is air.
     #[inline(always)]
-    fn around(&self, nearest: Option<(u32, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
-        let (root, _) = nearest.filter(|(_, hit)| self.world.finish(hit.surface).kt > 0.0)?;
-        scratch.media.around(media, root)
+    fn surrounding(&self, nearest: Option<(RootId, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
+        let (root, _) = nearest.filter(|(_, hit)| self.scene.shading(hit.surface).kt > 0.0)?;
+        scratch.media.surrounding(media, root)
     }
 
     #[inline(always)]
     fn shade(
         &self,
         ray: &Ray,
-        place: &ShadingPoint<'_>,
-        branch: &QueuedRay,
+        point: &ShadingPoint<'_>,
+        queued: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
-        let finish = place.finish;
-        let mut colour = finish.ambient;
-        watch.note(|| {
-            let ShadingPoint { start, enters, normal, media, .. } = *place;
-            let met = Intersection { start, tag: self.world.tree.leaf(start.surface).tag, enters, normal };
+        let shading = point.shading;
+        let mut colour = shading.ambient;
+        observer.note(|| {
+            let ShadingPoint { start, enters, normal, media, .. } = *point;
+            let met = Intersection { start, tag: self.scene.tree.leaf(start.surface).tag, enters, normal };
             Note::Intersection { met, ambient: colour, inside: scratch.media.get(media).len() }
         });
-        for index in 0..self.world.lights.len() {
-            colour += self.light(index, ray, place, branch, scratch, watch);
+        for index in 0..self.scene.lights.len() {
+            colour += self.light(index, ray, point, queued, scratch, observer);
         }
-        if finish.ks == 0.0 && finish.kt == 0.0 {
+        if shading.ks == 0.0 && shading.kt == 0.0 {
             return colour;
         }
-        if branch.level == self.quality.max_depth {
-            watch.note(|| Note::TooDeep(branch.weight * (finish.ks + finish.kt)));
+        if queued.level == self.quality.max_depth {
+            observer.note(|| Note::TooDeep(queued.weight * (shading.ks + shading.kt)));
             return colour;
         }
-        let refracted = (finish.kt > 0.0).then(|| refract(ray.direction, place)).flatten();
-        // Light that is not let through is reflected: under total internal reflection It comes from there.
-        let reflection = finish.ks + if refracted.is_none() { finish.kt } else { 0.0 };
+        let refracted = (shading.kt > 0.0).then(|| refract(ray.direction, point)).flatten();
+        // Under total internal reflection the transmitted light It comes from the reflected direction.
+        let reflection = shading.ks + if refracted.is_none() { shading.kt } else { 0.0 };
         let mut follow = |kind, coefficient: f64, direction, start, media| {
-            scratch.branches.add(QueuedRay {
+            scratch.queue.add(QueuedRay {
                 kind,
-                weight: branch.weight * coefficient,
-                level: branch.level + 1,
+                weight: queued.weight * coefficient,
+                level: queued.level + 1,
                 number: 0,
-                from: Some(branch.number),
-                ray: ray.onward(place.t, direction),
+                from: Some(queued.number),
+                ray: ray.onward(point.t, direction),
                 start: Some(start),
                 media,
             });
         };
         if reflection > 0.0 {
-            follow(RayKind::Reflected, reflection, reflect(ray.direction, place.normal), place.turned(), place.media);
+            follow(RayKind::Reflected, reflection, reflect(ray.direction, point.normal), point.reversed(), point.media);
         }
         if let Some(direction) = refracted {
-            let media = scratch.media.beyond(place.media, place.medium(), place.enters);
-            follow(RayKind::Refracted, finish.kt, direction, place.start, media);
+            let media = scratch.media.after_crossing(point.media, point.medium(), point.enters);
+            follow(RayKind::Refracted, shading.kt, direction, point.start, media);
         }
         colour
     }
 
     #[inline(always)]
-    fn place(
+    fn shading_point(
         &self,
         ray: &Ray,
-        root: u32,
+        root: RootId,
         hit: &Hit,
-        turned: bool,
+        reversed: bool,
         media: Media,
-        around: Option<Medium>,
+        surrounding: Option<Medium>,
     ) -> ShadingPoint<'_> {
-        let outward = self.world.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
+        let outward = self.scene.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         ShadingPoint {
-            start: RayStart { root, surface: hit.surface, leaves: rank(root, hit.enters, turned).0, turned },
+            start: RayStart { root, surface: hit.surface, exits: tie_break(root, hit.enters, reversed).0, reversed },
             enters: hit.enters,
             t: hit.t,
             normal,
-            finish: self.world.finish(hit.surface),
+            shading: self.scene.shading(hit.surface),
             media,
-            around,
+            surrounding,
         }
     }
 
@@ -217,41 +217,42 @@ impl Tracer {
         &self,
         index: usize,
         ray: &Ray,
-        place: &ShadingPoint<'_>,
-        branch: &QueuedRay,
+        point: &ShadingPoint<'_>,
+        queued: &QueuedRay,
         scratch: &mut Scratch,
-        watch: &mut impl Observer,
+        observer: &mut impl Observer,
     ) -> DVec3 {
-        let point = ray.at(place.t);
-        let (direction, distance, intensity) = match self.world.lights[index] {
+        let at = ray.at(point.t);
+        let (direction, distance, intensity) = match self.scene.lights[index] {
             Light::Point { position, colour } => {
-                let way = position - point;
+                let way = position - at;
                 let distance = way.length();
-                // A lamp may lie in a face, which then does not stand in its light.
+                // A light may lie in a face, which must not shadow it.
                 (way / distance, distance - ray.tolerance(distance), colour)
             }
             Light::Directional { direction, colour } => (-direction, f64::INFINITY, colour),
         };
-        let cosine = place.normal.dot(direction);
-        // NaN if the light is at the very point.
+        let cosine = point.normal.dot(direction);
+        // NaN if the light lies exactly at the point.
         if cosine <= 0.0 || cosine.is_nan() {
             return DVec3::ZERO;
         }
         scratch.rays.count(RayKind::Shadow);
-        let Scratch { memory, media, .. } = scratch;
-        let onward = ray.onward(place.t, direction);
-        watch.see(|| Path {
+        let Scratch { hits, media, .. } = scratch;
+        let onward = ray.onward(point.t, direction);
+        observer.ray_traced(|| Path {
             kind: RayKind::Shadow,
-            level: branch.level,
-            from: Some(branch.number),
-            weight: branch.weight,
+            level: queued.level,
+            from: Some(queued.number),
+            weight: queued.weight,
             ray: onward,
-            start: Some(place.turned()),
-            to: self.world.light_ends(&onward, place.turned(), distance, memory),
+            start: Some(point.reversed()),
+            to: self.scene.shadow_ray_end(&onward, point.reversed(), distance, hits),
         });
-        let arriving = self.world.light_arriving(&onward, place.turned(), media.get(place.media), distance, memory);
+        let arriving =
+            self.scene.light_transmittance(&onward, point.reversed(), media.get(point.media), distance, hits);
         if arriving == 0.0 {
-            watch.note(|| {
+            observer.note(|| {
                 Note::LightTerm(LightTerm {
                     light: index,
                     arriving,
@@ -262,47 +263,47 @@ impl Tracer {
             });
             return DVec3::ZERO;
         }
-        let diffuse = place.finish.diffuse * cosine;
+        let diffuse = point.shading.diffuse * cosine;
         let mut specular = 0.0;
-        if place.finish.ks > 0.0 {
-            let towards_eye = -ray.direction.dot(reflect(-direction, place.normal));
+        if point.shading.ks > 0.0 {
+            let towards_eye = -ray.direction.dot(reflect(-direction, point.normal));
             if towards_eye > 0.0 {
-                specular = place.finish.ks * place.finish.exponent.raise(towards_eye);
+                specular = point.shading.ks * point.shading.exponent.raise(towards_eye);
             }
         }
         let coming = intensity * arriving;
-        watch.note(|| Note::LightTerm(LightTerm { light: index, arriving, coming, diffuse, specular }));
+        observer.note(|| Note::LightTerm(LightTerm { light: index, arriving, coming, diffuse, specular }));
         coming * (diffuse + specular)
     }
 }
 
-/// Whether what is around the solid `root` fills it too.
-fn is_hidden(root: u32, around: Option<Medium>) -> bool {
-    around.is_some_and(|medium| medium.root < root)
+/// Whether a surrounding medium with priority over the solid `root` hides its boundary.
+fn is_hidden(root: RootId, surrounding: Option<Medium>) -> bool {
+    surrounding.is_some_and(|medium| medium.root < root)
 }
 
-fn path(branch: &QueuedRay, to: f64) -> Path {
+fn path(queued: &QueuedRay, to: f64) -> Path {
     Path {
-        kind: branch.kind,
-        level: branch.level,
-        from: branch.from,
-        weight: branch.weight,
-        ray: branch.ray,
-        start: branch.start,
+        kind: queued.kind,
+        level: queued.level,
+        from: queued.from,
+        weight: queued.weight,
+        ray: queued.ray,
+        start: queued.start,
         to,
     }
 }
 
-/// Of length 1 again: in a mirror ball, what is missing or too much would grow 18 times with each reflection.
+/// Normalised again: in a mirror ball an error of length would grow 18 times with each reflection.
 fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     (direction - normal * (2.0 * direction.dot(normal))).normalize()
 }
 
-/// Snell's law, between the place's solid and what is around it; nothing under total internal reflection.
-fn refract(direction: DVec3, place: &ShadingPoint<'_>) -> Option<DVec3> {
-    let (inside, outside) = (place.finish.ior, place.around.map_or(1.0, |medium| medium.ior));
-    let ratio = if place.enters { outside / inside } else { inside / outside };
-    let cosine = -direction.dot(place.normal);
+/// Snell's law at the boundary between the solid and its surrounding; nothing under total internal reflection.
+fn refract(direction: DVec3, point: &ShadingPoint<'_>) -> Option<DVec3> {
+    let (inside, outside) = (point.shading.ior, point.surrounding.map_or(1.0, |medium| medium.ior));
+    let ratio = if point.enters { outside / inside } else { inside / outside };
+    let cosine = -direction.dot(point.normal);
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-    (squared >= 0.0).then(|| (direction * ratio + place.normal * (ratio * cosine - squared.sqrt())).normalize())
+    (squared >= 0.0).then(|| (direction * ratio + point.normal * (ratio * cosine - squared.sqrt())).normalize())
 }

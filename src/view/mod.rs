@@ -1,22 +1,48 @@
 //! Pure functions from records to what is drawn: no egui, no driver, no clock.
 //!
+//! The modules in the order of their layers: a module imports only from lower layers (`tests/tidy` checks this).
+//!
 //! [`RunState`] is a fold over records; everything else looks at it at some time of the run's own clock, so a live
 //! run and a loaded one are shown by the same code, forwards and backwards.
 
-mod analysis;
-mod charts;
-mod draw;
-mod inspect;
-mod narration;
-mod picture;
-mod playback;
-mod print;
-mod ring;
+// Layer 0: folds over records.
 mod state;
+
+// Layer 1: display lists and polylines.
+mod draw;
+
+// Layer 2: numbers, names and tooltips.
+mod text;
+
+// Layer 3: the time budget of a run, its summary, two runs compared.
+mod analysis;
+
+// Layer 4: charts of measurements.
+mod charts;
+
+// Layer 5: the picture's pixels and overlays.
+mod picture;
+
+// Layer 6: events and the present status in sentences.
+mod narration;
+
+// Layer 7: the ring as a display list.
+mod ring;
+
+// Layer 8: lanes of machines over time.
+mod timeline;
+
+// Layer 9: the shown time and its state.
+mod playback;
+
+// Layer 10: the rays and terms of one pixel.
+mod inspect;
+
+// Layer 11: drawings on paper.
+mod print;
+
 #[cfg(test)]
 mod tests;
-mod text;
-mod timeline;
 
 pub use analysis::compare_runs::{NamedBudget, contrast};
 pub use analysis::summary::{Summary, figures, parts_words, result_words};

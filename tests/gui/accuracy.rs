@@ -1,4 +1,4 @@
-//! Speed against accuracy: what is measured, looked at and chosen.
+//! The page of speed and accuracy: measuring, looking at pictures and choosing a quality.
 
 use anel::picture::Quality;
 use anel::study::accuracy::combinations;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::driving::*;
 
-/// A window with a scene that is soon measured, in a small picture whose run goes on for long.
+/// A window with a scene that is quickly measured, in a small picture.
 fn open_small(directory: &TempDir) -> Window {
     let path = directory.path().join("ball.ron");
     let scene = "Scene(camera: (eye: (0, 0, 5), look_at: (0, 0, 0)), lights: [Point(position: (3, 5, 5))], \
@@ -21,7 +21,7 @@ fn open_small(directory: &TempDir) -> Window {
         type_number(&mut window, side, pixels);
     }
     let is_small = |window: &Window| session(window).loading().is_none() && session(window).header().size.width() == 24;
-    until(&mut window, "a small picture", is_small);
+    until(&mut window, "small picture", is_small);
     press(&mut window, "Set up");
     window
 }
@@ -34,7 +34,7 @@ fn quality(window: &Window) -> Quality {
     session(window).settings().quality
 }
 
-/// The qualities that are measured; what is set is one of them.
+/// The number of qualities that are measured, the current one among them.
 fn all() -> usize {
     combinations().len()
 }
@@ -44,19 +44,19 @@ fn is_measured(window: &Window) -> bool {
 }
 
 #[test]
-fn the_page_measures_the_scene_while_the_run_stands_still() {
+fn page_measures_the_scene_while_the_run_is_paused() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open_small(&directory);
     key(&mut window, Key::A);
     assert!(session(&window).stage().paused);
-    until(&mut window, "a point", |window| points(window) > 0);
+    until(&mut window, "point", |window| points(window) > 0);
     window.get_by_role_and_label(Role::Button, "Point 1");
     window.get_by_label("What this scene needs");
     window.get_by_label("Made of: 1 ball and 1 half-space");
     until(&mut window, "all points", is_measured);
     assert!(!session(&window).stage().paused);
     window.get_by_role_and_label(Role::Button, &format!("Point {}", all()));
-    // What is known is not measured again.
+    // A measured scene is not measured again.
     key(&mut window, Key::Escape);
     assert!(window.query_by_label("Point 1").is_none());
     press(&mut window, "Accuracy");
@@ -64,7 +64,7 @@ fn the_page_measures_the_scene_while_the_run_stands_still() {
 }
 
 #[test]
-fn a_point_shows_its_picture_beside_the_reference_and_how_far_it_is_from_it() {
+fn point_shows_its_picture_beside_the_reference_and_their_difference() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open_small(&directory);
     press(&mut window, "Accuracy");
@@ -88,13 +88,13 @@ fn a_point_shows_its_picture_beside_the_reference_and_how_far_it_is_from_it() {
 }
 
 #[test]
-fn what_is_chosen_by_a_limit_can_be_set_and_undone() {
+fn quality_chosen_by_a_limit_can_be_set_and_undone() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open_small(&directory);
     let before = quality(&window);
     press(&mut window, "Accuracy");
     until(&mut window, "all points", is_measured);
-    // The least error wants the best quality, and the shortest time a fast one.
+    // The smallest error requires the best quality, and the shortest time a fast one.
     drag(&mut window, "Largest error", 0.0);
     press(&mut window, "Take these settings");
     let best = quality(&window);
@@ -111,8 +111,8 @@ fn what_is_chosen_by_a_limit_can_be_set_and_undone() {
 }
 
 #[test]
-fn whoever_closes_the_page_gives_the_measurement_up() {
-    // This scene takes longer.
+fn closing_the_page_cancels_the_measurement() {
+    // The demonstration takes longer to measure.
     let mut window = open(SIZE);
     key(&mut window, Key::A);
     let said = window.get_by_label("Chart of time and error").value();
@@ -121,26 +121,26 @@ fn whoever_closes_the_page_gives_the_measurement_up() {
     press(&mut window, "Close accuracy");
     assert!(!session(&window).stage().paused && points(&window) == 0);
     let traced = done(&window);
-    until(&mut window, "the run goes on", |window| done(window) > traced);
+    until(&mut window, "progress of the run", |window| done(window) > traced);
     until(&mut window, "the end of the measurement", |window| session(window).measurements() == 0);
     assert_eq!(points(&window), 0);
 }
 
 #[test]
-fn another_scene_is_measured_anew() {
+fn changed_scene_is_measured_again() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open_small(&directory);
     key(&mut window, Key::A);
     until(&mut window, "points", |window| points(window) > 3);
-    // Read again, it is another scene.
+    // A scene that is read again counts as another one.
     key(&mut window, Key::F5);
-    until(&mut window, "nothing yet", |window| points(window) < 3);
+    until(&mut window, "new measurement", |window| points(window) < 3);
     until(&mut window, "all points", is_measured);
     assert!(!session(&window).stage().paused);
 }
 
 #[test]
-fn everything_has_its_place_in_a_small_window_too() {
+fn page_fits_into_small_windows() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open_small(&directory);
     key(&mut window, Key::A);

@@ -1,4 +1,4 @@
-//! Runs beside each other: what is compared, forked and told.
+//! The page of compared runs: comparing, forking, explaining and saving.
 
 use std::time::Duration;
 
@@ -23,7 +23,7 @@ fn makespan(runs: &Runs, name: &str) -> Duration {
     run.and_then(|(_, makespan)| *makespan).unwrap_or_else(|| panic!("{name} of {runs:?}"))
 }
 
-/// What is written on widgets of this role.
+/// The texts of the widgets with this role.
 fn texts(window: &Window, role: Role) -> Vec<String> {
     let of = |node: egui_kittest::Node<'_>| {
         let node = node.accesskit_node();
@@ -32,12 +32,12 @@ fn texts(window: &Window, role: Role) -> Vec<String> {
     window.query_all_by_role(role).map(of).collect()
 }
 
-/// The clocks.
+/// The texts of the clocks.
 fn times(window: &Window) -> Vec<String> {
     texts(window, Role::Label).into_iter().filter(|text| text.ends_with(" s")).collect()
 }
 
-/// The demonstration, compared.
+/// A window with the demonstration, compared.
 fn open_comparison() -> Window {
     let mut window = open(SIZE);
     key(&mut window, Key::K);
@@ -47,7 +47,7 @@ fn open_comparison() -> Window {
 }
 
 #[test]
-fn bands_farm_and_ring_are_compared_while_the_run_stands_still() {
+fn bands_farm_and_ring_are_compared_while_the_run_is_paused() {
     let mut window = open_comparison();
     assert!(session(&window).stage().paused);
     let known = runs(&window);
@@ -55,20 +55,20 @@ fn bands_farm_and_ring_are_compared_while_the_run_stands_still() {
     assert!(bands > 3 * ring && farm > ring, "{known:?}");
     window.get_by_label("A and C: why they differ");
     let told = texts(&window, Role::Label).into_iter().find(|text| text.contains("as long as"));
-    let told = told.expect("why they differ");
+    let told = told.expect("an explanation of the difference");
     assert!(told.starts_with("Equal bands takes ") && told.contains("machine 8, which is slow (10 %)"), "{told}");
     key(&mut window, Key::Escape);
     assert!(!session(&window).stage().paused);
-    // What is known is not run again.
+    // Finished runs are not executed again.
     key(&mut window, Key::K);
     assert_eq!(names(&window).len(), 3);
 }
 
 #[test]
-fn a_run_is_forked_with_one_thing_changed_and_taken_away() {
+fn run_is_forked_with_one_change_and_removed() {
     let mut window = open_comparison();
     press(&mut window, "The same as C with one thing changed");
-    // What is so already is there, and cannot be chosen.
+    // The present values are listed, but cannot be chosen.
     window.get_by_role_and_label(Role::Label, "8 machines, now");
     window.get_by_role_and_label(Role::Label, "8 at 10 %, now");
     press(&mut window, "8 at 5 %");
@@ -80,12 +80,12 @@ fn a_run_is_forked_with_one_thing_changed_and_taken_away() {
     assert_eq!(names(&window), ["Equal bands", "Ring", "Ring, 8 at 5 %"]);
     press(&mut window, "Add a run");
     press(&mut window, "Serial");
-    until(&mut window, "a fourth", |window| runs(window).len() == 4);
+    until(&mut window, "fourth run", |window| runs(window).len() == 4);
     assert_eq!(names(&window)[3], "Serial");
 }
 
 #[test]
-fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
+fn fork_starts_at_the_shown_time_and_a_run_without_end_says_so() {
     let mut window = open_comparison();
     // Somewhere in the middle of the ring.
     key(&mut window, Key::Home);
@@ -95,7 +95,7 @@ fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
     press(&mut window, "The same as A with one thing changed");
     let shown = times(&window);
     let later = texts(&window, Role::Button).into_iter().find(|label| label.starts_with("8 at 0 % from "));
-    press(&mut window, &later.expect("what is done later"));
+    press(&mut window, &later.expect("a change from the shown time on"));
     until(&mut window, "the fork", |window| runs(window).len() == 4);
     assert_eq!(times(&window), shown, "the shown time stays");
     let (name, makespan) = runs(&window).swap_remove(3);
@@ -105,7 +105,7 @@ fn a_fork_parts_at_the_shown_time_and_a_run_that_never_ends_says_so() {
 }
 
 #[test]
-fn every_tab_is_told_in_words() {
+fn every_tab_has_words() {
     let mut window = open_comparison();
     let tabs = |window: &Window| window.get_by_label("Efficiency").rect();
     let before = tabs(&window);
@@ -117,17 +117,17 @@ fn every_tab_is_told_in_words() {
     until(&mut window, "curves", |window| is_told(window, "Ring: 1: "));
     assert_eq!(tabs(&window), before, "nothing moves");
     assert!(is_told(&window, "Hollow dots: the article's") && !is_told(&window, "Letters: "));
-    // A fork lies on no curve, and one that never ends nowhere.
+    // A fork is a dot beside the curves; a run without end has no dot.
     press(&mut window, "The same as C with one thing changed");
     press(&mut window, "8 at 50 %");
-    until(&mut window, "a dot", |window| is_told(window, "\nD: 8: ") && is_told(window, "Letters: "));
+    until(&mut window, "dot", |window| is_told(window, "\nD: 8: ") && is_told(window, "Letters: "));
     press(&mut window, "The same as A with one thing changed");
     press(&mut window, "8 at 0 %");
-    until(&mut window, "a run without an end", |window| is_told(window, "E never ends"));
+    until(&mut window, "run without end", |window| is_told(window, "E never ends"));
 }
 
 #[test]
-fn what_is_compared_is_saved_as_a_table_and_as_bars() {
+fn compared_runs_are_saved_as_a_table_and_as_bars() {
     let mut window = open_comparison();
     let directory = tempfile::tempdir().expect("a directory");
     for (kind, name, begins) in [("table", "runs.csv", "run,strategy,machines,time_s"), ("bars", "runs.svg", "<svg")] {

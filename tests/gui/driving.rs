@@ -1,4 +1,4 @@
-//! What all these tests need.
+//! Helpers that open and drive a window.
 
 use std::path::Path;
 use std::time::Duration;
@@ -14,12 +14,12 @@ pub type Window = Harness<'static, App>;
 
 pub const SIZE: [f32; 2] = [1280.0, 800.0];
 
-/// Opens a window of this size with the demonstration and waits until its run goes on.
+/// Opens a window of this size with the demonstration and waits until its run has started.
 pub fn open(size: [f32; 2]) -> Window {
     open_with(size, "ten-objects")
 }
 
-/// Opens a window with a scene or a run file and waits until its run goes on.
+/// Opens a window with a scene or a run file and waits until its run has started.
 pub fn open_with(size: [f32; 2], argument: &str) -> Window {
     let launch = Launch { opening: Some(Opening::read(argument).expect("it can be read")), ..Launch::default() };
     let build = move |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, None, launch);
@@ -28,16 +28,23 @@ pub fn open_with(size: [f32; 2], argument: &str) -> Window {
     window
 }
 
-/// Lets the app go on until `come` is true; a run that hangs fails here instead of for ever.
-pub fn until(window: &mut Window, what: &str, come: impl Fn(&Window) -> bool) {
+/// Steps the app until `condition` is true.
+///
+/// # Panics
+/// If that takes longer than two minutes.
+pub fn until(window: &mut Window, what: &str, condition: impl Fn(&Window) -> bool) {
     for _ in 0..12_000 {
         window.step();
-        if come(window) {
+        if condition(window) {
             return;
         }
         std::thread::sleep(Duration::from_millis(10));
     }
-    panic!("{what} has not come; the notice says {:?}, set is {:?}", notice(window), session(window).settings());
+    panic!(
+        "timeout after two minutes: {what}; the notice is {:?}, the settings are {:?}",
+        notice(window),
+        session(window).settings()
+    );
 }
 
 pub fn session(window: &Window) -> &Session {
@@ -49,12 +56,12 @@ pub fn now(window: &Window) -> u64 {
     session(window).now().0
 }
 
-/// How many atoms have been traced.
+/// The number of traced atoms.
 pub fn done(window: &Window) -> u32 {
     session(window).stage().state().done()
 }
 
-/// What the records say, as far as `of` cares.
+/// The values that `of` finds in the records.
 pub fn recorded<T>(window: &Window, of: impl Fn(&RecordKind) -> Option<T>) -> Vec<T> {
     session(window).stage().log.records().iter().filter_map(|record| of(&record.what)).collect()
 }
@@ -63,20 +70,20 @@ pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {
     recorded(window, |what| if let RecordKind::SpeedSet { node, speed } = what { Some((*node, *speed)) } else { None })
 }
 
-/// What the notice below the top bar says.
+/// The text of the notice below the top bar.
 pub fn notice(window: &Window) -> String {
     session(window).notice().map(|notice| notice.text.clone()).unwrap_or_default()
 }
 
-/// Presses the button of this name.
+/// Presses the button with this name.
 pub fn press(window: &mut Window, name: &str) {
-    // What floats has its place only in its second frame.
+    // A floating area has its position only from its second frame on.
     window.run_steps(2);
     window.get_by_role_and_label(Role::Button, name).click();
     window.run_steps(3);
 }
 
-/// Chooses from the list of this name.
+/// Chooses an entry of the list with this name.
 pub fn choose(window: &mut Window, list: &str, name: &str) {
     window.run_steps(2);
     window.get_by_role_and_label(Role::ComboBox, list).click();
@@ -96,7 +103,7 @@ pub fn ctrl(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
-/// Types an exact value and Enter.
+/// Types a number into the field with this name, and Enter.
 pub fn type_number(window: &mut Window, name: &str, text: &str) {
     window.get_by_role_and_label(Role::SpinButton, name).click();
     window.run_steps(3);
@@ -118,7 +125,7 @@ pub fn type_path(window: &mut Window, field: &str, path: &Path) {
     assert_eq!(window.get_by_label(field).value().as_deref(), Some(path));
 }
 
-/// Drags the slider of this name to a share of its width, and lets go.
+/// Drags the slider with this name to a fraction of its width, and releases it.
 pub fn drag(window: &mut Window, name: &str, to: f32) {
     let rect = window.get_by_role_and_label(Role::Slider, name).rect();
     let radius = rect.height() / 2.5;
@@ -129,7 +136,7 @@ pub fn drag(window: &mut Window, name: &str, to: f32) {
     window.run_steps(3);
 }
 
-/// How long until the window would draw itself anew.
-pub fn rests(window: &Window) -> Duration {
+/// The time until the next repaint.
+pub fn repaint_delay(window: &Window) -> Duration {
     window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
 }

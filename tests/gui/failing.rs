@@ -1,4 +1,4 @@
-//! Machines that fail, and are well again: by the menu of a row, of the ring, and by keys; and spare ones that join.
+//! Machines that fail and recover, by the menus of rows and of the ring and by keys, and spare machines that join.
 
 use anel::balance::{Condition, Remedy, Strategy};
 use anel::language::Language;
@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-/// A window in which a ring that adapts runs in virtual time.
+/// A window with an adaptive ring in virtual time.
 fn open_adaptive() -> Window {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
@@ -27,7 +27,7 @@ fn conditions(window: &Window) -> Vec<(u16, Condition)> {
     })
 }
 
-/// Presses the right button at a point.
+/// Clicks the right mouse button at a point.
 fn press_right(window: &mut Window, at: egui::Pos2) {
     window.hover_at(at);
     window.step();
@@ -38,43 +38,43 @@ fn press_right(window: &mut Window, at: egui::Pos2) {
     }
 }
 
-fn is_seen(window: &Window, words: &str) -> bool {
+fn is_narrated(window: &Window, words: &str) -> bool {
     let language = session(window).language();
     session(window).stage().narrator().events().any(|(_, event)| event.sentence(language).contains(words))
 }
 
 #[test]
-fn a_machine_is_switched_off_and_on_by_its_rows_menu() {
+fn machine_is_switched_off_and_on_by_the_menu_of_its_row() {
     let mut window = open_adaptive();
     window.get_by_label("Node 3").click_secondary();
     press(&mut window, "Switch off");
     until(&mut window, "a loss", |window| conditions(window) == [(2, Condition::Off)]);
     let state = session(&window).stage().state();
     assert_eq!((state.nodes()[2].condition, state.nodes()[2].left()), (Condition::Off, 0));
-    until(&mut window, "the ring to notice", |window| is_seen(window, "the ring closes round it"));
-    assert!(is_seen(&window, "Machine 3 is switched off with "));
+    until(&mut window, "the ring to notice", |window| is_narrated(window, "the ring closes round it"));
+    assert!(is_narrated(&window, "Machine 3 is switched off with "));
     window.get_by_label("What node 3 does: off").click();
     press(&mut window, "Switch on again");
-    until(&mut window, "its return", |window| is_seen(window, "the ring opens for it"));
+    until(&mut window, "its return", |window| is_narrated(window, "the ring opens for it"));
     let before = session(&window).stage().state().nodes()[2].done;
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[2].done > before);
 }
 
 #[test]
-fn an_empty_seat_is_taken() {
+fn spare_machine_joins() {
     let mut window = open_adaptive();
     assert_eq!((session(&window).header().spares, session(&window).header().speeds.len()), (1, 9));
     assert!(session(&window).is_spare(8));
     window.get_by_label("Node 9").click_secondary();
     press(&mut window, "Let it join");
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[8].done > 0);
-    assert!(is_seen(&window, "Machine 9 joins"));
+    assert!(is_narrated(&window, "Machine 9 joins"));
     drag(&mut window, "Speed of node 9", 0.5);
     assert_eq!(session(&window).speed(8), 0.5);
 }
 
 #[test]
-fn the_ring_view_has_the_same_menu() {
+fn ring_has_the_same_menu() {
     let mut window = open_adaptive();
     let ring = window.get_by_label("The ring").rect();
     let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
@@ -84,7 +84,7 @@ fn the_ring_view_has_the_same_menu() {
 }
 
 #[test]
-fn keys_make_the_selected_machine_fail_and_well_again() {
+fn keys_make_the_selected_machine_fail_and_recover() {
     let mut window = open_adaptive();
     key(&mut window, Key::Num2);
     for (pressed, condition) in [(Key::H, Condition::Hung), (Key::U, Condition::CutOff), (Key::X, Condition::Off)] {
@@ -98,7 +98,7 @@ fn keys_make_the_selected_machine_fail_and_well_again() {
 }
 
 #[test]
-fn other_rings_can_be_broken_too_and_say_that_they_hang() {
+fn ring_without_remedies_says_that_it_hangs() {
     let language = Language::English;
     let mut window = open(SIZE);
     press(&mut window, "Set up");
@@ -118,7 +118,7 @@ fn other_rings_can_be_broken_too_and_say_that_they_hang() {
 }
 
 #[test]
-fn a_message_is_held_up_by_its_menu() {
+fn message_is_delayed_by_its_menu() {
     let language = Language::English;
     let mut window = open_adaptive();
     let ring = window.get_by_label("The ring").rect();
@@ -132,7 +132,7 @@ fn a_message_is_held_up_by_its_menu() {
     };
     until(&mut window, "a message", |window| message(window).is_some());
     key(&mut window, Key::Space);
-    let ([x, y], from, to) = message(&window).expect("time stands still");
+    let ([x, y], from, to) = message(&window).expect("the message at the paused time");
     let at = ring.min + egui::vec2(x, y);
     press_right(&mut window, at);
     press(&mut window, "Hold it up for 5 s");
@@ -144,11 +144,11 @@ fn a_message_is_held_up_by_its_menu() {
         })
     };
     until(&mut window, "a delay", |window| held(window) == [(from, to)]);
-    until(&mut window, "word of it", |window| is_seen(window, " are held up for 5.0 s"));
+    until(&mut window, "event of the delay", |window| is_narrated(window, " are held up for 5.0 s"));
 }
 
 #[test]
-fn a_remedy_is_left_out() {
+fn remedy_is_switched_off() {
     let mut window = open_adaptive();
     press(&mut window, "Set up");
     press(&mut window, "Remedies: all remedies");

@@ -1,4 +1,4 @@
-//! Opening scenes and recorded runs, and files that change, vanish, or are no scenes at all.
+//! Opening scenes and recorded runs, and files that change, disappear, or are not scenes.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use super::driving::*;
 
 const FIELD: &str = "What to open";
 
-/// A scene of one ball in a file of its own.
+/// Writes a scene of one ball to a file.
 fn ball(directory: &TempDir, name: &str) -> PathBuf {
     let path = directory.path().join(name);
     std::fs::write(&path, scene("radius: 1")).expect("a file");
@@ -33,10 +33,10 @@ fn shows(window: &Window, scene: &str) -> bool {
 }
 
 #[test]
-fn a_scene_is_opened_from_the_gallery() {
+fn scene_is_opened_from_the_gallery() {
     let mut window = open(SIZE);
     press(&mut window, "Scenes");
-    // The tiles are there before their pictures.
+    // The tiles appear before their pictures.
     for name in ["ten-objects", "csg-primer", "glass", "machine-part", "corner", "rings"] {
         window.get_by_label(&format!("Open {name}"));
     }
@@ -47,7 +47,7 @@ fn a_scene_is_opened_from_the_gallery() {
 }
 
 #[test]
-fn a_scene_is_opened_by_its_path_and_remembered() {
+fn scene_is_opened_by_its_path_and_remembered() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = ball(&directory, "ball.ron");
     let mut window = open(SIZE);
@@ -60,14 +60,14 @@ fn a_scene_is_opened_by_its_path_and_remembered() {
 }
 
 #[test]
-fn a_bad_scene_says_where_and_leaves_what_is_open() {
+fn bad_scene_names_the_place_and_does_not_replace_the_open_one() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("bad.ron");
     std::fs::write(&path, format!("\n\n{}", scene("radius: -1"))).expect("a file");
     let mut window = open(SIZE);
     until(&mut window, "many atoms", |window| done(window) > 100);
     open_path(&mut window, &path);
-    until(&mut window, "a sentence", |window| notice(window).contains("bad.ron"));
+    until(&mut window, "notice", |window| notice(window).contains("bad.ron"));
     let said = notice(&window);
     assert!(said.contains("line 3, column") && said.contains("radius"), "{said}");
     assert!(shows(&window, "ten-objects") && done(&window) > 100);
@@ -76,14 +76,14 @@ fn a_bad_scene_says_where_and_leaves_what_is_open() {
 }
 
 #[test]
-fn what_is_no_scene_is_said_in_a_sentence() {
+fn path_that_is_not_a_scene_is_refused_in_a_sentence() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
     let cases =
         [(directory.path().join("nothing.ron"), "no such file"), (directory.path().to_owned(), "is a directory")];
     for (path, why) in cases {
         open_path(&mut window, &path);
-        until(&mut window, "a sentence", |window| {
+        until(&mut window, "notice", |window| {
             notice(window).contains(why) || window.query_by_label_contains(why).is_some()
         });
         key(&mut window, Key::Escape);
@@ -110,39 +110,39 @@ fn drop_on(window: &mut Window, path: &Path) {
 }
 
 #[test]
-fn a_dropped_scene_is_opened_and_a_dropped_folder_is_not() {
+fn dropped_scene_is_opened_and_a_dropped_folder_is_refused() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = ball(&directory, "ball.ron");
     let mut window = open(SIZE);
     drop_on(&mut window, &path);
     until(&mut window, "the scene", |window| shows(window, "ball"));
     drop_on(&mut window, directory.path());
-    until(&mut window, "a sentence", |window| notice(window).contains("directory, not a scene"));
+    until(&mut window, "notice", |window| notice(window).contains("directory, not a scene"));
     assert!(shows(&window, "ball"));
 }
 
 #[test]
-fn a_file_that_changes_is_offered_for_reload_and_one_that_vanishes_is_missed() {
+fn changed_file_is_offered_for_reload_and_a_removed_one_is_reported() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = ball(&directory, "ball.ron");
     let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
-    // The watch must have seen the file as it was.
+    // The watch must have read the first version of the file.
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::write(&path, scene("radius: 0.25")).expect("a file");
-    until(&mut window, "an offer", |window| notice(window) == "ball.ron has changed on the disk");
+    until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on the disk");
     press(&mut window, "Reload");
     until(&mut window, "the new text", |window| session(window).header().scene_text.contains("0.25"));
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::remove_file(&path).expect("a file");
-    until(&mut window, "a sentence", |window| notice(window).contains("ball.ron is gone"));
+    until(&mut window, "notice", |window| notice(window).contains("ball.ron is gone"));
     key(&mut window, Key::F5);
-    until(&mut window, "a sentence", |window| notice(window).contains("no such file"));
+    until(&mut window, "notice", |window| notice(window).contains("no such file"));
     key(&mut window, Key::R);
-    until(&mut window, "atoms of what is open", |window| done(window) > 20);
+    until(&mut window, "atoms of the open scene", |window| done(window) > 20);
 }
 
 #[test]
-fn a_recorded_run_is_played_again_and_made_live() {
+fn recorded_run_is_replayed_and_made_live() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let mut window = open(SIZE);
@@ -161,8 +161,8 @@ fn a_recorded_run_is_played_again_and_made_live() {
     });
     let stage = session(&window).stage();
     assert_eq!(stage.log, live);
-    assert!(stage.frame.to_srgb8() == picture, "another picture");
-    // Nothing can be changed about what has been.
+    assert!(stage.frame.to_srgb8() == picture, "the picture differs");
+    // A recorded run cannot be changed.
     drag(&mut window, "Speed of node 1", 0.2);
     assert_eq!(session(&window).speed(0), 1.0);
     key(&mut window, Key::R);

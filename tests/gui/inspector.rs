@@ -1,4 +1,4 @@
-//! A pixel is inspected: a click shows what is known of it, arrows go on, rays are chosen, Esc closes.
+//! The inspector: a click chooses a pixel, arrows move to its neighbours, rays are chosen, Esc closes.
 
 use anel::language::Language;
 use anel::view::Inspected;
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::driving::*;
 
-/// Clicks on the picture, at parts of its width and height.
+/// Clicks on the picture, at fractions of its width and height.
 fn click(window: &mut Window, [x, y]: [f32; 2]) {
     let rect = window.get_by_label("Picture").rect();
     click_at(window, rect.lerp_inside(egui::vec2(x, y)));
@@ -19,11 +19,11 @@ fn click_at(window: &mut Window, at: Pos2) {
     window.step();
     window.drop_at(at);
     window.run_steps(2);
-    known(window);
+    wait_for_pixel(window);
 }
 
-/// Waits until what was asked for is known.
-fn known(window: &mut Window) {
+/// Waits until the pixel is traced and shown.
+fn wait_for_pixel(window: &mut Window) {
     until(window, "the pixel", |window| !session(window).is_looking());
     window.run_steps(2);
 }
@@ -32,12 +32,12 @@ fn inspected(window: &Window) -> &Inspected {
     session(window).inspected().expect("a pixel is inspected")
 }
 
-fn said(window: &Window, name: &str) -> String {
+fn value(window: &Window, name: &str) -> String {
     window.get_by_label(name).value().unwrap_or_default()
 }
 
 #[test]
-fn a_click_shows_the_pixel_arrows_go_on_and_esc_closes() {
+fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     let language = Language::English;
     let mut window = open(SIZE);
     assert!(window.query_by_label("The ring").is_some());
@@ -45,12 +45,12 @@ fn a_click_shows_the_pixel_arrows_go_on_and_esc_closes() {
     let size = session(&window).header().size;
     let [x, y] = session(&window).inspected_place().expect("a pixel is inspected");
     assert!(x.abs_diff(size.width() / 2) <= 1 && y.abs_diff(size.height() / 2) <= 1, "{x} {y}");
-    assert!(window.query_by_label("The ring").is_none(), "it is in the ring's place");
+    assert!(window.query_by_label("The ring").is_none(), "the inspector replaces the ring");
     assert!(window.query_by_label(&format!("Pixel {x}, {y}")).is_some());
     let rays = inspected(&window).sentences(language).swap_remove(0);
     assert!(rays.starts_with("This pixel took "));
     assert!(window.query_by_label(&rays).is_some(), "{rays}");
-    assert_eq!(said(&window, "Terms of the equation"), inspected(&window).term_words(language));
+    assert_eq!(value(&window, "Terms of the equation"), inspected(&window).term_words(language));
 
     for (arrow, place) in [
         (Key::ArrowRight, [x + 1, y]),
@@ -59,47 +59,47 @@ fn a_click_shows_the_pixel_arrows_go_on_and_esc_closes() {
         (Key::ArrowUp, [x, y]),
     ] {
         key(&mut window, arrow);
-        known(&mut window);
+        wait_for_pixel(&mut window);
         assert_eq!((session(&window).inspected_place(), inspected(&window).place), (Some(place), place));
         assert!(window.query_by_label(&format!("Pixel {}, {}", place[0], place[1])).is_some());
     }
     key(&mut window, Key::Escape);
     assert!(session(&window).inspected_place().is_none() && window.query_by_label("The ring").is_some());
     key(&mut window, Key::ArrowRight);
-    assert!(session(&window).inspected_place().is_none(), "nobody inspects");
+    assert!(session(&window).inspected_place().is_none(), "arrows do not open the inspector");
 }
 
 #[test]
-fn arrows_end_at_the_edge_of_the_picture_and_the_button_closes() {
+fn arrows_stop_at_the_edge_of_the_picture_and_the_button_closes() {
     let mut window = open(SIZE);
     click(&mut window, [0.0005, 0.0005]);
     assert_eq!(session(&window).inspected_place(), Some([0, 0]));
     key(&mut window, Key::ArrowLeft);
     key(&mut window, Key::ArrowUp);
-    known(&mut window);
+    wait_for_pixel(&mut window);
     assert_eq!(inspected(&window).place, [0, 0]);
     press(&mut window, "Close inspector");
     assert!(session(&window).inspected().is_none());
 }
 
 #[test]
-fn a_chosen_ray_has_other_terms_and_all_can_be_copied() {
+fn chosen_ray_has_its_own_terms_and_the_text_can_be_copied() {
     let language = Language::English;
     let mut window = open_with(SIZE, "glass");
-    // Where the picture shows glass, a tree has several rays.
+    // A pixel of glass has several rays.
     let places = [[0.5, 0.5], [0.4, 0.6], [0.6, 0.6], [0.3, 0.5], [0.7, 0.5], [0.5, 0.7]];
     let found = places.into_iter().any(|place| {
         click(&mut window, place);
         inspected(&window).sample().rays.len() > 2
     });
     assert!(found, "no pixel has several rays");
-    let (before, spans) = (said(&window, "Terms of the equation"), said(&window, "Spans along the ray"));
+    let (before, spans) = (value(&window, "Terms of the equation"), value(&window, "Spans along the ray"));
     let rays = inspected(&window).ray_tree(400.0, language).spots;
     let other = rays.iter().find(|spot| spot.ray == 2).expect("a third ray");
     press(&mut window, &other.name);
-    known(&mut window);
+    wait_for_pixel(&mut window);
     assert_eq!(inspected(&window).chosen.ray, 2);
-    assert_ne!((said(&window, "Terms of the equation"), said(&window, "Spans along the ray")), (before, spans));
+    assert_ne!((value(&window, "Terms of the equation"), value(&window, "Spans along the ray")), (before, spans));
     window.get_by_label("Copy as text").click();
     window.step();
     let copied = window.output().platform_output.commands.iter().find_map(|command| match command {
@@ -110,7 +110,7 @@ fn a_chosen_ray_has_other_terms_and_all_can_be_copied() {
 }
 
 #[test]
-fn a_recorded_run_is_inspected_too_and_a_drag_inspects_nothing() {
+fn recorded_run_can_be_inspected_and_a_drag_inspects_nothing() {
     let language = Language::English;
     let directory = TempDir::new().expect("a temporary directory");
     let path = directory.path().join("run.anel");
@@ -125,12 +125,12 @@ fn a_recorded_run_is_inspected_too_and_a_drag_inspects_nothing() {
     window.step();
     window.drop_at(rect.center() + egui::vec2(60.0, 0.0));
     window.run_steps(2);
-    assert!(session(&window).inspected_place().is_none(), "what is dragged is no click");
+    assert!(session(&window).inspected_place().is_none(), "a drag is not a click");
     click(&mut window, [0.3, 0.7]);
     assert!(window.query_by_label("Tree of rays").is_some());
-    // From the beginning, and with the same pixel.
+    // A restart keeps the pixel.
     let before = inspected(&window).text(language);
     key(&mut window, Key::R);
-    known(&mut window);
+    wait_for_pixel(&mut window);
     assert_eq!(inspected(&window).text(language), before);
 }

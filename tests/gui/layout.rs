@@ -1,4 +1,4 @@
-//! Nothing is cut off, whatever the size of the window, and whatever is open.
+//! Nothing is cut off in windows of any size, with and without the panels.
 
 use egui::{Key, Pos2, Rect};
 use egui_kittest::kittest::Queryable;
@@ -9,18 +9,18 @@ fn rect(window: &Window, name: &str) -> Rect {
     window.get_by_label(name).rect()
 }
 
-/// The window, with a point to spare.
+/// The area of the window, with a margin of one point.
 fn whole(size: [f32; 2]) -> Rect {
     Rect::from_min_size(Pos2::ZERO, size.into()).expand(1.0)
 }
 
 #[test]
-fn every_size_shows_everything() {
+fn windows_of_every_size_show_all_widgets() {
     for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open(size);
         let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
         let time = ["Step back", "What a step is", "Step on", "Slower", "Faster", "The run's time", "Live", "Find"];
-        // Under a tiny picture there is room for the layer's name only.
+        // A small picture has space for the layer's name only.
         let layer = if size[0] < 1000.0 { "Who traced it" } else { "Render or layer" };
         let others = [layer, "Speed of node 1", "Pause node 1"];
         for pair in time.windows(2) {
@@ -44,7 +44,7 @@ fn every_size_shows_everything() {
 }
 
 #[test]
-fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
+fn smallest_window_shows_all_machines_and_the_save_row() {
     for size in [[1024.0, 640.0], [800.0, 500.0]] {
         let mut window = open(size);
         key(&mut window, Key::S);
@@ -59,7 +59,7 @@ fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
         let bar = rect(&window, "Who has traced how much");
         assert!(["Picture", "The ring"].iter().all(|name| rect(&window, name).bottom() <= bar.top()));
         assert!(rect(&window, "Picture").right() < rect(&window, "The ring").left());
-        // A low window has them in a list.
+        // A low window shows the kinds in a list.
         let kinds = if size[1] < 600.0 { ["What to save"; 2] } else { ["render", "Perfetto"] };
         for name in ["Save", "Browse…", "Close save"].into_iter().chain(kinds) {
             assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}");
@@ -76,7 +76,7 @@ fn the_smallest_window_has_room_for_all_machines_and_the_save_row() {
 }
 
 #[test]
-fn the_panel_of_settings_leaves_room_for_picture_and_ring() {
+fn settings_leave_space_for_picture_and_ring() {
     for size in [[1920.0, 1080.0], [1280.0, 800.0], [1024.0, 640.0]] {
         let mut window = open(size);
         key(&mut window, Key::E);

@@ -1,4 +1,4 @@
-//! Lessons: chosen, taken step by step, with questions to be answered before one sees.
+//! Lessons: choosing one, its steps, and its questions, which come before their answers are shown.
 
 use egui::Key;
 use egui::accesskit::Role;
@@ -10,7 +10,7 @@ fn step(window: &Window) -> Option<(String, usize)> {
     window.state().lesson().map(|(name, step)| (name.to_owned(), step))
 }
 
-/// The second lesson, at its first step.
+/// A window with the second lesson at its first step.
 fn bands() -> Window {
     let mut window = open(SIZE);
     key(&mut window, Key::N);
@@ -25,25 +25,25 @@ fn finished(window: &Window) -> bool {
 }
 
 #[test]
-fn a_lesson_is_taken_step_by_step_and_answers_come_before_what_is_seen() {
+fn question_of_a_step_is_answered_before_the_run_goes_on() {
     let mut window = bands();
     assert_eq!(step(&window), Some(("bands".into(), 0)));
     until(&mut window, "the first moment", |window| done(window) >= 6144 * 2 / 5);
-    assert!(!finished(&window), "time stands still there");
+    assert!(!finished(&window), "the run pauses at that moment");
     key(&mut window, Key::PageDown);
     assert_eq!(step(&window), Some(("bands".into(), 1)));
-    // Nothing goes on before the question is answered, and there is no way round it.
+    // Nothing moves before the question is answered, by no means of control.
     let before = done(&window);
     let stage = session(&window).stage();
-    assert!(stage.told_length() >= stage.lasted(), "what was seen is there");
-    assert!(2 * stage.told_length().0 < stage.length().0, "the end is not given away");
+    assert!(stage.told_length() >= stage.lasted(), "the past is shown");
+    assert!(2 * stage.told_length().0 < stage.length().0, "the end stays hidden");
     window.run_steps(20);
     key(&mut window, Key::PageDown);
     assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));
     press(&mut window, "Yes");
     window.get_by_label_contains("more than a quarter of the machines' time is lost");
     window.get_by_label_contains("Checked on these runs: efficiency: ");
-    // Whoever is in a hurry comes to the end of the step first.
+    // Page Down first jumps to the end of the step.
     key(&mut window, Key::PageDown);
     assert!(finished(&window) && step(&window) == Some(("bands".into(), 1)));
     key(&mut window, Key::PageDown);
@@ -51,19 +51,20 @@ fn a_lesson_is_taken_step_by_step_and_answers_come_before_what_is_seen() {
     assert_eq!(session(&window).header().speeds[7], 0.1, "another run");
     assert!(done(&window) == 0 && window.state().selected() == Some(7));
     key(&mut window, Key::PageUp);
-    // What was answered is answered, and time goes on from there.
+    // Answers are kept, and time continues from there.
     assert!(step(&window) == Some(("bands".into(), 1)) && done(&window) >= before && !finished(&window));
     press(&mut window, "Leave the lesson");
     assert_eq!(step(&window), None);
 }
 
 #[test]
-fn a_lesson_of_ones_own_is_opened_and_a_mistake_in_it_is_told() {
+fn own_lesson_is_opened_and_its_error_is_shown() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");
     let lesson = |until: &str| {
         format!(
-            "Lesson(title: \"Mine\", about: \"A\", runs: {{\"one\": (size: (40, 30))}}, steps: [(say: \"D\", until: {until})])"
+            "Lesson(title: \"Mine\", about: \"A\", runs: {{\"one\": (size: (40, 30))}}, \
+             steps: [(say: \"D\", until: {until})])"
         )
     };
     std::fs::write(&path, lesson("Noon")).expect("a file");
@@ -81,7 +82,7 @@ fn a_lesson_of_ones_own_is_opened_and_a_mistake_in_it_is_told() {
 }
 
 #[test]
-fn keys_alone_lead_through_a_lesson_and_back_to_ones_own_run() {
+fn keys_lead_through_a_lesson_and_back_to_the_own_run() {
     let mut window = open(SIZE);
     let own = session(&window).header().clone();
     key(&mut window, Key::N);
@@ -90,7 +91,7 @@ fn keys_alone_lead_through_a_lesson_and_back_to_ones_own_run() {
     assert_ne!(session(&window).header().speeds, own.speeds);
     key(&mut window, Key::PageDown);
     key(&mut window, Key::PageDown);
-    // Who looks for a button with Tab still goes on with Page Down; and nobody sees before he has answered.
+    // Page Down works also while Tab has the focus on a button. The answer comes before the result.
     let before = now(&window);
     key(&mut window, Key::Space);
     key(&mut window, Key::End);
@@ -103,12 +104,12 @@ fn keys_alone_lead_through_a_lesson_and_back_to_ones_own_run() {
     key(&mut window, Key::Num2);
     window.get_by_label_contains("more than a quarter of the machines' time is lost");
     press(&mut window, "Leave the lesson");
-    until(&mut window, "one's own run", |window| session(window).header().speeds == own.speeds);
+    until(&mut window, "own run", |window| session(window).header().speeds == own.speeds);
     assert!(!session(&window).is_recorded());
 }
 
 #[test]
-fn what_is_opened_during_a_lesson_stays_when_one_leaves_it() {
+fn scene_opened_during_a_lesson_stays_after_it() {
     let mut window = bands();
     key(&mut window, Key::O);
     press(&mut window, "Open csg-primer");
@@ -120,7 +121,7 @@ fn what_is_opened_during_a_lesson_stays_when_one_leaves_it() {
 }
 
 #[test]
-fn a_lesson_is_opened_like_a_scene() {
+fn lesson_is_opened_like_a_scene() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");
     let lesson = "// Mine.\n/* All of it. */\nLesson(title: \"Mine\", about: \"A\", \
@@ -136,13 +137,13 @@ fn a_lesson_is_opened_like_a_scene() {
 }
 
 #[test]
-fn for_a_projector_it_is_large_and_plain() {
+fn projector_mode_is_large_and_has_few_buttons() {
     let mut window = open(SIZE);
     let zoom = window.ctx.zoom_factor();
     key(&mut window, Key::F11);
     assert_eq!(window.ctx.zoom_factor(), 1.5 * zoom);
     assert!(window.query_by_role_and_label(Role::Button, "Restart").is_none());
-    // A clicker's keys.
+    // The keys of a presenter.
     key(&mut window, Key::PageDown);
     assert!(session(&window).stage().paused);
     key(&mut window, Key::Escape);

@@ -1,5 +1,5 @@
-//! The window without a window: drives the app by the accessible names of its widgets, and checks what comes of it in the
-//! state and the records of the run.
+//! The app of the window without a window: drives it by the accessible names of its widgets, and checks the state and
+//! the records of the run.
 
 mod accuracy;
 mod compare;

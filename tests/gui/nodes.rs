@@ -1,4 +1,4 @@
-//! One machine: its speed by slider, by value and by key, its pause, its selection, and undo.
+//! A machine: its speed by slider, number and key, its pause, its selection, and undo.
 
 use anel::record::RecordKind;
 use egui::Key;
@@ -7,7 +7,7 @@ use egui_kittest::kittest::Queryable;
 use super::driving::*;
 
 #[test]
-fn dragging_a_slider_changes_the_speed_before_it_is_let_go() {
+fn slider_changes_the_speed_while_it_is_dragged() {
     let mut window = open(SIZE);
     let slider = window.get_by_label("Speed of node 1").rect();
     window.drag_at(slider.right_center() - egui::vec2(8.0, 0.0));
@@ -23,17 +23,17 @@ fn dragging_a_slider_changes_the_speed_before_it_is_let_go() {
 }
 
 #[test]
-fn an_exact_speed_can_be_typed() {
+fn exact_speed_can_be_typed() {
     let mut window = open(SIZE);
     type_number(&mut window, "Exact speed of node 2", "37");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 0.37)));
-    // More than the reference machine there is not.
+    // No machine is faster than the reference machine.
     type_number(&mut window, "Exact speed of node 2", "370");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 1.0)));
 }
 
 #[test]
-fn a_speed_set_during_a_pause_counts_when_the_run_goes_on() {
+fn speed_set_during_a_pause_applies_after_it() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 5);
     key(&mut window, Key::Space);
@@ -44,7 +44,7 @@ fn a_speed_set_during_a_pause_counts_when_the_run_goes_on() {
 }
 
 #[test]
-fn a_machine_stands_still_and_goes_on() {
+fn machine_is_paused_and_resumed() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 5);
     let pauses = |window: &Window| {
@@ -58,7 +58,7 @@ fn a_machine_stands_still_and_goes_on() {
     until(&mut window, "a pause", |window| pauses(window) == [(1, true)]);
     let then = session(&window).stage().state().nodes()[1].done;
     assert!(session(&window).is_node_paused(1) && session(&window).stage().state().nodes()[1].paused);
-    until(&mut window, "others' atoms", |window| done(window) > 200);
+    until(&mut window, "atoms of other machines", |window| done(window) > 200);
     assert!(session(&window).stage().state().nodes()[1].done <= then + 1);
     press(&mut window, "Pause node 2");
     until(&mut window, "work", |window| pauses(window) == [(1, true), (1, false)]);
@@ -66,7 +66,7 @@ fn a_machine_stands_still_and_goes_on() {
 }
 
 #[test]
-fn a_machine_is_selected_and_changed_with_keys() {
+fn machine_is_selected_and_changed_with_keys() {
     let mut window = open(SIZE);
     key(&mut window, Key::Plus);
     assert!(notice(&window).contains("select a machine"), "{}", notice(&window));
@@ -88,14 +88,14 @@ fn a_machine_is_selected_and_changed_with_keys() {
     window.get_by_label("Node 3").click();
     window.run_steps(2);
     assert_eq!(window.state().selected(), Some(2));
-    // The notice goes first, then the selection.
+    // Esc closes the notice first, then the selection.
     key(&mut window, Key::Escape);
     key(&mut window, Key::Escape);
     assert_eq!(window.state().selected(), None);
 }
 
 #[test]
-fn a_click_on_the_ring_selects_a_machine() {
+fn click_on_the_ring_selects_a_machine() {
     let mut window = open(SIZE);
     let ring = window.get_by_label("The ring").rect();
     let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
@@ -109,7 +109,7 @@ fn a_click_on_the_ring_selects_a_machine() {
 }
 
 #[test]
-fn a_change_of_speed_is_undone_and_done_again() {
+fn change_of_speed_is_undone_and_redone() {
     let mut window = open(SIZE);
     drag(&mut window, "Speed of node 1", 0.3);
     drag(&mut window, "Speed of node 1", 0.6);

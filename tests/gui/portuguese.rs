@@ -1,4 +1,4 @@
-//! The window in Portuguese: nothing English is left on any page, and nothing is cut off.
+//! The window in Portuguese: no page has English words, and nothing is cut off.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::driving::*;
 
-/// English words that are no Portuguese ones, and stand in no name of a scene, a material, a file or a key.
+/// English words that are not Portuguese and not part of the names of scenes, materials, files or keys.
 const ENGLISH: [&str; 96] = [
     "the",
     "is",
@@ -111,7 +111,7 @@ const ENGLISH: [&str; 96] = [
     "lights",
 ];
 
-/// Whatever is written, or said to those who cannot see it.
+/// All labels, values and placeholders, also those for screen readers only.
 fn texts(window: &Window) -> BTreeSet<String> {
     let words = |node: egui_kittest::Node<'_>| {
         let node = node.accesskit_node();
@@ -123,7 +123,7 @@ fn texts(window: &Window) -> BTreeSet<String> {
 fn assert_portuguese(window: &Window, page: &str) {
     let mut wrong = BTreeSet::new();
     for text in texts(window) {
-        // The way back, and the article's own symbols.
+        // The button back to English, and the article's symbols.
         let lower = ["In English", "Ks Is", "Kt It"].iter().fold(text.clone(), |text, own| text.replace(own, ""));
         let lower = lower.to_lowercase();
         let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
@@ -137,7 +137,7 @@ fn assert_portuguese(window: &Window, page: &str) {
     assert!(wrong.is_empty(), "{page}: {wrong:#?}");
 }
 
-/// Points at each button and slider, and looks at what is said of it; returns of how many something was said.
+/// Checks the hint of each button, slider and field. Returns the number of hints.
 fn assert_hints(window: &mut Window, page: &str) -> usize {
     let of = |role| {
         let rects: Vec<Rect> = window.query_all_by_role(role).map(|node| node.rect()).collect();
@@ -171,7 +171,7 @@ fn shift_l(window: &mut Window) {
 }
 
 #[test]
-fn a_run_is_told_anew_when_the_language_changes() {
+fn change_of_language_translates_the_events_of_the_run() {
     let mut window = open(SIZE);
     until(&mut window, "many atoms", |window| done(window) > 600);
     key(&mut window, Key::Num3);
@@ -198,7 +198,7 @@ fn a_run_is_told_anew_when_the_language_changes() {
 fn every_page_is_portuguese() {
     let mut window = open_portuguese(SIZE);
     assert!(assert_hints(&mut window, "the run") > 1);
-    // What is found has no hints.
+    // The list of moments has no hints.
     key(&mut window, Key::F);
     window.run_steps(3);
     assert_portuguese(&window, "find");
@@ -223,7 +223,7 @@ fn every_page_is_portuguese() {
 }
 
 #[test]
-fn what_is_chosen_from_is_portuguese() {
+fn lists_and_changes_are_portuguese() {
     let mut window = open_portuguese(SIZE);
     key(&mut window, Key::E);
     for list in ["Estratégia", "Tamanhos usuais"] {
@@ -242,16 +242,16 @@ fn what_is_chosen_from_is_portuguese() {
     until(&mut window, "three machines", |window| session(window).header().speeds.len() == 3);
     assert_portuguese(&window, "a change");
     ctrl(&mut window, Key::Z);
-    assert_portuguese(&window, "a change that was taken back");
+    assert_portuguese(&window, "an undone change");
 }
 
 #[test]
-fn a_pixel_and_what_qualities_cost_are_portuguese() {
+fn inspector_and_accuracy_are_portuguese() {
     let mut window = open_portuguese(SIZE);
     let middle = window.get_by_label("Imagem").rect().center();
     window.hover_at(middle);
     window.run_steps(4);
-    assert_portuguese(&window, "what the pointer is on");
+    assert_portuguese(&window, "the hint of a pixel");
     window.drag_at(middle);
     window.step();
     window.drop_at(middle);
@@ -270,7 +270,7 @@ fn a_pixel_and_what_qualities_cost_are_portuguese() {
 }
 
 #[test]
-fn nothing_is_cut_off_in_windows_of_any_size() {
+fn nothing_is_cut_off_in_windows_of_every_size() {
     for size in [[1280.0, 800.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open_portuguese(size);
         let rect = |name: &str| window.get_by_label(name).rect();

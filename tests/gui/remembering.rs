@@ -1,4 +1,4 @@
-//! What is remembered from one window to the next.
+//! Settings and scenes that one window stores and the next one restores.
 
 use anel::gui::{App, Launch};
 use eframe::App as _;
@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-/// What a window has written down.
+/// The text that a window has stored.
 #[derive(Clone, Default)]
 struct Storage(Option<String>);
 
@@ -26,7 +26,7 @@ impl eframe::Storage for Storage {
     fn flush(&mut self) {}
 }
 
-/// A window without arguments.
+/// Opens a window without arguments that restores this storage.
 fn reopen(storage: &Storage) -> Window {
     let build = |creation: &mut eframe::CreationContext<'static>| {
         App::new(&creation.egui_ctx, Some(storage), Launch::default())
@@ -36,26 +36,26 @@ fn reopen(storage: &Storage) -> Window {
     window
 }
 
-fn write_down(window: &mut Window) -> Storage {
+fn store(window: &mut Window) -> Storage {
     let mut storage = Storage::default();
     window.state_mut().save(&mut storage);
     storage
 }
 
 #[test]
-fn a_first_window_opens_with_the_demonstration() {
+fn first_window_opens_with_the_demonstration() {
     let window = reopen(&Storage::default());
     assert_eq!(session(&window).header().scene, "ten-objects");
     assert_eq!(*session(&window).settings(), anel::gui::Settings::default());
 }
 
 #[test]
-fn settings_and_scene_are_remembered() {
+fn settings_and_scene_are_restored() {
     let mut window = open_with(SIZE, "csg-primer");
     key(&mut window, Key::E);
     type_number(&mut window, "Number of machines", "5");
     drag(&mut window, "Speed of node 2", 0.25);
-    let storage = write_down(&mut window);
+    let storage = store(&mut window);
     let again = reopen(&storage);
     assert_eq!(session(&again).header().scene, "csg-primer");
     assert_eq!(session(&again).settings(), session(&window).settings());
@@ -63,12 +63,12 @@ fn settings_and_scene_are_remembered() {
 }
 
 #[test]
-fn a_scene_that_is_gone_makes_way_for_the_demonstration() {
+fn removed_scene_is_replaced_by_the_demonstration() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");
     std::fs::write(&path, anel::scene::built_in("glass").expect("a built-in scene")).expect("a file");
     let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
-    let storage = write_down(&mut window);
+    let storage = store(&mut window);
     assert_eq!(session(&reopen(&storage)).header().scene, "mine");
     std::fs::remove_file(&path).expect("the file");
     let again = reopen(&storage);
@@ -77,7 +77,7 @@ fn a_scene_that_is_gone_makes_way_for_the_demonstration() {
 }
 
 #[test]
-fn what_an_earlier_version_wrote_down_is_read() {
+fn storage_of_an_earlier_version_is_read() {
     let written = "(settings: (size: (width: 320, height: 240), strategy: ring, part: 3, tempo: Lasts(7), latency: 9))";
     let window = reopen(&Storage(Some(written.into())));
     let settings = session(&window).settings();
@@ -86,21 +86,21 @@ fn what_an_earlier_version_wrote_down_is_read() {
 }
 
 #[test]
-fn how_atoms_are_shared_is_remembered() {
+fn strategy_and_driver_are_restored() {
     let mut window = open(SIZE);
     key(&mut window, Key::E);
     choose(&mut window, "Strategy", "Work stealing (rayon)");
-    let again = reopen(&write_down(&mut window));
+    let again = reopen(&store(&mut window));
     assert_eq!(session(&again).settings(), session(&window).settings());
     assert_ne!(*session(&again).settings(), anel::gui::Settings::default());
     choose(&mut window, "Strategy", "Estimated bands");
     press(&mut window, "Virtual");
-    let again = reopen(&write_down(&mut window));
+    let again = reopen(&store(&mut window));
     assert_eq!(session(&again).settings(), session(&window).settings());
 }
 
 #[test]
-fn what_cannot_be_read_or_is_impossible_is_forgotten() {
+fn damaged_storage_is_ignored() {
     for damaged in ["", "}{", "(settings: 7)", "(settings: (speeds: []))", "(settings: (speeds: [7.0], atom: 0))"] {
         let window = reopen(&Storage(Some(damaged.into())));
         assert_eq!(*session(&window).settings(), anel::gui::Settings::default(), "{damaged}");

@@ -1,4 +1,4 @@
-//! A run in the window: it starts at once, pauses, starts anew, and rests when nothing moves.
+//! A run in the window: it starts at once, pauses, restarts, and needs no repaint when nothing moves.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 use super::driving::*;
 
 #[test]
-fn a_run_starts_at_once() {
+fn run_starts_at_once() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 20);
     let speeds: Vec<_> = session(&window).stage().state().nodes().iter().map(|node| node.speed).collect();
@@ -23,7 +23,7 @@ fn pause_stops_the_clock_and_the_work() {
     press(&mut window, "Pause");
     assert!(session(&window).stage().paused);
     let paused_at = now(&window);
-    // What was under way when the clock stopped may still be told.
+    // Records from before the pause may still arrive.
     std::thread::sleep(Duration::from_millis(100));
     window.run_steps(2);
     let told = |window: &Window| (done(window), session(window).stage().log.records().len());
@@ -37,7 +37,7 @@ fn pause_stops_the_clock_and_the_work() {
 }
 
 #[test]
-fn restart_begins_anew_with_the_speeds_as_they_are() {
+fn restart_keeps_the_speeds() {
     let mut window = open(SIZE);
     drag(&mut window, "Speed of node 3", 0.0);
     until(&mut window, "speed 0", |window| session(window).stage().state().nodes()[2].speed == 0.0);
@@ -53,7 +53,7 @@ fn restart_begins_anew_with_the_speeds_as_they_are() {
 }
 
 #[test]
-fn a_finished_run_says_what_came_of_it_and_begins_anew() {
+fn finished_run_shows_its_result_and_can_be_replayed_or_restarted() {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
     press(&mut window, "All equal");
@@ -63,7 +63,7 @@ fn a_finished_run_says_what_came_of_it_and_begins_anew() {
     let outcome = session(&window).stage().result().expect("an outcome");
     let said = window.get_by_label("Result").value().unwrap_or_default();
     assert!(said.contains(&format!("efficiency {:.0} %", 100.0 * outcome.efficiency)), "{said}");
-    // There is nothing to pause any more: it is shown again from its beginning.
+    // A finished run cannot be paused: Space replays it from its beginning.
     for _ in 0..9 {
         key(&mut window, Key::Comma);
     }
@@ -75,23 +75,23 @@ fn a_finished_run_says_what_came_of_it_and_begins_anew() {
 }
 
 #[test]
-fn all_machines_at_rest_draw_little_and_a_pause_nothing() {
+fn stopped_machines_need_few_repaints_and_a_pause_none() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
-    assert!(rests(&window) <= Duration::from_millis(40));
+    assert!(repaint_delay(&window) <= Duration::from_millis(40));
     for node in 1..=8 {
         drag(&mut window, &format!("Speed of node {node}"), 0.0);
     }
-    until(&mut window, "rest", |window| rests(window) >= Duration::from_millis(200));
+    until(&mut window, "rest", |window| repaint_delay(window) >= Duration::from_millis(200));
     until(&mut window, "a sentence", |window| {
         window.query_by_label_contains("All machines are stopped (0 %)").is_some()
     });
     key(&mut window, Key::Space);
-    until(&mut window, "a window at rest", |window| rests(window) > Duration::from_secs(1));
+    until(&mut window, "a window at rest", |window| repaint_delay(window) > Duration::from_secs(1));
 }
 
 #[test]
-fn the_keys_are_listed_and_the_list_goes_away() {
+fn list_of_keys_opens_and_closes() {
     let mut window = open(SIZE);
     key(&mut window, Key::F1);
     window.get_by_label("What the keys do");
@@ -103,7 +103,7 @@ fn the_keys_are_listed_and_the_list_goes_away() {
 }
 
 #[test]
-fn dark_becomes_light() {
+fn theme_is_switched() {
     let mut window = open(SIZE);
     let before = window.ctx.theme();
     press(&mut window, "Dark or light");
@@ -113,7 +113,7 @@ fn dark_becomes_light() {
 }
 
 #[test]
-fn the_zoom_has_limits() {
+fn zoom_has_limits() {
     let mut window = open(SIZE);
     for (plus_or_minus, limit) in [(Key::Plus, 2.0), (Key::Minus, 0.6)] {
         for _ in 0..20 {

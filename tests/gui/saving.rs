@@ -11,8 +11,8 @@ use super::driving::*;
 
 const FIELD: &str = "Where to save";
 
-/// Chooses what to save.
-fn choose(window: &mut Window, kind: &str) {
+/// Chooses the kind of file.
+fn choose_kind(window: &mut Window, kind: &str) {
     press(window, kind);
 }
 
@@ -25,25 +25,25 @@ fn file_name(path: &Path) -> String {
 }
 
 #[test]
-fn save_writes_the_render_and_says_where() {
+fn save_writes_the_render_and_names_the_file() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("rs picture.png");
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 100);
     press(&mut window, "Save…");
     assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-unfinished.png");
-    // Letters that are keys elsewhere are letters here.
+    // Letters are typed, although they are shortcuts elsewhere.
     save_to(&mut window, &path);
     let picture = image::open(&path).expect("a PNG").to_rgb8();
     assert_eq!(picture.dimensions(), (640, 480));
     let black = picture.pixels().filter(|pixel| pixel.0 == [0; 3]).count();
     assert!(black > 1000 && black < 640 * 480 - 1000, "{black} black pixels");
-    // Whoever saves one often saves several.
+    // The row stays open for another file.
     assert!(window.query_by_label(FIELD).is_some());
 }
 
 #[test]
-fn a_run_is_saved_and_opened_with_a_few_keys() {
+fn run_is_saved_and_opened_with_keys() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let mut window = open(SIZE);
@@ -53,7 +53,7 @@ fn a_run_is_saved_and_opened_with_a_few_keys() {
     type_path(&mut window, "Where to save", &path);
     key(&mut window, Key::Enter);
     until(&mut window, "a file", |_| path.is_file());
-    until(&mut window, "that it is said", |window| notice(window).contains("run.anel"));
+    until(&mut window, "notice", |window| notice(window).contains("run.anel"));
     key(&mut window, Key::Escape);
     key(&mut window, Key::O);
     press(&mut window, "Open the run saved last");
@@ -62,7 +62,7 @@ fn a_run_is_saved_and_opened_with_a_few_keys() {
 }
 
 #[test]
-fn owners_and_blend_are_other_pictures_under_other_names() {
+fn owners_and_blend_are_different_pictures_with_their_own_names() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
     drag(&mut window, "Render or layer", 0.4);
@@ -73,7 +73,7 @@ fn owners_and_blend_are_other_pictures_under_other_names() {
     let mut pictures = Vec::new();
     for (kind, ending) in [("render", ""), ("owners", "-owners"), ("blend", "-blend")] {
         press(&mut window, "Save…");
-        choose(&mut window, kind);
+        choose_kind(&mut window, kind);
         assert_eq!(file_name(&typed(&window)), format!("ten-objects-640x480{ending}-unfinished.png"));
         let path = directory.path().join(format!("{kind}.png"));
         type_path(&mut window, FIELD, &path);
@@ -86,7 +86,7 @@ fn owners_and_blend_are_other_pictures_under_other_names() {
     for (one, other) in [(0, 1), (1, 2), (0, 2)] {
         assert!(different(&pictures[one], &pictures[other]) > 1000, "{one} {other}");
     }
-    // What nobody has traced is black in all of them.
+    // Pixels that no node has traced are black in all of them.
     assert!(
         pictures
             .iter()
@@ -94,21 +94,21 @@ fn owners_and_blend_are_other_pictures_under_other_names() {
     );
 }
 
-/// A place that no node has reached when a few hundred atoms are done.
+/// A byte of a pixel that no node has reached after a few hundred atoms.
 fn picture_middle() -> usize {
     640 * 480 * 3 / 2 - 60_000
 }
 
-/// A window in which atoms are traced, and the run is chosen to be saved.
+/// A window with traced atoms, in which the run is chosen to be saved.
 fn about_to_save_a_run() -> Window {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 100);
     key(&mut window, Key::S);
-    choose(&mut window, "run");
+    choose_kind(&mut window, "run");
     window
 }
 
-/// Types more of the run's title, and goes on to the path.
+/// Types more of the run's title, and moves the focus to the path.
 fn add_to_title(window: &mut Window, text: &str) {
     window.get_by_label("Title of the run").click();
     window.run_steps(2);
@@ -118,15 +118,15 @@ fn add_to_title(window: &mut Window, text: &str) {
     window.run_steps(2);
 }
 
-/// Saves what is chosen under this name, and waits until it is said to be there.
+/// Saves the chosen kind under this path, and waits for the notice.
 fn save_to(window: &mut Window, path: &Path) {
     type_path(window, FIELD, path);
     press(window, "Save");
-    until(window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    until(window, "notice", |window| notice(window).starts_with("Saved to"));
 }
 
 #[test]
-fn a_run_file_is_saved_and_can_be_loaded() {
+fn saved_run_file_can_be_loaded() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let mut window = about_to_save_a_run();
@@ -138,7 +138,7 @@ fn a_run_file_is_saved_and_can_be_loaded() {
 }
 
 #[test]
-fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
+fn run_is_saved_with_a_title_that_is_shown_when_it_is_opened() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("run.anel");
     let mut window = about_to_save_a_run();
@@ -149,7 +149,7 @@ fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
     assert!(log.header.caption.machine.contains("core"), "{:?}", log.header.caption);
     let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
     until(&mut window, "the title", |window| notice(window).contains("Eight of them"));
-    // Another title stays when the run begins again.
+    // A changed title survives a restart.
     key(&mut window, Key::S);
     press(&mut window, "run");
     add_to_title(&mut window, ", again");
@@ -159,7 +159,7 @@ fn a_run_is_saved_under_a_title_and_says_so_when_it_is_opened() {
 }
 
 #[test]
-fn the_ending_of_a_typed_name_follows_the_kind() {
+fn extension_of_a_typed_name_follows_the_kind() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     key(&mut window, Key::S);
@@ -167,7 +167,7 @@ fn the_ending_of_a_typed_name_follows_the_kind() {
     for (kind, name) in
         [("timeline", "mine.svg"), ("animation", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
     {
-        choose(&mut window, kind);
+        choose_kind(&mut window, kind);
         assert_eq!(file_name(&typed(&window)), name);
     }
 }
@@ -180,23 +180,23 @@ fn drawings_and_records_are_written_in_the_background() {
     let starts = [("timeline", "<svg"), ("ring", "<svg"), ("table", "time_s,"), ("Perfetto", "{\"displayTimeUnit\"")];
     press(&mut window, "Save…");
     for (kind, start) in starts {
-        choose(&mut window, kind);
+        choose_kind(&mut window, kind);
         let path = directory.path().join(kind);
         type_path(&mut window, FIELD, &path);
         press(&mut window, "Save");
-        until(&mut window, "a sentence", |window| notice(window).contains(kind));
+        until(&mut window, "notice", |window| notice(window).contains(kind));
         assert!(std::fs::read_to_string(&path).expect("a file").starts_with(start), "{kind}");
     }
 }
 
 #[test]
-fn a_picture_of_another_size_is_traced_anew_and_can_be_cancelled() {
+fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     let save = |window: &mut Window, name: &str| {
         press(window, "Save…");
-        choose(window, "any size");
+        choose_kind(window, "any size");
         let path = directory.path().join(name);
         type_path(window, FIELD, &path);
         path
@@ -205,7 +205,7 @@ fn a_picture_of_another_size_is_traced_anew_and_can_be_cancelled() {
     type_number(&mut window, "Pixels across", "200");
     type_number(&mut window, "Pixels down", "50");
     press(&mut window, "Save");
-    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
     assert_eq!(image::image_dimensions(&path).expect("a PNG"), (200, 50));
     window.get_by_label_contains("Another shape than the picture's");
     key(&mut window, Key::Escape);
@@ -224,7 +224,7 @@ fn a_picture_of_another_size_is_traced_anew_and_can_be_cancelled() {
 }
 
 #[test]
-fn what_is_typed_first_is_the_files_name() {
+fn first_typed_letters_replace_the_file_name() {
     let mut window = open(SIZE);
     key(&mut window, Key::S);
     let before = typed(&window);
@@ -234,7 +234,7 @@ fn what_is_typed_first_is_the_files_name() {
 }
 
 #[test]
-fn what_was_said_of_a_run_ends_with_it() {
+fn notice_about_a_run_ends_with_it() {
     let mut window = open(SIZE);
     for (ends, name) in [(Key::R, "a restart"), (Key::F11, "a projector")] {
         window.event(egui::Event::Copy);
@@ -246,7 +246,7 @@ fn what_was_said_of_a_run_ends_with_it() {
 }
 
 #[test]
-fn the_picture_is_copied_with_two_keys() {
+fn picture_is_copied_with_two_keys() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     window.event(egui::Event::Copy);
@@ -260,7 +260,7 @@ fn the_picture_is_copied_with_two_keys() {
 }
 
 #[test]
-fn save_says_why_it_cannot() {
+fn save_gives_the_reason_of_a_failure() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let read_only = directory.path().join("old.png");
     std::fs::write(&read_only, "dear").expect("a file");
@@ -277,7 +277,7 @@ fn save_says_why_it_cannot() {
     for (path, why) in cases {
         type_path(&mut window, FIELD, &path);
         key(&mut window, Key::Enter);
-        until(&mut window, "a sentence", |window| window.query_by_label_contains(why).is_some());
+        until(&mut window, "notice", |window| window.query_by_label_contains(why).is_some());
     }
     window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
     key(&mut window, Key::Delete);
@@ -292,8 +292,8 @@ fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
     key(&mut window, Key::S);
     type_path(&mut window, FIELD, "/no/such/place/picture.png".as_ref());
     key(&mut window, Key::Enter);
-    until(&mut window, "a sentence", |window| window.query_by_label_contains("directory does not exist").is_some());
-    // The keyboard still belongs to the path.
+    until(&mut window, "notice", |window| window.query_by_label_contains("directory does not exist").is_some());
+    // The path still has the focus.
     assert!(window.get_by_label(FIELD).is_focused());
     window.event(egui::Event::Text("r s".into()));
     let then = done(&window);
@@ -309,7 +309,7 @@ fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
 }
 
 #[test]
-fn a_file_is_replaced_only_when_asked_twice() {
+fn file_is_replaced_only_after_a_second_press() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("there.png");
     std::fs::write(&path, "dear").expect("a file");
@@ -318,7 +318,7 @@ fn a_file_is_replaced_only_when_asked_twice() {
     type_path(&mut window, FIELD, &path);
     key(&mut window, Key::Enter);
     window.get_by_label("there.png exists; press Save again to replace it");
-    // Another path in between: the question is asked anew.
+    // After a change of the path the question comes again.
     window.event(egui::Event::Text("x".into()));
     window.step();
     assert!(window.query_by_label_contains("exists").is_none());
@@ -327,6 +327,6 @@ fn a_file_is_replaced_only_when_asked_twice() {
     window.get_by_label_contains("press Save again");
     assert_eq!(std::fs::read(&path).expect("the file"), b"dear");
     press(&mut window, "Save");
-    until(&mut window, "a sentence", |window| notice(window).starts_with("Saved to"));
+    until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
     assert!(image::open(&path).is_ok());
 }

@@ -1,4 +1,4 @@
-//! What is set for all machines and for the next run.
+//! Settings of all machines and of the next run.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-/// A window with the panel open.
+/// A window with the panel of settings open.
 fn open_setup() -> Window {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
@@ -18,7 +18,7 @@ fn open_setup() -> Window {
 }
 
 #[test]
-fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
+fn speeds_of_all_machines_apply_to_the_current_run() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
     press(&mut window, "All equal");
@@ -34,12 +34,12 @@ fn speeds_of_all_machines_act_on_the_run_that_goes_on() {
     assert_eq!(session(&window).settings().speeds, random);
     press(&mut window, "One slow");
     until(&mut window, "a record", |window| session(window).stage().state().nodes()[7].speed == 0.1);
-    // It is still the same run.
+    // The run was not restarted.
     assert!(done(&window) > 100);
 }
 
 #[test]
-fn latency_acts_on_the_run_that_goes_on() {
+fn latency_applies_to_the_current_run() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
     type_number(&mut window, "Latency in milliseconds", "250");
@@ -56,7 +56,7 @@ fn latency_acts_on_the_run_that_goes_on() {
 }
 
 #[test]
-fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
+fn number_of_machines_restarts_the_run_and_can_be_undone() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
     let begun = session(&window).runs_begun();
@@ -65,7 +65,7 @@ fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
     assert_eq!(notice(&window), "Started anew: 32 machines");
     assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state().nodes().len()), (32, 32));
     window.get_by_label("Node 32");
-    // Nothing starts before the slider is let go.
+    // No run starts before the slider is released.
     let rect = window.get_by_label("Machines slider").rect();
     window.drag_at(rect.left_center());
     window.run_steps(3);
@@ -80,7 +80,7 @@ fn the_number_of_machines_starts_the_run_anew_and_can_be_undone() {
 }
 
 #[test]
-fn picture_atoms_and_strategy_start_the_run_anew() {
+fn size_atoms_and_strategy_restart_the_run() {
     let mut window = open_setup();
     type_number(&mut window, "Pixels in an atom", "200");
     assert_eq!(session(&window).header().division.atom_pixels(), 200);
@@ -106,7 +106,7 @@ fn picture_atoms_and_strategy_start_the_run_anew() {
 }
 
 #[test]
-fn the_pace_starts_the_run_anew() {
+fn pace_restarts_the_run() {
     let mut window = open_setup();
     let pace = session(&window).header().pace;
     type_number(&mut window, "Seconds of the run", "40");
@@ -120,20 +120,20 @@ fn the_pace_starts_the_run_anew() {
 }
 
 #[test]
-fn what_is_impossible_is_said_and_nothing_changes() {
+fn impossible_setting_is_refused_in_a_sentence() {
     let mut window = open_setup();
     until(&mut window, "many atoms", |window| done(window) > 100);
     type_number(&mut window, "Pixels in an atom", "1");
     assert!(notice(&window).contains("307200 atoms; the window shows up to 262144"), "{}", notice(&window));
     assert!(done(&window) > 100);
     assert_eq!(session(&window).settings().atom, 50);
-    // The largest that can be typed is the largest that is possible.
+    // A larger number becomes the largest possible one.
     type_number(&mut window, "Number of machines", "999");
     assert_eq!(session(&window).header().speeds.len(), Settings::MOST_NODES);
 }
 
 #[test]
-fn the_demonstration_can_be_had_back() {
+fn demonstration_can_be_restored() {
     let mut window = open_setup();
     type_number(&mut window, "Number of machines", "3");
     press(&mut window, "Back to the demonstration");

@@ -1,4 +1,4 @@
-//! Every way to share the atoms: what is set comes into the run's header, and the run comes to its end.
+//! Every strategy and driver: the settings are in the run's header, and the run ends.
 
 use std::time::Duration;
 
@@ -50,7 +50,7 @@ fn every_strategy_can_be_chosen_and_traces() {
 }
 
 #[test]
-fn rayon_shares_in_real_time_only() {
+fn rayon_runs_in_real_time_only() {
     let mut window = open_setup();
     press(&mut window, "Virtual");
     assert_eq!(driver(&window), Driver::Sim);
@@ -71,7 +71,7 @@ fn parts_and_the_network_can_be_set() {
     assert_eq!(session(&window).header().rules.part, 30);
     type_number(&mut window, "Parent's milliseconds for a message", "20");
     assert_eq!(session(&window).header().handling, Duration::from_millis(20));
-    // There is no wire to share before it has a limit.
+    // Without a bandwidth there is no shared wire.
     assert!(window.query_by_label("All share one wire").is_none());
     type_number(&mut window, "Kilobytes a second", "100");
     assert_eq!(session(&window).header().link.bandwidth, Some(1e5));
@@ -88,12 +88,12 @@ fn parts_and_the_network_can_be_set() {
 }
 
 #[test]
-fn a_farm_with_a_slow_parent_runs_to_its_end() {
+fn farm_with_a_slow_parent_ends() {
     let mut window = open_setup();
     choose(&mut window, "Strategy", "Farm");
     type_number(&mut window, "Seconds of the run", "2");
     type_number(&mut window, "Parent's milliseconds for a message", "10");
-    until(&mut window, "a line at the parent", |window| {
+    until(&mut window, "queue at the parent", |window| {
         session(window).stage().state().waiting(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
@@ -102,9 +102,9 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
         _ => None,
     };
     let parts = recorded(&window, given);
-    // The last node's results complete the picture: nobody waits for its request to be answered.
+    // The results of the last node complete the picture, so its request may stay unanswered.
     let none = parts.iter().filter(|&&atoms| atoms == 0).count();
-    assert!((7..=8).contains(&none), "{none} nodes hear that there are no more");
+    assert!((7..=8).contains(&none), "{none} nodes hear that no part is left");
     assert_eq!(parts.iter().sum::<usize>(), 6144 - 8 * 48);
     window.run_steps(2);
     let said = window.get_by_label("Result").value().unwrap_or_default();
@@ -112,7 +112,7 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
 }
 
 #[test]
-fn a_run_in_virtual_time_obeys_is_replayed_and_made_live() {
+fn run_in_virtual_time_obeys_and_is_replayed_and_made_live() {
     let mut window = open_setup();
     choose(&mut window, "Strategy", "Farm by speed");
     press(&mut window, "Virtual");
@@ -135,12 +135,12 @@ fn a_run_in_virtual_time_obeys_is_replayed_and_made_live() {
     until(&mut again, "the speed", |window| session(window).stage().state().nodes()[7].speed == 1.0);
     press(&mut again, "Set up");
     press(&mut again, "Make it live");
-    until(&mut again, "a living run", |window| !session(window).is_recorded() && done(window) > 10);
+    until(&mut again, "live run", |window| !session(window).is_recorded() && done(window) > 10);
     assert_eq!((driver(&again), session(&again).header().rules), (Driver::Sim, rules));
 }
 
 #[test]
-fn virtual_time_goes_as_fast_as_it_is_asked_to() {
+fn virtual_time_follows_the_pace() {
     let mut window = open_setup();
     press(&mut window, "Virtual");
     let slow = session(&window).header().pace;

@@ -1,4 +1,4 @@
-//! The run's time in the user's hand: back, on, slower, faster, and back to what happens now.
+//! Control of the run's time: back, forward, slower, faster, and back to the present.
 
 use anel::balance::{Message, Party};
 use anel::gui::Phase;
@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-/// A window with a run that is over.
+/// A window with a finished run.
 fn finished() -> Window {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
@@ -22,7 +22,7 @@ fn finished() -> Window {
     window
 }
 
-/// Drags the line of the run's time to a share of its length, and lets go.
+/// Drags the slider of the run's time to a fraction of its length, and releases it.
 fn scrub(window: &mut Window, to: f32) {
     let rect = window.get_by_role_and_label(Role::Slider, "The run's time").rect();
     let at = |share: f32| egui::pos2(rect.left() + 8.0 + (rect.width() - 16.0) * share, rect.center().y);
@@ -39,8 +39,9 @@ fn shift(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
-/// All that is shown of the run, apart from its picture.
-fn seen(window: &Window, language: Language) -> String {
+/// The shown state of the run without its picture.
+fn shown_state(window: &Window) -> String {
+    let language = session(window).language();
     let stage = session(window).stage();
     let (state, at) = (stage.state(), stage.state().head());
     format!(
@@ -53,7 +54,7 @@ fn seen(window: &Window, language: Language) -> String {
 }
 
 #[test]
-fn a_run_that_goes_on_is_rewound_and_caught_up_with() {
+fn running_run_is_rewound_and_returns_to_live() {
     let mut window = open(SIZE);
     until(&mut window, "many atoms", |window| done(window) > 600);
     scrub(&mut window, 0.3);
@@ -61,7 +62,7 @@ fn a_run_that_goes_on_is_rewound_and_caught_up_with() {
     assert!(!stage.is_live() && stage.phase == Phase::Running && !stage.paused);
     let (then, before) = (stage.latest().done(), stage.state().done());
     assert!(before < then, "{before} {then}");
-    // Here frames follow each other faster than they say: slowly, so that what is shown stays behind.
+    // The test draws frames faster than real time: a slow rate keeps the shown time behind.
     for _ in 0..4 {
         key(&mut window, Key::Comma);
     }
@@ -76,10 +77,10 @@ fn a_run_that_goes_on_is_rewound_and_caught_up_with() {
 }
 
 #[test]
-fn a_hand_on_a_machine_brings_one_back_to_the_present() {
+fn change_of_a_machine_returns_to_live() {
     let mut window = open(SIZE);
     until(&mut window, "many atoms", |window| done(window) > 400);
-    // Slowly, so that what is shown stays behind.
+    // A slow rate keeps the shown time behind.
     for _ in 0..4 {
         key(&mut window, Key::Comma);
     }
@@ -90,23 +91,23 @@ fn a_hand_on_a_machine_brings_one_back_to_the_present() {
 }
 
 #[test]
-fn going_to_a_time_and_playing_up_to_it_show_the_same() {
+fn seeking_and_playing_to_a_time_show_the_same() {
     let language = Language::English;
     let mut window = finished();
     scrub(&mut window, 0.2);
-    // As far as it is played by itself.
+    // The run plays until enough atoms are done.
     until(&mut window, "some time", |window| session(window).stage().state().done() > 3_000);
     key(&mut window, Key::Space);
-    let (records, played) = (session(&window).stage().records_shown(), seen(&window, language));
+    let (records, played) = (session(&window).stage().records_shown(), shown_state(&window));
     let log = &session(&window).stage().log;
-    let mut told = Snapshot::new(&log.header);
-    log.records()[..records].iter().for_each(|record| told.apply(record));
-    let state = &told.state;
+    let mut snapshot = Snapshot::new(&log.header);
+    log.records()[..records].iter().for_each(|record| snapshot.apply(record));
+    let state = &snapshot.state;
     let expected = format!(
         "{records} {:?} {:?} {}",
         state.nodes(),
         state.places(),
-        told.narrator.sentence(state, state.head(), language)
+        snapshot.narrator.sentence(state, state.head(), language)
     );
     assert_eq!(played, expected);
     let now = session(&window).now();
@@ -115,11 +116,11 @@ fn going_to_a_time_and_playing_up_to_it_show_the_same() {
     assert_eq!((session(&window).now().0, done(&window)), (0, 0));
     window.state_mut().seek(now);
     window.step();
-    assert_eq!(seen(&window, language), played);
+    assert_eq!(shown_state(&window), played);
 }
 
 #[test]
-fn steps_go_from_event_to_event_and_back() {
+fn steps_move_from_event_to_event_and_back() {
     let mut window = finished();
     key(&mut window, Key::Home);
     let is_of_an_atom = |window: &Window| {
@@ -134,10 +135,10 @@ fn steps_go_from_event_to_event_and_back() {
     ctrl(&mut window, Key::ArrowRight);
     let records = session(&window).stage().records_shown();
     let offer = session(&window).stage().log.records()[records - 1].clone();
-    assert!(
-        matches!(offer.what, RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } if from == who),
-        "{offer:?}"
-    );
+    let RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } = offer.what else {
+        panic!("not an offer: {offer:?}");
+    };
+    assert_eq!(from, who);
     window.get_by_label_contains("and offers help round the ring");
     key(&mut window, Key::ArrowRight);
     key(&mut window, Key::ArrowLeft);
@@ -148,7 +149,7 @@ fn steps_go_from_event_to_event_and_back() {
 }
 
 #[test]
-fn what_is_worth_it_is_found_and_stands_still_there() {
+fn found_moment_is_shown_and_the_time_stops_there() {
     let mut window = finished();
     key(&mut window, Key::F);
     window.run_steps(2);
@@ -164,13 +165,13 @@ fn what_is_worth_it_is_found_and_stands_still_there() {
     let then = session(&window).now();
     window.run_steps(5);
     assert_eq!(session(&window).now(), then);
-    // And Esc lets go of it.
+    // Esc clears the selection.
     key(&mut window, Key::Escape);
     assert_eq!(window.state().focus(), None);
 }
 
 #[test]
-fn time_goes_slower_and_faster() {
+fn rate_of_time_goes_down_and_up() {
     let mut window = finished();
     for _ in 0..6 {
         key(&mut window, Key::Comma);
@@ -194,11 +195,11 @@ fn time_goes_slower_and_faster() {
         window.step();
     }
     window.run_steps(3);
-    assert!(session(&window).stage().shows_end(), "as fast as it can is at once");
+    assert!(session(&window).stage().shows_end(), "at the fastest rate the end is reached at once");
 }
 
 #[test]
-fn virtual_time_itself_goes_as_fast_as_it_can() {
+fn virtual_time_runs_at_the_fastest_rate() {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
     press(&mut window, "Virtual");
@@ -213,7 +214,7 @@ fn virtual_time_itself_goes_as_fast_as_it_can() {
 }
 
 #[test]
-fn the_timeline_shows_who_did_what_and_goes_there() {
+fn timeline_shows_the_work_of_machines_and_selects_an_atom() {
     let mut window = finished();
     key(&mut window, Key::T);
     let said = window.get_by_label("Timeline").value().unwrap_or_default();
@@ -228,7 +229,7 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
         ctrl(&mut window, Key::ArrowUp);
     }
     let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of 3").rect());
-    // Zoomed about the shown time, which stays where it is.
+    // The zoom keeps the position of the shown time.
     let at = egui::pos2(timeline.left() + timeline.width() * share, lane.center().y);
     window.drag_at(at);
     window.step();
@@ -243,15 +244,15 @@ fn the_timeline_shows_who_did_what_and_goes_there() {
 }
 
 #[test]
-fn a_time_that_stands_draws_nothing() {
+fn paused_time_needs_no_repaint() {
     let mut window = finished();
     scrub(&mut window, 0.4);
     key(&mut window, Key::Space);
-    until(&mut window, "rest", |window| rests(window) > std::time::Duration::from_secs(1));
+    until(&mut window, "rest", |window| repaint_delay(window) > std::time::Duration::from_secs(1));
 }
 
 #[test]
-fn the_camera_is_moved_and_comes_back() {
+fn camera_is_moved_and_restored() {
     let mut window = open(SIZE);
     let eye = |window: &Window| session(window).prepared().expect("a scene").opened.scene.camera.eye;
     let (home, begun) = (eye(&window), session(&window).runs_begun());
@@ -261,7 +262,7 @@ fn the_camera_is_moved_and_comes_back() {
     until(&mut window, "a picture from there", |window| session(window).moved().is_some());
     until(&mut window, "a run from there", |window| session(window).runs_begun() == begun + 1);
     assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_moving());
-    // What is saved of it says so.
+    // The scene text has the new camera.
     let text = &session(&window).header().scene_text;
     assert_eq!(anel::scene::Scene::parse(text).expect("a scene").camera.eye, eye(&window));
     press(&mut window, "Camera back");

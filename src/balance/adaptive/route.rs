@@ -1,10 +1,10 @@
-//! Who is in the ring, and where an offer stops on its way round it.
+//! The members of the ring, and the stops of an offer on its way round it.
 
 use std::collections::BTreeSet;
 
 use crate::balance::message::NodeId;
 
-/// The ring as a node knows it: all nodes but those that are gone.
+/// The ring as a node knows it: all nodes except those that are gone.
 #[derive(Clone, Debug)]
 pub struct RingMembers {
     nodes: NodeId,
@@ -13,23 +13,24 @@ pub struct RingMembers {
 }
 
 impl RingMembers {
-    /// A ring of so many nodes (at least one), from which none is gone. With `shortcuts` an offer stops at nodes whose
-    /// distances grow like powers of two, else at each.
+    /// Creates a ring of `nodes` nodes (at least one), none of which is gone. With `shortcuts` the distances of an
+    /// offer's stops grow like powers of two; without, an offer stops at every node.
     pub fn new(nodes: NodeId, shortcuts: bool) -> Self {
         Self { nodes: nodes.max(1), gone: BTreeSet::new(), shortcuts }
     }
 
-    /// From now on these are gone, and no others.
+    /// Replaces the set of nodes that are gone.
     pub fn set_gone(&mut self, gone: impl IntoIterator<Item = NodeId>) {
         self.gone = gone.into_iter().collect();
     }
 
-    /// Whether this node is gone.
+    /// Returns whether this node is gone.
     pub fn is_gone(&self, node: NodeId) -> bool {
         self.gone.contains(&node)
     }
 
-    /// How many stops an offer has. With shortcuts: up to 8 as many as there are other nodes, and then two for each doubling.
+    /// Returns how many stops an offer has: with shortcuts one for each of up to 8 other nodes, then two for each
+    /// doubling of the ring.
     pub fn stops(&self) -> u16 {
         let others = self.nodes - 1;
         if !self.shortcuts || others <= 8 {
@@ -38,17 +39,17 @@ impl RingMembers {
         (0..).take_while(|&stop| distance(stop) < self.nodes).count() as u16
     }
 
-    /// Stop number `stop` (from 0) of an offer of `who`: so far to its left, or the next one there that is not gone. It is
-    /// `who` itself if nobody is left.
+    /// Returns stop number `stop` (from 0) of an offer of `who`: the node at that stop's distance to its left, or the
+    /// next one there that is not gone; `who` itself if no other node is left.
     pub fn stop(&self, who: NodeId, stop: u16) -> NodeId {
-        let far = if self.shortcuts { distance(stop) } else { stop + 1 };
+        let first = if self.shortcuts { distance(stop) } else { stop + 1 };
         let left =
             |by: NodeId| ((u32::from(who) + u32::from(self.nodes) - u32::from(by)) % u32::from(self.nodes)) as NodeId;
-        (far..self.nodes).map(left).find(|node| !self.is_gone(*node)).unwrap_or(who)
+        (first..self.nodes).map(left).find(|node| !self.is_gone(*node)).unwrap_or(who)
     }
 }
 
-/// 1 to 8 one by one, then 12, 16, 24, 32, 48, …
+/// Returns the distance of a stop with shortcuts: 1 to 8 one by one, then 12, 16, 24, 32, 48, …
 fn distance(stop: u16) -> u16 {
     if stop < 8 {
         return stop + 1;
@@ -64,7 +65,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_small_ring_has_every_node_as_a_stop() {
+    fn small_ring_has_every_node_as_a_stop() {
         for shortcuts in [false, true] {
             let ring = RingMembers::new(5, shortcuts);
             let stops: Vec<_> = (0..ring.stops()).map(|stop| ring.stop(2, stop)).collect();
@@ -83,7 +84,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_offer_stops_where_nobody_is(
+        fn no_stop_is_a_node_that_is_gone(
             nodes in 1u16..80, gone in prop::collection::btree_set(0u16..80, 0..80), shortcuts in any::<bool>(),
         ) {
             let mut ring = RingMembers::new(nodes, shortcuts);

@@ -1,11 +1,12 @@
-//! How many atoms an offer is given, by how fast both are now.
+//! The share of an offerer in the adaptive ring, by the present speeds of both nodes.
 
-/// How many of the `waiting` atoms of an owner go to an offerer, so that both end together.
+/// Returns how many of the owner's `waiting` atoms go to an offerer so that both end together.
 ///
-/// Speeds are work in a time, `cost` is the work in an atom, `ahead` is how much of an atom the owner has in hand, `others` is
-/// the speed of those who are expected to offer too, and `latency` is how long the atoms will travel. In time τ from now the
-/// owner does `own · τ` and the offerer `offerer · (τ − latency)`; together that is all there is. Rounded to nearest, a half
-/// to the offerer.
+/// Speeds are work per time; `own` is the owner's, `offerer` the offerer's, and `others` the sum of those that are
+/// expected to offer too. `cost` is the work in an atom, `ahead` the atoms that the owner traces before the waiting
+/// ones (a fraction), and `latency` the time that a transfer travels. In a time τ from now the owner does the work `own
+/// · τ` and the offerer `offerer · (τ − latency)`; the sum of both is all the work there is. The result is rounded to
+/// nearest, a half in favour of the offerer.
 pub fn share_by_speed(waiting: u32, ahead: f64, own: f64, offerer: f64, others: f64, latency: f64, cost: f64) -> u32 {
     let all = own + offerer + others;
     if waiting == 0 || !(all > 0.0 && cost > 0.0) {
@@ -13,7 +14,7 @@ pub fn share_by_speed(waiting: u32, ahead: f64, own: f64, offerer: f64, others: 
     }
     let work = (f64::from(waiting) + ahead) * cost;
     let fair = offerer * (work - (own + others) * latency) / (all * cost);
-    // A negative one is 0 as an integer, and so is what is no number.
+    // The cast turns a negative number and NaN into 0.
     ((fair + 0.5) as u32).min(waiting)
 }
 
@@ -23,20 +24,20 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn equals_halve_what_they_have_together() {
+    fn equal_speeds_halve_the_work_of_both() {
         assert_eq!(share_by_speed(99, 1.0, 1.0, 1.0, 0.0, 0.0, 1e-3), 50);
         assert_eq!(share_by_speed(100, 0.0, 0.1, 0.9, 0.0, 0.0, 1e-3), 90);
         assert_eq!(share_by_speed(100, 0.0, 0.25, 0.25, 0.5, 0.0, 1e-3), 25, "two more are to come");
     }
 
     #[test]
-    fn what_takes_longer_to_travel_than_it_saves_stays() {
+    fn no_transfer_that_travels_longer_than_it_saves() {
         let share = |latency| share_by_speed(10, 0.0, 1.0, 1.0, 0.0, latency, 1e-3);
         assert_eq!([share(0.0), share(4e-3), share(8e-3), share(11e-3)], [5, 3, 1, 0]);
     }
 
     proptest! {
-        /// Neither could end earlier if one atom more or less were given.
+        /// One atom more or less would not make both end earlier.
         #[test]
         fn both_end_together(
             waiting in 1u32..1000, ahead in 0.0..1.0, own in 0.01..1.0, offerer in 0.01..1.0, latency in 0.0..0.1,

@@ -1,73 +1,79 @@
-//! What a node does when it is time: results, what it tells the parent, offers that were lost.
+//! The node's timers: each small machine says when it is due, and the node sets its one timer to the earliest.
 
 use std::time::Duration;
 
 use super::node::{AdaptiveNode, State, send};
 use crate::balance::message::{Action, Message, Party};
 use crate::balance::remedy::Remedy;
-use crate::balance::strategy::LEASE;
+use crate::balance::strategy::LEASE_BEATS;
 use crate::time::Time;
 
-/// How many leases an atom may take, or times four usual atoms, before its worker counts as stuck.
-const PATIENCE: u32 = 16;
+/// A worker counts as stuck if its atom takes this many leases and this many times [`LEASE_BEATS`] usual atoms.
+const STUCK_LEASES: u32 = 16;
 
 impl AdaptiveNode {
-    /// How long a node may be silent, and an offer under way, before it counts as lost.
+    /// Returns how long a node may be silent, and an offer under way, before it counts as lost.
     pub(super) fn lease(&self) -> Duration {
-        self.beat * LEASE
+        self.heartbeat.interval() * LEASE_BEATS
     }
 
-    /// Does what is due, and sets the timer for what will be.
+    /// Does everything that is due at `now`, and sets the timer for what is due next.
     pub(super) fn run_due_timers(&mut self, now: Time, actions: &mut Vec<Action>) {
-        let is_due = |at: Option<Time>| at.is_some_and(|at| at <= now);
-        if is_due(self.work.due()) {
+        if self.work.due().is_some_and(|due| due <= now) {
             self.work.send_results(actions);
         }
-        if self.has(Remedy::Leases) {
-            match self.state {
-                State::Offering { since } if since + self.lease() <= now => {
-                    self.lost = self.lost.wrapping_add(1);
-                    self.be_unneeded(now, actions);
-                }
-                State::Asleep { again, pause } if again <= now => {
-                    self.state = State::Asleep { again: now + pause * 2, pause: pause * 2 };
+        if self.offer_expiry().is_some_and(|expiry| expiry <= now) {
+            match &mut self.state {
+                State::Asleep(notice) => {
+                    notice.take_due(now);
                     self.announce_sleep(now, actions);
                 }
-                _ => {}
+                _ => {
+                    self.own_offer.give_up();
+                    self.become_unneeded(now, actions);
+                }
             }
         }
-        if is_due(self.asks) {
-            self.asks = Some(now + self.lease());
+        if self.admission.take_due(now, self.lease()) {
             send(Party::Parent, Message::Request, actions);
         }
         self.offer_early(now, actions);
-        if is_due(self.next_beat) {
-            self.next_beat = Some(now + self.beat);
+        if self.heartbeat.take_due(now) {
             let idle = self.work.is_idle();
             let holds = if self.is_stuck(now) { Vec::new() } else { self.work.held() };
             send(Party::Parent, Message::Beat { holds, idle, sent: now }, actions);
         }
-        let next = [self.work.due(), self.next_beat, self.offer_due(), self.late_at(now), self.early_at(), self.asks];
-        let next = next.into_iter().flatten().min();
+        let expiries = [
+            self.work.due(),
+            self.heartbeat.expiry(),
+            self.offer_expiry(),
+            self.copy_expiry(now),
+            self.early_expiry(),
+            self.admission.expiry(),
+        ];
+        let next = expiries.into_iter().flatten().min();
         if let Some(next) = next.filter(|&next| self.timer.is_none_or(|timer| next < timer)) {
             self.timer = Some(next);
             actions.push(Action::SetTimer(next));
         }
     }
 
-    /// Whether the worker has had its atom for so long that the node does not vouch for anything it has. Copies and the ring have
-    /// seen to it long before, if somebody can be reached; an atom that is only dear is not to be traced by all.
+    /// Returns whether the worker has had its atom for so long that the node no longer vouches for what it holds.
+    /// Copies and the ring have helped long before, if the node can be reached at all; the bound is high because an
+    /// atom that is merely costly should not be traced by all nodes.
     fn is_stuck(&self, now: Time) -> bool {
-        let age = now.since(self.gauge.since());
-        let usual = self.gauge.atom().unwrap_or_default();
-        !self.work.is_idle() && age > self.lease().max(usual * LEASE) * PATIENCE
+        let age = now.since(self.speed_estimate.since());
+        let usual = self.speed_estimate.usual_time().unwrap_or_default();
+        !self.work.is_idle() && age > self.lease().max(usual * LEASE_BEATS) * STUCK_LEASES
     }
 
-    fn offer_due(&self) -> Option<Time> {
-        match self.state {
+    /// Returns when the own offer counts as lost, or when the next sleep notice is due. Without leases nothing counts
+    /// as lost.
+    fn offer_expiry(&self) -> Option<Time> {
+        match &self.state {
             _ if !self.has(Remedy::Leases) => None,
-            State::Offering { since } => Some(since + self.lease()),
-            State::Asleep { again, .. } => Some(again),
+            State::Offering => self.own_offer.expiry(self.lease()),
+            State::Asleep(notice) => Some(notice.expiry()),
             State::Waiting { .. } | State::Busy | State::Unneeded => None,
         }
     }

@@ -1,4 +1,4 @@
-//! The child of the article's §8, with its worker's pipe.
+//! A node of the article's ring: the child of §8, with its worker's pipe.
 
 use crate::balance::message::{Action, Event, Message, NodeId, Party};
 use crate::balance::work::Work;
@@ -6,7 +6,7 @@ use crate::time::Time;
 
 use super::share;
 
-/// A node of the ring.
+/// A node of the article's ring.
 #[derive(Debug)]
 pub struct RingNode {
     id: NodeId,
@@ -23,32 +23,32 @@ struct Offer {
     done: u32,
 }
 
-/// Where a node stands; the README tells how one state follows another.
+/// State of a node; the README shows the transitions.
 #[derive(Debug)]
 enum State {
-    /// Its band has not come yet; offers that have are kept until then.
+    /// The band has not come yet; offers that come before it are kept.
     Waiting { early: Vec<Offer> },
-    /// It has atoms.
+    /// The node has atoms.
     Busy,
-    /// It has none, and its own offer is under way.
+    /// The node has no atoms, and its own offer is under way.
     Offering,
-    /// Its own offer came back.
+    /// The node's own offer came back.
     Retired,
 }
 
 impl RingNode {
-    /// Node `id` of `nodes`, with its work, which is none yet. An offer is worth taking if it moves at least `part` atoms
-    /// (0 counts as 1).
+    /// Creates node `id` of `nodes` with this work, which has no atoms yet. A transfer is worth while from `part` atoms
+    /// on (0 counts as 1).
     pub(in crate::balance) fn new(id: NodeId, nodes: NodeId, part: u32, work: Work) -> Self {
         assert!(id < nodes, "node {id} is not in a ring of {nodes}");
         let left = if id == 0 { nodes - 1 } else { id - 1 };
         Self { id, left, part: part.max(1), work, state: State::Waiting { early: Vec::new() } }
     }
 
-    /// Answers `event`, which happens at `now`, by appending to `actions`.
+    /// Handles `event` at the time `now` and appends its answer to `actions`.
     ///
     /// # Panics
-    /// If the event is impossible: something that no parent or node of the same ring can have sent.
+    /// If the event is impossible: no parent or node of the same ring can have sent it.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match event {
             Event::Message { message, .. } => self.receive(message, actions),
@@ -98,7 +98,7 @@ impl RingNode {
         }
     }
 
-    /// Takes another's offer if that is worth it, else passes it on.
+    /// Answers another node's offer with a transfer if that is worth while, else passes it on.
     fn answer_offer(&mut self, offer: Offer, actions: &mut Vec<Action>) {
         let count = share(self.work.waiting(), self.work.traced(), offer.done, self.part);
         if count > 0 {

@@ -1,13 +1,14 @@
 //! The jobs that run trials beside each other, in virtual time.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
 use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnce};
 use super::jobs::Jobs;
 use crate::balance::Strategy;
+use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
 use crate::language::Language;
 use crate::palette::Rgb;
@@ -50,7 +51,7 @@ impl ComparisonSubject {
 #[derive(Default)]
 pub struct TracingProgress {
     done: AtomicU32,
-    is_given_up: AtomicBool,
+    cancel: CancelToken,
 }
 
 impl TracingProgress {
@@ -61,7 +62,7 @@ impl TracingProgress {
 
     /// Nobody waits for it any more.
     pub fn give_up(&self) {
-        self.is_given_up.store(true, Ordering::Relaxed);
+        self.cancel.cancel();
     }
 }
 
@@ -116,42 +117,32 @@ impl Jobs {
     ) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
-        self.start_many(
-            "compare",
-            failed,
-            move |tell| {
-                let tell = |compared| tell(JobResult::CompareResult(number, compared));
-                let pictured = match known {
-                    PictureSource::Picture(pictured) => pictured,
-                    PictureSource::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
-                        Ok(None) => return,
-                        Ok(Some(pictured)) => pictured,
-                        Err(why) => return tell(CompareResult::Failed(why)),
-                    },
-                };
-                tell(CompareResult::Picture(Arc::clone(&pictured)));
-                for (id, name, trial) in entries {
-                    let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
-                    tell(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &pictured.pixels, ground))));
-                }
-            },
-            language,
-        );
+        self.start_many(language, "compare", failed, move |tell| {
+            let tell = |compared| tell(JobResult::CompareResult(number, compared));
+            let pictured = match known {
+                PictureSource::Picture(pictured) => pictured,
+                PictureSource::Nothing(tracing) => match pictured(&subject.tracer, &tracing) {
+                    Ok(None) => return,
+                    Ok(Some(pictured)) => pictured,
+                    Err(why) => return tell(CompareResult::Failed(why)),
+                },
+            };
+            tell(CompareResult::Picture(Arc::clone(&pictured)));
+            for (id, name, trial) in entries {
+                let log = Arc::new(subject.paced(trial, &pictured.costs).run(&pictured.costs));
+                tell(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &pictured.pixels, ground))));
+            }
+        });
         number
     }
 
     fn grow(&mut self, subject: ComparisonSubject, pictured: Arc<TracedOnce>, language: Language) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::CompareResult(number, CompareResult::Failed(why));
-        self.start_many(
-            "grow",
-            failed,
-            move |tell| {
-                let trial = subject.paced(subject.trial.clone(), &pictured.costs);
-                tell(JobResult::CompareResult(number, CompareResult::Growth(grown(&trial, &pictured.costs))));
-            },
-            language,
-        );
+        self.start_many(language, "grow", failed, move |tell| {
+            let trial = subject.paced(subject.trial.clone(), &pictured.costs);
+            tell(JobResult::CompareResult(number, CompareResult::Growth(grown(&trial, &pictured.costs))));
+        });
         number
     }
 }
@@ -159,8 +150,7 @@ impl Jobs {
 /// Traces the picture on all cores, unless it is given up.
 fn pictured(tracer: &Arc<Tracer>, tracing: &TracingProgress) -> Result<Option<Arc<TracedOnce>>, String> {
     let done = |more| _ = tracing.done.fetch_add(more, Ordering::Relaxed);
-    let is_over = || tracing.is_given_up.load(Ordering::Relaxed);
-    let traced = TracedPicture::by_pixel(tracer, &done, &is_over)?;
+    let traced = TracedPicture::by_pixel(tracer, &done, &tracing.cancel).map_err(|error| error.to_string())?;
     Ok(traced.map(|(pixels, costs)| Arc::new(TracedOnce { pixels, costs })))
 }
 

@@ -6,14 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crossbeam_channel::{Sender, TryRecvError, bounded};
-
 use super::Session;
 use super::job_result::JobResult;
 use super::jobs::told;
+use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
-use crate::language::{Language, say};
+use crate::language::say;
 use crate::output::{OutputError, write_whole};
 use crate::picture::{Frame, Quality, Size, write_png};
 use crate::runlog::RunLog;
@@ -46,7 +45,7 @@ pub(super) struct ExportJob {
     since: f64,
     part: f64,
     /// Dropping it ends the job.
-    _stop: Sender<()>,
+    _cancel: CancelOnDrop,
 }
 
 /// What the job is made of.
@@ -56,8 +55,12 @@ struct ExportSource {
     frame: Option<Frame>,
 }
 
-/// Tells what part is done, and says whether to go on.
-type ProgressSink<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+/// What a job needs besides its source: how to tell the part that is done, and whether to end.
+#[derive(Clone, Copy)]
+struct ExportContext<'a> {
+    tell: &'a (dyn Fn(f64) + Sync),
+    cancel: &'a CancelToken,
+}
 
 impl Session {
     /// Makes it in the background and writes it to `path`.
@@ -74,29 +77,24 @@ impl Session {
         // The picture of a recorded run is traced again while it is shown.
         let is_known = !self.is_recorded() || self.stage.performer.has_ended();
         let source = ExportSource { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
-        let (job, (stop, stopped)) = (self.jobs.number(), bounded::<()>(0));
+        let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
+        let cancel = owner.token();
         // What was said of the file before would cover how far this one is.
         self.notice = None;
-        self.making = Some(ExportJob { job, name, since: self.clock, part: 0.0, _stop: stop });
+        self.making = Some(ExportJob { job, name, since: self.clock, part: 0.0, _cancel: owner });
         let failed = move |why| JobResult::Made(job, Err(why));
-        self.jobs.start_many(
-            "export",
-            failed,
-            move |tell| {
-                let percent = AtomicU32::new(0);
-                let goes_on = |part: f64| {
-                    let now = (100.0 * part) as u32;
-                    // The window need not hear more often.
-                    if percent.fetch_max(now, Ordering::Relaxed) < now {
-                        tell(JobResult::Progress(job, part));
-                    }
-                    stopped.try_recv() != Err(TryRecvError::Disconnected)
-                };
-                let made = source.make(&path, export, &goes_on, language);
-                tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
-            },
-            language,
-        );
+        self.jobs.start_many(language, "export", failed, move |tell| {
+            let percent = AtomicU32::new(0);
+            let tell_part = |part: f64| {
+                let now = (100.0 * part) as u32;
+                // The window need not hear more often.
+                if percent.fetch_max(now, Ordering::Relaxed) < now {
+                    tell(JobResult::Progress(job, part));
+                }
+            };
+            let made = source.make(&path, export, ExportContext { tell: &tell_part, cancel: &cancel });
+            tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
+        });
     }
 
     /// What is being made, how many seconds already, and what part of it is done.
@@ -138,20 +136,15 @@ impl ExportSource {
     ///
     /// # Errors
     /// A sentence, if it cannot be made; within it what writing came to.
-    fn make(
-        &self,
-        path: &Path,
-        export: Export,
-        tell: ProgressSink<'_>,
-        _language: Language,
-    ) -> Result<Result<(), OutputError>, String> {
+    fn make(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<Result<(), OutputError>, String> {
+        let ExportContext { tell, cancel } = context;
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
         Ok(match export {
             Export::Picture(size, quality) => {
                 let tracer = self.tracer(size, quality)?;
-                let rgb = trace_strips(&tracer, &|part| _ = tell(part), &|| !tell(0.0))?;
+                let rgb = trace_strips(&tracer, tell, cancel).map_err(|error| error.to_string())?;
                 write_png(path, size, &rgb.ok_or("it was stopped")?)
             }
             Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
@@ -160,9 +153,14 @@ impl ExportSource {
             Export::Film(film) => {
                 let frame = match &self.frame {
                     Some(frame) => frame.clone(),
-                    None => self.traced(tell)?,
+                    None => self.traced(cancel)?,
                 };
-                write(&|file| film.write(file, log, &frame, &mut |part| tell(part)))
+                write(&|file| {
+                    film.write(file, log, &frame, &mut |part| {
+                        tell(part);
+                        !cancel.is_cancelled()
+                    })
+                })
             }
             Export::Table => write(&|file| write_csv(file, log)),
             Export::Chrome => write(&|file| write_chrome(file, log)),
@@ -175,11 +173,11 @@ impl ExportSource {
         Ok(Arc::new(Tracer::new(&scene, size, quality)))
     }
 
-    fn traced(&self, tell: ProgressSink<'_>) -> Result<Frame, String> {
+    fn traced(&self, cancel: &CancelToken) -> Result<Frame, String> {
         let header = &self.log.header;
         let tracer = self.tracer(header.size, header.quality)?;
-        let whole =
-            TracedPicture::unless(&tracer, header.division, &|_| {}, &|| !tell(0.0))?.ok_or("it was stopped")?;
-        Ok(Frame::of(header.size, &whole.pixels))
+        let traced = TracedPicture::unless_cancelled(&tracer, header.division, &|_| {}, cancel);
+        let picture = traced.map_err(|error| error.to_string())?.ok_or("it was stopped")?;
+        Ok(Frame::of(header.size, &picture.pixels))
     }
 }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::{Phase, Session};
 use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::scenario::Command;
 use crate::view::{NodeState, Sharing};
 
 impl Session {
@@ -31,7 +32,7 @@ impl Session {
     pub fn set_condition(&mut self, node: NodeId, condition: Condition) {
         if self.can_fail() {
             self.return_to_present();
-            self.stage.performer.set_condition(node, condition);
+            self.stage.performer.command(Command::Condition { node, condition });
         }
     }
 
@@ -39,7 +40,7 @@ impl Session {
     pub fn delay(&mut self, (from, to): (Party, Party), by: Duration) {
         if self.can_fail() {
             self.return_to_present();
-            self.stage.performer.delay(from, to, by);
+            self.stage.performer.command(Command::Delay { from, to, by });
         }
     }
 

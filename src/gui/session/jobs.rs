@@ -10,6 +10,7 @@ use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded, unbounded};
 
 use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
+use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
 use crate::output::OutputError;
 use crate::picture::{Size, write_png};
@@ -26,7 +27,7 @@ pub struct Jobs {
     /// Dropping it ends the watch.
     watch: Option<Sender<()>>,
     /// Dropping it ends the measurement.
-    pub(super) measuring: Option<Sender<()>>,
+    pub(super) measuring: Option<CancelOnDrop>,
 }
 
 impl Jobs {
@@ -49,44 +50,39 @@ impl Jobs {
         pixels: impl FnOnce() -> Vec<u8> + Send + 'static,
         language: Language,
     ) {
-        self.start(
-            "save",
-            move || JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language)),
-            language,
-        );
+        self.start(language, "save", move || {
+            JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language))
+        });
     }
 
     /// Writes a run file.
     pub fn save_run(&self, path: PathBuf, log: RunLog, language: Language) {
-        self.start("save", move || JobResult::Saved(told(&path, log.save(&path), language)), language);
+        self.start(language, "save", move || JobResult::Saved(told(&path, log.save(&path), language)));
     }
 
     /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
     pub fn choose(&self, purpose: Purpose, at: PathBuf, language: Language) {
         let [scenes, lessons, all] =
             word!(language, ["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
-        self.start(
-            "file dialog",
-            move || {
-                let mut dialog = rfd::FileDialog::new();
-                if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
-                    dialog = dialog.set_directory(directory);
-                }
-                let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-                let chosen = match purpose {
-                    Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
-                    Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
-                    Purpose::Save => dialog.set_file_name(name).save_file(),
-                };
-                JobResult::Chosen(purpose, chosen)
-            },
-            language,
-        );
+        self.start(language, "file dialog", move || {
+            let mut dialog = rfd::FileDialog::new();
+            if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
+                dialog = dialog.set_directory(directory);
+            }
+            let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let chosen = match purpose {
+                Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
+                Purpose::Learn => dialog.add_filter(lessons, &["ron"]).add_filter(all, &["*"]).pick_file(),
+                Purpose::Save => dialog.set_file_name(name).save_file(),
+            };
+            JobResult::Chosen(purpose, chosen)
+        });
     }
 
     /// Makes small pictures of these scenes, one after the other.
     pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
         self.start_many(
+            language,
             "thumbnails",
             |why| JobResult::Saved(Err(why)),
             move |tell| {
@@ -96,13 +92,12 @@ impl Jobs {
                     tell(JobResult::Thumbnail(scene, made));
                 }
             },
-            language,
         );
     }
 
     /// Traces a pixel once more, to be looked at.
     pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static, language: Language) {
-        self.start("inspect", move || JobResult::Inspected(look().map(Box::new)), language);
+        self.start(language, "inspect", move || JobResult::Inspected(look().map(Box::new)));
     }
 
     /// Watches this file instead of the one before.
@@ -112,6 +107,7 @@ impl Jobs {
         let (stop, stopped) = bounded(0);
         self.watch = Some(stop);
         self.start_many(
+            language,
             "watch",
             |why| JobResult::Saved(Err(why)),
             move |tell| {
@@ -125,7 +121,6 @@ impl Jobs {
                     }
                 }
             },
-            language,
         );
     }
 
@@ -135,17 +130,17 @@ impl Jobs {
         self.next
     }
 
-    pub(super) fn start(&self, name: &str, job: impl FnOnce() -> JobResult + Send + 'static, language: Language) {
-        self.start_many(name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()), language);
+    pub(super) fn start(&self, language: Language, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
+        self.start_many(language, name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()));
     }
 
     /// Starts a thread for a job that tells several things, or tells what it `failed` with.
     pub(super) fn start_many(
         &self,
+        language: Language,
         name: &str,
         failed: impl FnOnce(String) -> JobResult,
         job: impl FnOnce(&(dyn Fn(JobResult) + Sync)) + Send + 'static,
-        language: Language,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
         let tell = move |done| {
@@ -169,7 +164,7 @@ fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
     fs::metadata(path).ok().map(|data| (data.modified().ok(), data.len()))
 }
 
-/// How saving went, in a sentence of this language. What is in files is English, so that only now the thread speaks it.
+/// Puts into a sentence how saving went.
 pub(super) fn told(path: &Path, saved: Result<(), OutputError>, language: Language) -> Result<String, String> {
     let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let shown = shown.display();

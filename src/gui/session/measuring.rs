@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use crossbeam_channel::{TryRecvError, bounded};
-
 use super::Session;
 use super::job_result::{Finding, JobResult, Prepared};
 use super::jobs::Jobs;
+use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::language::Language;
 use crate::picture::{Quality, Size};
 use crate::scene::Scene;
-use crate::study::accuracy::{MOST, Reference, measure, size_for};
+use crate::study::accuracy::{MAX_SAMPLES_PER_SIDE, Reference, measure, size_for};
 
 impl Session {
     /// Measures what qualities of the scene cost, in place of what was measured before; returns the job's number.
@@ -30,21 +29,17 @@ impl Jobs {
     /// Measures these qualities in a small picture, in place of what was measured before; returns the job's number.
     pub fn measure(&mut self, prepared: &Prepared, qualities: Vec<Quality>, language: Language) -> u64 {
         let number = self.number();
-        let (stop, stopped) = bounded::<()>(0);
-        self.measuring = Some(stop);
+        // Replacing the owner cancels the measurement before.
+        let owner = CancelOnDrop::default();
+        let cancel = owner.token();
+        self.measuring = Some(owner);
         let (opened, tracer, whole) = (Arc::clone(&prepared.opened), Arc::clone(&prepared.tracer), prepared.size);
         let failed = move |why| JobResult::Found(number, Finding::Over(Err(why)));
-        self.start_many(
-            "measure",
-            failed,
-            move |tell| {
-                let is_over = || stopped.try_recv() == Err(TryRecvError::Disconnected);
-                let tell = |finding| tell(JobResult::Found(number, finding));
-                tell(Finding::Needs(tracer.compiled(), tracer.levels()));
-                tell(Finding::Over(found(&opened.scene, whole, &qualities, &is_over, &tell)));
-            },
-            language,
-        );
+        self.start_many(language, "measure", failed, move |tell| {
+            let tell = |finding| tell(JobResult::Found(number, finding));
+            tell(Finding::Needs(tracer.scene_stats(), tracer.levels()));
+            tell(Finding::Over(found(&opened.scene, whole, &qualities, &cancel, &tell)));
+        });
         number
     }
 
@@ -54,24 +49,26 @@ impl Jobs {
     }
 }
 
-/// Measures and tells until all is measured or it `is_over`.
+/// Measures all qualities, unless cancelled, and tells the findings.
 fn found(
     scene: &Scene,
     whole: Size,
     qualities: &[Quality],
-    is_over: &(dyn Fn() -> bool + Sync),
+    cancel: &CancelToken,
     tell: &dyn Fn(Finding),
 ) -> Result<(), String> {
-    let size = size_for(scene, small(whole)?)?;
+    let size = size_for(scene, small(whole)?);
     let mut begun = 0;
     let mut begin = || {
         begun += 1;
         tell(Finding::Begun(begun));
     };
-    let Some(reference) = Reference::trace(scene, size, MOST, &mut begin, is_over)? else { return Ok(()) };
+    let reference =
+        Reference::trace(scene, size, MAX_SAMPLES_PER_SIDE, &mut begin, cancel).map_err(|error| error.to_string())?;
+    let Some(reference) = reference else { return Ok(()) };
     tell(Finding::Reference(reference.clone()));
     let mut known = 0;
-    measure(scene, &reference, qualities, is_over, &mut |place, point, frame| {
+    measure(scene, &reference, qualities, cancel, &mut |place, point, frame| {
         // Each comes for the first time in its turn.
         let is_new = place == known;
         known += usize::from(is_new);
@@ -85,7 +82,7 @@ fn small(whole: Size) -> Result<Size, String> {
     const PIXELS: f64 = 160.0 * 120.0;
     let part = (PIXELS / f64::from(whole.pixels())).sqrt().min(1.0);
     let side = |side: u32| ((f64::from(side) * part).round() as u32).max(1);
-    Size::new(side(whole.width()), side(whole.height()))
+    Ok(Size::new(side(whole.width()), side(whole.height()))?)
 }
 
 #[cfg(test)]

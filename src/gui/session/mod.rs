@@ -30,6 +30,7 @@ use crate::driver::{Run, cores};
 use crate::language::{Language, say};
 use crate::palette::Rgb;
 use crate::runlog::Header;
+use crate::scenario::Command;
 use crate::scene::{Camera, Opened};
 use crate::time::Time;
 use opening::Opening;
@@ -244,7 +245,7 @@ impl Session {
             && self.stage.phase == Phase::Running
         {
             *paused = !*paused;
-            self.stage.performer.set_node_paused(node, *paused);
+            self.stage.performer.command(Command::Pause { node, paused: *paused });
         }
     }
 
@@ -374,10 +375,10 @@ impl Session {
         }
         let speeds = self.settings.all_speeds().zip(before.all_speeds());
         for (node, (speed, _)) in (0..).zip(speeds).filter(|(_, (speed, before))| speed != before) {
-            self.stage.performer.set_speed(node, speed);
+            self.stage.performer.command(Command::Speed { node, speed });
         }
         if self.settings.latency != before.latency {
-            self.stage.performer.set_latency(self.settings.latency_time());
+            self.stage.performer.command(Command::Latency(self.settings.latency_time()));
         }
         before
     }

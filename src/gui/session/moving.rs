@@ -93,7 +93,7 @@ impl Session {
         }
         moving.is_settled = true;
         let camera = moving.camera;
-        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.seen_by(camera));
+        let opened = self.prepared.as_ref().and_then(|prepared| prepared.opened.with_camera(camera));
         match opened {
             Some(opened) => {
                 self.show(Opening::Scene(Arc::new(opened)));
@@ -145,7 +145,7 @@ impl Session {
 impl Jobs {
     /// Looks at the scene, coarsely and then as finely as there is time.
     fn look(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
-        self.start("camera", move || JobResult::CameraPreview(look(&scene, size, quality)), language);
+        self.start(language, "camera", move || JobResult::CameraPreview(look(&scene, size, quality)));
     }
 }
 

@@ -1,10 +1,7 @@
 //! Whoever performs what the window shows: nodes that trace, or whoever traces a recorded run's picture again.
 
-use std::time::Duration;
-
 use crossbeam_channel::Receiver;
 
-use crate::balance::{Condition, NodeId, Party};
 use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
@@ -55,31 +52,10 @@ impl RunSource {
         }
     }
 
-    /// Changes a machine's speed; what is recorded does not change any more.
-    pub fn set_speed(&self, node: NodeId, speed: f64) {
+    /// Executes a command on a live run; a recorded run does not change any more.
+    pub fn command(&self, command: Command) {
         if let Self::Live(run) = self {
-            run.set_speed(node, speed);
-        }
-    }
-
-    /// Lets a machine stand still, or go on.
-    pub fn set_node_paused(&self, node: NodeId, paused: bool) {
-        if let Self::Live(run) = self {
-            run.set_paused(node, paused);
-        }
-    }
-
-    /// Something becomes of a node's machine.
-    pub fn set_condition(&self, node: NodeId, condition: Condition) {
-        if let Self::Live(run) = self {
-            run.command(Command::Condition { node, condition });
-        }
-    }
-
-    /// What is on its way from one party to another is held up.
-    pub fn delay(&self, from: Party, to: Party, by: Duration) {
-        if let Self::Live(run) = self {
-            run.command(Command::Delay { from, to, by });
+            run.command(command);
         }
     }
 
@@ -87,13 +63,6 @@ impl RunSource {
     pub fn set_rate(&self, rate: f64) {
         if let Self::Live(run) = self {
             run.set_rate(rate);
-        }
-    }
-
-    /// Changes how long messages travel.
-    pub fn set_latency(&self, latency: Duration) {
-        if let Self::Live(run) = self {
-            run.set_latency(latency);
         }
     }
 }

@@ -8,7 +8,7 @@ use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
 use super::opening::Opening;
 use super::preview::{FINEST, PREVIEW, guess, with_preview};
-use crate::driver::{RAY, probe};
+use crate::driver::{RAY_COST, probe};
 use crate::language::{Language, say};
 use crate::picture::Size;
 use crate::scene::Opened;
@@ -25,41 +25,37 @@ impl Jobs {
     ) -> u64 {
         let number = self.number();
         let (size, quality, division) = (settings.size, settings.quality, settings.division());
-        self.start(
-            "prepare",
-            move || {
-                let ready = read().and_then(|opening| match opening {
-                    Opening::Scene(opened) => {
-                        let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
-                        let found = probe(&tracer, division, PROBE);
-                        let cpu = found.whole_with_rests(&tracer, division);
-                        let virtual_time = RAY.mul_f64(found.rays as f64);
-                        let preview = guess(&tracer);
-                        Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
-                    }
-                    Opening::Run(log) => {
-                        check_size(log.header.size, language)?;
-                        let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                        let unread = |error| {
-                            say!(
-                                language,
-                                "The run's own scene cannot be read: {error}",
-                                "A cena da própria execução não pode ser lida: {error}"
-                            )
-                        };
-                        let opened = opened.map_err(unread)?;
-                        let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                        let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
-                        let known = Arc::new(RunView::of(&log));
-                        let preview = guess(&tracer);
-                        Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
-                    }
-                    Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
-                });
-                JobResult::Ready(number, ready)
-            },
-            language,
-        );
+        self.start(language, "prepare", move || {
+            let ready = read().and_then(|opening| match opening {
+                Opening::Scene(opened) => {
+                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
+                    let found = probe(&tracer, division, PROBE);
+                    let cpu = found.whole_with_rests(&tracer, division);
+                    let virtual_time = RAY_COST.mul_f64(found.rays as f64);
+                    let preview = guess(&tracer);
+                    Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
+                }
+                Opening::Run(log) => {
+                    check_size(log.header.size, language)?;
+                    let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
+                    let unread = |error| {
+                        say!(
+                            language,
+                            "The run's own scene cannot be read: {error}",
+                            "A cena da própria execução não pode ser lida: {error}"
+                        )
+                    };
+                    let opened = opened.map_err(unread)?;
+                    let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
+                    let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
+                    let known = Arc::new(RunView::of(&log));
+                    let preview = guess(&tracer);
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
+                }
+                Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
+            });
+            JobResult::Ready(number, ready)
+        });
         number
     }
 }

@@ -34,7 +34,7 @@ pub(super) fn guess(tracer: &Tracer) -> Arc<[Rgb]> {
     let (width, height) = (tracer.size().width(), tracer.size().height());
     let Some(preview) = tracer.preview() else { return Arc::default() };
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places.map(|(x, y)| srgb8(preview.guess(x, y))).collect()
+    places.map(|(x, y)| srgb8(preview.interpolate(x, y))).collect()
 }
 
 /// Traces a small picture of `scene` for the gallery.

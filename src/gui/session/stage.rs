@@ -136,7 +136,7 @@ impl Stage {
                     ends = self.phase == Phase::Running;
                     self.phase = Phase::Finished;
                 }
-                Update::Failed(why) => self.phase = Phase::Failed(why),
+                Update::Failed(error) => self.phase = Phase::Failed(error.to_string()),
             }
         }
         self.sort_in(told);

@@ -7,6 +7,7 @@ use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::guess;
+use crate::cancel::CancelToken;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
 use crate::view::RunView;
@@ -70,29 +71,25 @@ impl Session {
 impl Jobs {
     fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>, language: Language) -> u64 {
         let number = self.number();
-        self.start(
-            "lesson",
-            move || {
-                let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
-                // A lesson's pictures are small, and soon traced.
-                let performed = lesson.perform(&done, &|| false);
-                let taught = performed.and_then(|performed| {
-                    let performed = performed.unwrap_or_default();
-                    lesson.has_moments(&performed)?;
-                    let values = lesson.values(&performed);
-                    let recorded = performed.into_iter().map(|(name, run)| {
-                        let known = Arc::new(RunView::of(&run.log));
-                        let preview = guess(&run.tracer);
-                        (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
-                    });
-                    Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
+        self.start(language, "lesson", move || {
+            let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
+            // A lesson's pictures are small, and soon traced.
+            let performed = lesson.perform(&done, &CancelToken::default());
+            let taught = performed.and_then(|performed| {
+                let performed = performed.unwrap_or_default();
+                lesson.has_moments(&performed)?;
+                let values = lesson.values(&performed);
+                let recorded = performed.into_iter().map(|(name, run)| {
+                    let known = Arc::new(RunView::of(&run.log));
+                    let preview = guess(&run.tracer);
+                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
                 });
-                let unshown =
-                    |why| say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
-                JobResult::Lesson(number, taught.map_err(unshown))
-            },
-            language,
-        );
+                Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
+            });
+            let unshown =
+                |why| say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
+            JobResult::Lesson(number, taught.map_err(unshown))
+        });
         number
     }
 }

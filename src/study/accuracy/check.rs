@@ -1,38 +1,39 @@
-//! Whether the automatic choice keeps what it promises.
+//! Checks that the automatic choice keeps its limit.
 
 use super::{Point, Reference, fastest_within, front, measure};
+use crate::cancel::CancelToken;
 use crate::picture::Quality;
 use crate::scene::Scene;
 
-/// So many limits of the error are tried.
+/// Number of limits of the error that are tried.
 const LIMITS: usize = 8;
 
-/// The pattern of samples of what is measured anew; neither the reference nor any other point has it.
-const OTHER_PATTERN: u32 = 3;
+/// Pattern of samples for the second measurement; neither the reference nor any other point has it.
+const REMEASURED_PATTERN: u32 = 3;
 
-/// What came of one choice: the fastest within a limit of the error.
+/// Check of one choice: the fastest point within a limit of the error.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Landing {
-    /// The limit.
+pub(super) struct ChoiceCheck {
+    /// The limit of the error.
     pub error: f64,
-    /// What was chosen from all points.
+    /// The choice from all points.
     pub chosen: Point,
-    /// The same measured anew, with other samples.
-    pub anew: Point,
-    /// How much longer than this takes what is chosen where every other point is missing, the worse of both halves;
-    /// `None` if a half has nothing within the limit.
+    /// The same quality measured again, with other samples.
+    pub remeasured: Point,
+    /// CPU time of the choice from every other point over that of the choice from all, the worse of the two halves;
+    /// `None` if a half has no point within the limit.
     pub half_over_all: Option<f64>,
 }
 
-impl Landing {
-    /// The error as measured anew over the limit.
+impl ChoiceCheck {
+    /// Returns the error of the second measurement over the limit.
     pub fn overshoot(&self) -> f64 {
-        self.anew.rmse() / self.error
+        self.remeasured.rmse() / self.error
     }
 }
 
-/// Chooses at limits from the fastest point's error to the best one's, equally far apart on a logarithmic scale.
-pub(super) fn check(scene: &Scene, reference: &Reference, points: &[Point]) -> Vec<Landing> {
+/// Checks choices for limits from the fastest point's error to the best one's, spaced evenly on a logarithmic scale.
+pub(super) fn check(scene: &Scene, reference: &Reference, points: &[Point]) -> Vec<ChoiceCheck> {
     let front = front(points);
     let (Some(fastest), Some(best)) = (front.first(), front.last()) else { return Vec::new() };
     let half = |first: usize| points.iter().skip(first).step_by(2).copied().collect::<Vec<Point>>();
@@ -42,12 +43,13 @@ pub(super) fn check(scene: &Scene, reference: &Reference, points: &[Point]) -> V
     let limits = (0..LIMITS).map(|i| limit(i).max(best.rmse()));
     let chosen: Vec<(f64, Point)> = limits.filter_map(|error| Some((error, *fastest_within(points, error)?))).collect();
     let qualities: Vec<Quality> =
-        chosen.iter().map(|(_, point)| Quality { pattern: OTHER_PATTERN, ..point.quality }).collect();
-    let anew = measure(scene, reference, &qualities, &|| false, &mut |_, _, _| {}).unwrap_or_default();
-    let landing = |((error, chosen), anew): ((f64, Point), Point)| {
+        chosen.iter().map(|(_, point)| Quality { pattern: REMEASURED_PATTERN, ..point.quality }).collect();
+    let remeasured =
+        measure(scene, reference, &qualities, &CancelToken::default(), &mut |_, _, _| {}).unwrap_or_default();
+    let choice = |((error, chosen), remeasured): ((f64, Point), Point)| {
         let over = |half: &Vec<Point>| Some(fastest_within(half, error)?.cpu_s / chosen.cpu_s);
         let half_over_all = over(&halves[0]).zip(over(&halves[1])).map(|(one, other)| one.max(other));
-        Landing { error, chosen, anew, half_over_all }
+        ChoiceCheck { error, chosen, remeasured, half_over_all }
     };
-    chosen.into_iter().zip(anew).map(landing).collect()
+    chosen.into_iter().zip(remeasured).map(choice).collect()
 }

@@ -1,9 +1,9 @@
-//! The automatic choice: of points that were measured, which one to take.
+//! The automatic choice among measured points.
 
 use super::Point;
 
-/// The Pareto front: the points than which no other is both as fast and as good, the fastest first. Of several that are the
-/// same in both, one.
+/// Returns the Pareto front, the fastest point first: no other point is at least as fast and at least as good. Of
+/// several equal points it has one.
 pub fn front(points: &[Point]) -> Vec<&Point> {
     let mut sorted: Vec<&Point> = points.iter().collect();
     sorted.sort_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s).then(a.rmse().total_cmp(&b.rmse())));
@@ -16,12 +16,12 @@ pub fn front(points: &[Point]) -> Vec<&Point> {
     sorted
 }
 
-/// The fastest point with an error of at most `error` (see [`Point::rmse`]); `None` if there is no such point.
+/// Returns the fastest point with an error of at most `error` (see [`Point::rmse`]); `None` if there is none.
 pub fn fastest_within(points: &[Point], error: f64) -> Option<&Point> {
     front(points).into_iter().find(|point| point.rmse() <= error)
 }
 
-/// The best point that takes at most so many CPU seconds; `None` if there is no such point.
+/// Returns the best point that takes at most `seconds` of CPU time; `None` if there is none.
 pub fn best_within(points: &[Point], seconds: f64) -> Option<&Point> {
     front(points).into_iter().rfind(|point| point.cpu_s <= seconds)
 }
@@ -33,14 +33,14 @@ pub(super) mod tests {
     use super::*;
     use crate::picture::{Difference, Quality};
 
-    /// A point that takes so long and has this error.
+    /// Makes a point with this time and error.
     pub fn point(cpu_s: f64, rmse: f64) -> Point {
         let difference = Difference { rmse, wrong_pixels: 0, worst_ssim: 1.0 };
         Point { quality: Quality::default(), cpu_s, rays: 1, difference }
     }
 
     fn clouds() -> impl Strategy<Value = Vec<Point>> {
-        // Few values, so that many are the same.
+        // Few values, so that many points are equal.
         let number = || (1..12_u32).prop_map(f64::from);
         prop::collection::vec((number(), number()).prop_map(|(cpu_s, rmse)| point(cpu_s, rmse)), 0..40)
     }
@@ -51,7 +51,7 @@ pub(super) mod tests {
 
     proptest! {
         #[test]
-        fn nothing_beats_the_front_and_all_else_is_beaten_by_it(points in clouds()) {
+        fn front_dominates_all_points_and_is_dominated_by_none(points in clouds()) {
             let front = front(&points);
             prop_assert!(front.is_sorted_by(|a, b| a.cpu_s < b.cpu_s && a.rmse() > b.rmse()));
             for point in &points {
@@ -61,7 +61,7 @@ pub(super) mod tests {
         }
 
         #[test]
-        fn what_is_chosen_keeps_its_limit_and_nothing_that_does_is_better(points in clouds(), limit in 0.5..13.0_f64) {
+        fn choice_is_best_within_limit(points in clouds(), limit in 0.5..13.0_f64) {
             let within: Vec<&Point> = points.iter().filter(|point| point.rmse() <= limit).collect();
             match fastest_within(&points, limit) {
                 Some(fastest) => {
@@ -79,7 +79,7 @@ pub(super) mod tests {
         }
 
         #[test]
-        fn whoever_allows_more_gets_no_less(points in clouds(), limit in 0.5..13.0_f64, more in 0.0..5.0_f64) {
+        fn milder_limit_gives_no_worse_choice(points in clouds(), limit in 0.5..13.0_f64, more in 0.0..5.0_f64) {
             if let (Some(strict), Some(mild)) = (fastest_within(&points, limit), fastest_within(&points, limit + more)) {
                 prop_assert!(mild.cpu_s <= strict.cpu_s);
             }

@@ -1,27 +1,27 @@
 //! Straight lines through points on logarithmic axes.
 
-/// The slope of the straight line of least squares through points on logarithmic axes: p of y = a xᵖ. `None` where fewer
-/// than two different points are on such axes.
+/// Fits a line by least squares on logarithmic axes and returns its slope: p of y = a xᵖ. `None` for fewer than two
+/// different positive points.
 pub(super) fn log_slope(points: &[(f64, f64)]) -> Option<f64> {
     let Sums { xx, xy, .. } = Sums::of(points);
     (xx > 0.0).then_some(xy / xx)
 }
 
-/// Pearson's coefficient of correlation of the logarithms, from −1 to 1; `None` where one of both does not vary.
+/// Returns Pearson's correlation of the logarithms, from −1 to 1; `None` if one coordinate does not vary.
 pub(super) fn log_correlation(points: &[(f64, f64)]) -> Option<f64> {
     let Sums { xx, xy, yy } = Sums::of(points);
     (xx > 0.0 && yy > 0.0).then(|| xy / (xx * yy).sqrt())
 }
 
-/// Where the broken line through points, of which each has a greater x and a smaller y than the one before, has this y, on
-/// logarithmic axes. `None` beyond its ends.
+/// Returns the x at which the broken line through the points has this y, on logarithmic axes. Each point must have a
+/// greater x and a smaller y than the one before. `None` beyond the ends.
 pub(super) fn log_crossing(points: &[(f64, f64)], y: f64) -> Option<f64> {
     let (a, b) = points.iter().zip(points.get(1..)?).find(|(a, b)| (b.1..=a.1).contains(&y))?;
     let part = if a.1 > b.1 { (a.1 / y).ln() / (a.1 / b.1).ln() } else { 0.0 };
     Some(a.0 * (b.0 / a.0).powf(part))
 }
 
-/// Sums of products of distances from the means, of the logarithms of what has any.
+/// Sums of products of the logarithms' distances from their means, over points with positive coordinates.
 struct Sums {
     xx: f64,
     xy: f64,
@@ -47,13 +47,13 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_power_is_found(a in 0.1..10.0_f64, p in -3.0..3.0_f64, from in 0.1..2.0_f64) {
+        fn slope_is_the_exponent_of_a_power(a in 0.1..10.0_f64, p in -3.0..3.0_f64, from in 0.1..2.0_f64) {
             let points: Vec<(f64, f64)> = (0..5).map(|i| from * 2f64.powi(i)).map(|x| (x, a * x.powf(p))).collect();
             prop_assert!((log_slope(&points).unwrap() - p).abs() < 1e-9);
         }
 
         #[test]
-        fn units_and_powers_do_not_matter(
+        fn correlation_ignores_units_and_powers(
             points in prop::collection::vec((0.1..10.0_f64, 0.1..10.0_f64), 3..20), unit in 0.1..10.0_f64,
         ) {
             let scaled: Vec<(f64, f64)> = points.iter().map(|(x, y)| (unit * x.powi(3), y / unit)).collect();
@@ -62,7 +62,7 @@ mod tests {
         }
 
         #[test]
-        fn a_crossing_is_on_the_line(a in 0.1..10.0_f64, p in -3.0..-0.1_f64, part in 0.0..1.0_f64) {
+        fn crossing_is_on_the_line(a in 0.1..10.0_f64, p in -3.0..-0.1_f64, part in 0.0..1.0_f64) {
             let points: Vec<(f64, f64)> = (0..5).map(|i| 2f64.powi(i)).map(|x| (x, a * x.powf(p))).collect();
             let x = 16f64.powf(part);
             prop_assert!((log_crossing(&points, a * x.powf(p)).unwrap() / x - 1.0).abs() < 1e-6);
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn some_correlations_are_known() {
+    fn known_correlations_are_found() {
         let line = |sign: f64| (1..9).map(|i| (f64::from(i), f64::from(i).powf(sign))).collect::<Vec<_>>();
         assert!((log_correlation(&line(2.0)).unwrap() - 1.0).abs() < 1e-12);
         assert!((log_correlation(&line(-0.1)).unwrap() + 1.0).abs() < 1e-12);
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn where_nothing_varies_there_is_no_line() {
+    fn constant_points_have_no_slope_and_no_correlation() {
         assert_eq!([log_slope(&[]), log_slope(&[(2.0, 3.0)]), log_slope(&[(2.0, 0.0), (3.0, 1.0)])], [None; 3]);
         assert_eq!(
             [log_correlation(&[]), log_correlation(&[(1.0, 2.0)]), log_correlation(&[(1.0, 2.0), (2.0, 2.0)])],

@@ -1,8 +1,8 @@
-//! Speed against accuracy: what each knob of quality costs, and how far its picture is from a reference; and the same
-//! question of the ring, whose estimates of speeds and whose atoms may be finer or coarser.
+//! Speed against accuracy: the cost of each knob of quality and the error of its picture against a reference; and for
+//! the ring, the error of its speed estimates and the effect of the size of atoms.
 //!
-//! [`Reference`], [`measure`] and the automatic choice know no files and tell no words, so that the window can ask them
-//! about its own scene.
+//! [`Reference`], [`measure`] and the automatic choice use no files and no texts, so that the window can apply them to
+//! its own scene.
 
 mod charts;
 mod check;
@@ -15,24 +15,24 @@ mod report;
 mod ring;
 mod ring_report;
 mod scene;
-mod sharing;
+mod transfers;
 
 pub use choice::{best_within, fastest_within, front};
-pub use knobs::{MOST, combinations, size_for};
+pub use knobs::{MAX_SAMPLES_PER_SIDE, combinations, size_for};
 pub use measure::{Point, measure};
 pub use reference::Reference;
 
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::language::Language;
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::scene::Opened;
 use crate::view::CHART_SIZE;
 use ring::RingAccuracy;
-use scene::{Found, MeasuredPoint};
+use scene::{MeasuredPoint, SceneAccuracy};
 
 /// One quality of one scene.
 #[derive(Clone, Debug, Serialize)]
@@ -42,7 +42,7 @@ struct AccuracyRow {
     height: u32,
     /// The knob that is turned alone, or `together`.
     knob: &'static str,
-    /// What that is set to.
+    /// The value of that knob.
     value: Option<f64>,
     samples: u32,
     threshold: f64,
@@ -51,17 +51,17 @@ struct AccuracyRow {
     cpu_s: f64,
     rays: u64,
     rmse: f64,
-    /// The error for this knob alone.
+    /// The error of this knob alone.
     rmse_alone: Option<f64>,
     wrong_pixels: u32,
     worst_ssim: f64,
 }
 
-/// What is measured where all knobs are turned.
+/// The knob's name in rows where all knobs are combined.
 const TOGETHER: &str = "together";
 
 impl AccuracyRow {
-    fn new(found: &Found, entry: &MeasuredPoint) -> Self {
+    fn new(found: &SceneAccuracy, entry: &MeasuredPoint) -> Self {
         let MeasuredPoint { knob, value, point, alone } = *entry;
         Self {
             scene: found.scene.clone(),
@@ -83,19 +83,19 @@ impl AccuracyRow {
     }
 }
 
-/// The scenes in pictures of no more than `most`, smaller where a scene's trees of rays are large, and runs of the ring in
-/// virtual time.
+/// Measures the scenes, in pictures within `most` that are smaller where a scene's trees of rays are large, and runs of
+/// the ring in virtual time.
 ///
 /// # Errors
-/// A sentence, if a thread could not be started, or failed.
-pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
+/// A [`StudyError`], if a thread cannot be started or panics.
+pub fn accuracy(scenes: &[Opened], most: Size, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(scenes.len() * (scene::steps() + 1) + ring::STEPS, tell);
     let mut study = Study::new("accuracy");
-    let found: Vec<Found> =
-        scenes.iter().map(|opened| Found::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
+    let found: Vec<SceneAccuracy> =
+        scenes.iter().map(|opened| SceneAccuracy::of(opened, most, &mut progress)).collect::<Result<_, _>>()?;
     let ring = RingAccuracy::of(scenes, most, &mut progress)?;
     let rows: Vec<AccuracyRow> =
-        found.iter().flat_map(|found| found.entries.iter().map(|entry| AccuracyRow::new(found, entry))).collect();
+        found.iter().flat_map(|found| found.measured.iter().map(|entry| AccuracyRow::new(found, entry))).collect();
     study.add_rows(&rows)?;
     study.add_table("ring", &ring.rows())?;
     for found in &found {

@@ -1,116 +1,112 @@
-//! What the study of accuracy says.
+//! The report of the study of accuracy.
 
-use std::fmt::Write;
-
-use super::check::Landing;
+use super::check::ChoiceCheck;
 use super::choice::front;
 use super::fit::{log_crossing, log_slope};
-use super::knobs::{Knob, MOST};
+use super::knobs::{Knob, MAX_SAMPLES_PER_SIDE};
 use super::ring::RingAccuracy;
 use super::ring_report;
-use super::scene::{Found, MeasuredPoint};
+use super::scene::{MeasuredPoint, SceneAccuracy};
 use super::{Point, Reference};
 use crate::output::as_file_name;
 use crate::picture::{Difference, Quality};
-use crate::study::{median, optional, say};
+use crate::study::format::{optional, significant};
+use crate::study::markdown::Report;
+use crate::study::median;
 
-/// The report, in Markdown.
-pub(super) fn report(found: &[Found], ring: &RingAccuracy) -> String {
-    let mut text = String::from("# Speed against accuracy\n\n");
-    head(&mut text, found);
-    slopes(&mut text, found);
-    which_pays(&mut text, found);
-    choice(&mut text, found);
+/// Writes the report.
+pub(super) fn report(found: &[SceneAccuracy], ring: &RingAccuracy) -> Report {
+    let mut report = Report::titled("Speed against accuracy");
+    head(&mut report, found);
+    slopes(&mut report, found);
+    which_pays(&mut report, found);
+    choice(&mut report, found);
     for found in found {
-        scene(&mut text, found);
+        scene(&mut report, found);
     }
-    ring_report::ring(&mut text, ring);
-    say!(text, "\nAll that was measured is in `accuracy.csv`, all runs of rings in `accuracy-ring.csv`.");
-    text
+    ring_report::ring(&mut report, ring);
+    report.line("\nAll that was measured is in `accuracy.csv`, all runs of rings in `accuracy-ring.csv`.");
+    report
 }
 
-fn head(text: &mut String, found: &[Found]) {
-    let usual = Quality::default();
-    say!(
-        text,
-        "Each knob of quality is turned alone, and all are turned together. *Seconds* are CPU time on one core, the median of three \
-         turns where they are few. The *error* is the root of the mean squared error in linear light (RMSE). A pixel is *wrong* if a \
-         channel is more than {}/255 off in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 pixels; SPEC CPU asks for more than \
-         {SIMILAR} of each block of POV-Ray's pictures. A mean hides speckle, these two do not.\n",
-        Difference::SAME
-    );
-    say!(
-        text,
-        "While depth or cutoff is turned, there are 4 × 4 samples a pixel, and the other is at its default ({} levels, {:.4}); so are both \
-         while samples or threshold are. At the reference's values they would hide in their cost what the knob that is turned saves. A \
-         threshold is tried with {MOST} × {MOST} samples at most.\n",
-        usual.max_depth,
-        usual.cutoff
-    );
-    say!(
-        text,
-        "The *reference* has two patterns of samples, each with {} × {} samples a pixel at the default depth and cutoff, and with what is \
-         beyond these limits, from {few} × {few} samples, down to {} levels and a cutoff of {:e}. A cutoff bounds what all rays that \
-         are left out count together, so that this leaves out less than is seen here; without one, a tree of 50 levels may have 2⁵⁰ rays. \
-         The reference's own error is half of what its two patterns are apart. Scenes with large trees of rays have smaller pictures.\n",
-        3 * MOST,
-        3 * MOST,
+fn head(report: &mut Report, found: &[SceneAccuracy]) {
+    let default = Quality::default();
+    report.line(format!(
+        "Each knob of quality is turned alone, and all are combined. *Seconds* are CPU time on one core, the median \
+         of three turns if they are few. The *error* is the root mean square error in linear light (RMSE). A pixel is \
+         *wrong* if a channel differs by more than {}/255 in 8-bit sRGB. *SSIM* is the worst of all blocks of 8 × 8 \
+         pixels; SPEC CPU asks for more than {REQUIRED_SSIM} of each block of POV-Ray's pictures. A mean hides \
+         speckle; wrong pixels and the worst SSIM do not.\n",
+        Difference::TOLERANCE
+    ));
+    report.line(format!(
+        "While depth or cutoff is turned, there are 4 × 4 samples a pixel and the other limit is at its default ({} \
+         levels, {:.4}); while samples or threshold is turned, both are. At the reference's limits the cost of these \
+         would hide the time that the turned knob saves. A threshold is tried with {MAX_SAMPLES_PER_SIDE} × \
+         {MAX_SAMPLES_PER_SIDE} samples at most.\n",
+        default.max_depth, default.cutoff
+    ));
+    report.line(format!(
+        "The *reference* has two patterns of samples: {} × {} samples a pixel at the default depth and cutoff, plus \
+         the light beyond these limits from {few} × {few} samples, down to {} levels and a cutoff of {:e}. A cutoff \
+         bounds what all rays left out count together, so the reference leaves out less than is visible here; without \
+         a cutoff a tree of 50 levels may have 2⁵⁰ rays. The reference's own error is half of the difference of its \
+         two patterns. Scenes with large trees of rays have smaller pictures.\n",
+        3 * MAX_SAMPLES_PER_SIDE,
+        3 * MAX_SAMPLES_PER_SIDE,
         Reference::DEPTH,
         Reference::CUTOFF,
-        few = MOST / 2
-    );
-    say!(text, "| scene | picture | the reference's error | beyond the default limits | least error measured |");
-    say!(text, "|---|---:|---:|---:|---:|");
+        few = MAX_SAMPLES_PER_SIDE / 2
+    ));
+    report.line("| scene | picture | the reference's error | beyond the default limits | least error measured |");
+    report.line("|---|---:|---:|---:|---:|");
     for found in found {
         let least = found.points().iter().map(Point::rmse).fold(f64::INFINITY, f64::min);
-        say!(
-            text,
+        report.line(format!(
             "| {} | {} | {:.5} | {:.5} | {least:.5} |",
-            found.scene,
-            found.size,
-            found.floor,
-            found.beyond_limits
-        );
+            found.scene, found.size, found.floor, found.beyond_limits
+        ));
     }
 }
 
-/// What SPEC asks of each block.
-const SIMILAR: f64 = 0.996;
+/// Least SSIM of each block that SPEC asks for.
+const REQUIRED_SSIM: f64 = 0.996;
 
-/// The slope of the error for the samples alone, by how many samples a pixel has; a single one lies in its middle and is of no
-/// pattern.
-fn slope(found: &Found) -> Option<f64> {
+/// Returns the slope of the error of samples alone, by samples a pixel. A single sample is excluded: it is in the
+/// middle of its pixel and has no pattern.
+fn slope(found: &SceneAccuracy) -> Option<f64> {
     let points = found.of_knob(Some(Knob::Samples)).filter(|entry| entry.point.quality.samples > 1);
     let point = |entry: &MeasuredPoint| Some((f64::from(entry.point.quality.samples).powi(2), entry.alone?));
     log_slope(&points.filter_map(point).collect::<Vec<_>>())
 }
 
-fn slopes(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 × 2 to {MOST} × {MOST} \
-         samples a pixel, against a picture of very many samples at the same depth and cutoff. Theory for samples one in each cell of \
-         a pixel: −0.5 where there is no structure, −0.75 where edges cross pixels, −1 where all is smooth (D. P. Mitchell, \
-         *Consequences of stratified sampling in graphics*, 1996).\n",
-    );
-    say!(text, "| scene | slope |\n|---|---:|");
+fn slopes(report: &mut Report, found: &[SceneAccuracy]) {
+    report.line(format!(
+        "\n## How fast samples help\n\nThe slope p of error ~ samplesᵖ, by least squares on logarithmic axes, from 2 \
+         × 2 to {MAX_SAMPLES_PER_SIDE} × {MAX_SAMPLES_PER_SIDE} samples a pixel, against a picture of very many \
+         samples at the same depth and cutoff. Theory for one sample in each cell of a pixel (stratified sampling): \
+         −0.5 where there is no structure, −0.75 where edges cross pixels, −1 where all is smooth (D. P. Mitchell, \
+         *Consequences of stratified sampling in graphics*, 1996).\n"
+    ));
+    report.line("| scene | slope |\n|---|---:|");
     for found in found {
-        say!(text, "| {} | {} |", found.scene, optional(slope(found), 2));
+        report.line(format!("| {} | {} |", found.scene, optional(slope(found), 2)));
     }
 }
 
-/// So much more error is as good.
-const NEARLY: f64 = 1.1;
+/// Error over the best error up to which a value counts as equally good.
+const ERROR_TOLERANCE: f64 = 1.1;
 
-/// The coarsest value of a knob that is nearly as good as its best, and what part of the best one's time it takes.
-fn coarsest(found: &Found, knob: Knob) -> Option<(&MeasuredPoint, f64)> {
+/// Returns the coarsest value of a knob whose error is nearly the best value's, and its share of the best value's time.
+fn coarsest_value(found: &SceneAccuracy, knob: Knob) -> Option<(&MeasuredPoint, f64)> {
     let best = found.of_knob(Some(knob)).last()?;
-    let coarsest = found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= NEARLY * best.point.rmse())?;
-    Some((coarsest, coarsest.point.cpu_s / best.point.cpu_s))
+    let coarsest_value =
+        found.of_knob(Some(knob)).find(|entry| entry.point.rmse() <= ERROR_TOLERANCE * best.point.rmse())?;
+    Some((coarsest_value, coarsest_value.point.cpu_s / best.point.cpu_s))
 }
 
-/// The threshold that saves most, and what part it takes of the time that samples alone need for its error.
-fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
+/// Returns the threshold that saves most, and its share of the time that samples alone need for the same error.
+fn best_threshold(found: &SceneAccuracy) -> Option<(&MeasuredPoint, f64)> {
     let point = |entry: &MeasuredPoint| (entry.point.cpu_s, entry.point.rmse());
     let samples: Vec<(f64, f64)> = found.of_knob(Some(Knob::Samples)).map(point).collect();
     let part = |entry: &MeasuredPoint| Some(entry.point.cpu_s / log_crossing(&samples, entry.point.rmse())?);
@@ -118,75 +114,72 @@ fn saving(found: &Found) -> Option<(&MeasuredPoint, f64)> {
     savings.min_by(|(_, this), (_, other)| this.total_cmp(other))
 }
 
-fn which_pays(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## Which knob pays where\n\nOf the threshold, the value that saves most, and the part that it takes of the time which samples alone \
-         need for the same error. Of depth and cutoff, the coarsest value with at most a tenth more error than without a limit, and the \
-         part that it takes of the time without one.\n"
+fn which_pays(report: &mut Report, found: &[SceneAccuracy]) {
+    report.line(
+        "\n## Which knob pays where\n\nThreshold: the value that saves most, and its share of the time that samples \
+         alone need for the same error. Depth and cutoff: the coarsest value with at most a tenth more error than \
+         without a limit, and its share of the time without one.\n",
     );
-    say!(
-        text,
-        "| scene | threshold | its time | depth | its time | cutoff | its time |\n|---|---:|---:|---:|---:|---:|---:|"
+    report.line(
+        "| scene | threshold | time share | depth | time share | cutoff | time share \
+         |\n|---|---:|---:|---:|---:|---:|---:|",
     );
     for found in found {
-        let knobs = [saving(found), coarsest(found, Knob::Depth), coarsest(found, Knob::Cutoff)];
+        let knobs = [best_threshold(found), coarsest_value(found, Knob::Depth), coarsest_value(found, Knob::Cutoff)];
         let cells = knobs.map(|found| {
             let value = |(entry, part): (&MeasuredPoint, f64)| {
-                format!("{} | {part:.2}", entry.value.map_or(String::new(), short))
+                format!("{} | {part:.2}", entry.value.map_or(String::new(), three_digits))
             };
             found.map_or("– | –".into(), value)
         });
-        say!(text, "| {} | {} |", found.scene, cells.join(" | "));
+        report.line(format!("| {} | {} |", found.scene, cells.join(" | ")));
     }
 }
 
-fn choice(text: &mut String, found: &[Found]) {
-    say!(
-        text,
-        "\n## Whether the automatic choice keeps its word\n\nOf all points the fastest within some error is chosen, for limits from the fastest \
-         point's error to the best one's, and measured anew with other samples. And the choice is made from every other point, to be \
-         compared with that from all.\n"
+fn choice(report: &mut Report, found: &[SceneAccuracy]) {
+    report.line(
+        "\n## Does the automatic choice keep its limit?\n\nThe choice is the fastest of all points within a limit of \
+         the error, for limits from the fastest point's error to the best one's. The chosen quality is measured again \
+         with other samples. The choice is also made from every other point, and compared with the choice from all.\n",
     );
-    say!(
-        text,
-        "| scene | limits | error over the limit, the worst | kept within 10 % | time anew / time | from half: time / time from all, median | the worst |"
+    report.line(
+        "| scene | limits | worst error / limit | kept within 10 % | second time / first time | from half: time / \
+         time from all, median | worst |",
     );
-    say!(text, "|---|---:|---:|---:|---:|---:|---:|");
+    report.line("|---|---:|---:|---:|---:|---:|---:|");
     for found in found {
-        let landings = &found.landings;
-        let worst = landings.iter().map(Landing::overshoot).fold(0.0, f64::max);
-        let kept = landings.iter().filter(|landing| landing.overshoot() <= NEARLY).count();
-        let mut times: Vec<f64> = landings.iter().map(|landing| landing.anew.cpu_s / landing.chosen.cpu_s).collect();
-        let mut halves: Vec<f64> = landings.iter().filter_map(|landing| landing.half_over_all).collect();
-        say!(
-            text,
+        let choices = &found.choices;
+        let worst = choices.iter().map(ChoiceCheck::overshoot).fold(0.0, f64::max);
+        let kept = choices.iter().filter(|choice| choice.overshoot() <= ERROR_TOLERANCE).count();
+        let mut times: Vec<f64> = choices.iter().map(|choice| choice.remeasured.cpu_s / choice.chosen.cpu_s).collect();
+        let mut halves: Vec<f64> = choices.iter().filter_map(|choice| choice.half_over_all).collect();
+        report.line(format!(
             "| {} | {} | {worst:.3} | {kept} | {:.3} | {:.3} | {:.3} |",
             found.scene,
-            landings.len(),
+            choices.len(),
             median(&mut times),
             median(&mut halves),
             halves.last().copied().unwrap_or_default()
-        );
+        ));
     }
 }
 
-fn scene(text: &mut String, found: &Found) {
+fn scene(report: &mut Report, found: &SceneAccuracy) {
     let name = as_file_name(&found.scene);
-    say!(text, "\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene);
+    report.line(format!("\n## {}\n\n![](accuracy-{name}-front.svg)\n\n![](accuracy-{name}-alone.svg)\n", found.scene));
     let points = found.points();
-    let similar = points.iter().filter(|point| point.difference.worst_ssim > SIMILAR);
+    let similar = points.iter().filter(|point| point.difference.worst_ssim > REQUIRED_SSIM);
     match similar.min_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s)) {
         Some(Point { quality, cpu_s, .. }) => {
-            say!(text, "Every block is similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality));
+            report.line(format!("All blocks are similar enough after {cpu_s:.3} s, with {}.\n", knobs(quality)));
         }
-        None => say!(text, "At no quality tried are all blocks similar enough.\n"),
+        None => report.line("At no measured quality are all blocks similar enough.\n"),
     }
-    say!(
-        text,
-        "The front, where it is a twentieth better than a line above:\n\n| seconds | error | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |"
+    report.line(
+        "The Pareto front, where the error is at least a twentieth below that of the line above:\n\n| seconds | error \
+         | wrong pixels | worst SSIM | samples | threshold | depth | cutoff |",
     );
-    say!(text, "|---:|---:|---:|---:|---:|---:|---:|---:|");
+    report.line("|---:|---:|---:|---:|---:|---:|---:|---:|");
     let mut last = f64::INFINITY;
     for Point { quality, cpu_s, difference, .. } in front(&points) {
         let Difference { rmse, wrong_pixels, worst_ssim } = *difference;
@@ -194,26 +187,25 @@ fn scene(text: &mut String, found: &Found) {
             continue;
         }
         last = rmse;
-        say!(
-            text,
+        report.line(format!(
             "| {cpu_s:.4} | {rmse:.5} | {wrong_pixels} | {worst_ssim:.4} | {samples} × {samples} | {} | {} | {} |",
-            short(quality.threshold),
+            three_digits(quality.threshold),
             quality.max_depth,
-            short(quality.cutoff),
+            three_digits(quality.cutoff),
             samples = quality.samples
-        );
+        ));
     }
 }
 
-/// A quality in words.
+/// Describes a quality.
 fn knobs(quality: &Quality) -> String {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
     let threshold =
-        if threshold > 0.0 { format!(" at most, a threshold of {}", short(threshold)) } else { String::new() };
-    format!("{samples} × {samples} samples{threshold}, a depth of {max_depth} and a cutoff of {}", short(cutoff))
+        if threshold > 0.0 { format!(" at most, a threshold of {}", three_digits(threshold)) } else { String::new() };
+    format!("{samples} × {samples} samples{threshold}, a depth of {max_depth} and a cutoff of {}", three_digits(cutoff))
 }
 
-/// A number with at most three figures.
-fn short(value: f64) -> String {
-    format!("{value:.2e}").parse::<f64>().map_or_else(|_| value.to_string(), |short| short.to_string())
+/// Formats a number with at most three significant digits.
+fn three_digits(value: f64) -> String {
+    significant(value, 3).to_string()
 }

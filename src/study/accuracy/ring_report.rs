@@ -1,92 +1,95 @@
-//! What the study of accuracy says of the ring.
+//! The chapter on the ring in the report of the study of accuracy.
 
-use std::fmt::Write;
-
-use super::charts::MANY;
+use super::charts::MIN_WAITING_ATOMS;
 use super::fit::log_correlation;
-use super::ring::{LATENCIES, RingAccuracy};
-use super::sharing::{NODES, WHOLE};
-use crate::study::{median, optional, say};
+use super::ring::{LATENCIES_MS, RingAccuracy};
+use super::transfers::{NODES, PICTURE_TIME};
+use crate::study::format::optional;
+use crate::study::markdown::Report;
+use crate::study::median;
 
-/// The chapter on the ring.
-pub(super) fn ring(text: &mut String, ring: &RingAccuracy) {
-    say!(
-        text,
-        "\n## The same question of the ring\n\nHow good is what the ring knows, and what does it gain by knowing better? Runs in virtual time: \
-         {NODES} machines of random speeds from 0.1 to 1, pictures of {} that take the reference machine {} s, as dear from place to \
-         place as their rays make them.\n",
+/// Adds the chapter on the ring.
+pub(super) fn ring(report: &mut Report, ring: &RingAccuracy) {
+    report.line(format!(
+        "\n## Accuracy of the ring\n\nHow good are the ring's estimates, and what would better ones gain? Runs in \
+         virtual time: {NODES} machines of random speeds from 0.1 to 1, and pictures of {} that take the reference \
+         machine {} s, with costs in proportion to their rays.\n",
         ring.size,
-        WHOLE.as_secs()
-    );
-    estimates(text, ring);
-    atoms(text, ring);
+        PICTURE_TIME.as_secs()
+    ));
+    estimates(report, ring);
+    atoms(report, ring);
 }
 
-fn estimates(text: &mut String, ring: &RingAccuracy) {
-    say!(
-        text,
-        "### Its estimate of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by counts: offerer / (offerer + \
-         own). *True* is the share with which both would end together, knowing their speeds, what each atom that waits costs, and what \
-         the owner has in hand. The error of a run is the mean distance of both shares at its transfers, weighted by the work that \
-         waits there. Correlations are of the logarithms: within a scene, where only speeds differ, they say what a wrong share costs; over \
-         all scenes also that what is dear in one place makes both worse.\n"
+fn estimates(report: &mut Report, ring: &RingAccuracy) {
+    report.line(
+        "### Estimates of speeds\n\nAn offer says how many atoms its node has traced, and the owner gives by counts: \
+         offerer / (offerer + own). The *true* share makes both finish together, given their speeds, the cost of each \
+         waiting atom, and the owner's atoms in its pipe. A run's error is the mean distance of both shares at its \
+         transfers, weighted by the waiting work. Correlations are of the logarithms. Within a scene only speeds \
+         differ, so the correlation shows the cost of a wrong share; over all scenes it also shows that uneven costs \
+         make both figures worse.\n",
     );
-    say!(
-        text,
-        "| scene | runs | transfers a run | error of the share, median | makespan / ideal − 1, median | correlation of both |"
+    report.line(
+        "| scene | runs | transfers per run | error of the share, median | makespan / ideal − 1, median | correlation \
+         of both |",
     );
-    say!(text, "|---|---:|---:|---:|---:|---:|");
-    for runs in &ring.shared {
+    report.line("|---|---:|---:|---:|---:|---:|");
+    for runs in &ring.runs_by_scene {
         let Some(first) = runs.first() else { continue };
-        let transfers: u64 = runs.iter().map(|shared| shared.run.transfers).sum();
-        let mut errors: Vec<f64> = runs.iter().filter_map(|shared| shared.run.estimate_error).collect();
-        let mut late: Vec<f64> = runs.iter().map(|shared| shared.run.lateness).collect();
-        say!(
-            text,
+        let transfers: u64 = runs.iter().map(|run| run.row.transfers).sum();
+        let mut errors: Vec<f64> = runs.iter().filter_map(|run| run.row.estimate_error).collect();
+        let mut late: Vec<f64> = runs.iter().map(|run| run.row.lateness).collect();
+        report.line(format!(
             "| {} | {} | {:.1} | {:.3} | {:.4} | {} |",
-            first.run.scene,
+            first.row.scene,
             runs.len(),
             transfers as f64 / runs.len() as f64,
             median(&mut errors),
             median(&mut late),
             optional(log_correlation(&RingAccuracy::points(runs)), 2)
-        );
+        ));
     }
     let large: Vec<f64> = ring
         .transfers()
-        .filter(|transfer| transfer.waiting >= MANY)
+        .filter(|transfer| transfer.waiting >= MIN_WAITING_ATOMS)
         .map(|transfer| transfer.estimate - transfer.truth)
         .collect();
     let bias = large.iter().sum::<f64>() / large.len().max(1) as f64;
-    say!(
-        text,
-        "\nOver all runs the correlation is {}. Where at least {MANY} atoms wait, the estimated share is {bias:+.3} from the true one on \
+    report.line(format!(
+        "\nOver all runs the correlation is {}. Where at least {MIN_WAITING_ATOMS} atoms wait, the estimated share \
+         differs from the true one by {bias:+.3} on \
          average.\n\n![](accuracy-estimate.svg)\n\n![](accuracy-lateness.svg)",
         optional(log_correlation(&ring.all_points()), 2)
-    );
+    ));
 }
 
-fn atoms(text: &mut String, ring: &RingAccuracy) {
-    say!(
-        text,
-        "\n### Finer atoms\n\nThe last atom that is traced can be neither shared nor taken back, so that coarse atoms keep all waiting for it; \
-         fine ones cost messages. Means over rings of random speeds; an atom itself costs nothing here, and results travel when a node's \
-         atoms have run out.\n"
+fn atoms(report: &mut Report, ring: &RingAccuracy) {
+    report.line(
+        "\n### Finer atoms\n\nNobody can share or take back the last atom that is traced, so all machines wait for \
+         it, the longer the coarser atoms are. Finer atoms cost messages. The figures are means over rings of random \
+         speeds; *late* is makespan / ideal − 1. An atom has no cost of its own here, and a node sends its results \
+         when it has no atoms left.\n",
     );
-    say!(text, "| pixels an atom |{}", LATENCIES.map(|ms| format!(" {ms} ms: messages | late |")).concat());
-    say!(text, "|---:|{}", "---:|---:|".repeat(LATENCIES.len()));
-    let sizes: Vec<u32> =
-        ring.grained.iter().filter(|grain| grain.latency_ms == LATENCIES[0]).map(|grain| grain.atom_pixels).collect();
+    report
+        .line(format!("| pixels per atom |{}", LATENCIES_MS.map(|ms| format!(" {ms} ms: messages | late |")).concat()));
+    report.line(format!("|---:|{}", "---:|---:|".repeat(LATENCIES_MS.len())));
+    let sizes: Vec<u32> = ring
+        .atom_sizes
+        .iter()
+        .filter(|group| group.latency_ms == LATENCIES_MS[0])
+        .map(|group| group.atom_pixels)
+        .collect();
     for atom_pixels in sizes {
         let cells: Vec<String> = ring
-            .grained
+            .atom_sizes
             .iter()
-            .filter(|grain| grain.atom_pixels == atom_pixels)
-            .map(|grain| {
-                format!(" {:.0} | {:.4} |", grain.mean(|run| run.messages as f64), grain.mean(|run| run.lateness))
+            .filter(|group| group.atom_pixels == atom_pixels)
+            .map(|group| {
+                format!(" {:.0} | {:.4} |", group.mean(|run| run.messages as f64), group.mean(|run| run.lateness))
             })
             .collect();
-        say!(text, "| {atom_pixels} |{}", cells.concat());
+        report.line(format!("| {atom_pixels} |{}", cells.concat()));
     }
-    say!(text, "\n![](accuracy-atoms.svg)");
+    report.line("\n![](accuracy-atoms.svg)");
 }

@@ -1,37 +1,37 @@
-//! Bugs that are put in on purpose: a check that finds none of them would find no others.
+//! Bugs injected on purpose, to show that the checks find bugs.
 
 use super::check::Tamper;
 use crate::balance::{Action, Message, Party};
 
-/// A bug.
+/// An injected bug.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bug {
-    /// A node takes atoms off its queue for whoever offered, and does not send them: the second time it would.
+    /// A node takes atoms from its queue for an offer but does not send them: its second transfer is lost.
     LostTransfer,
-    /// A node passes an offer on twice: the second that is passed on.
+    /// A node forwards an offer twice: the second offer that it forwards.
     ForwardedTwice,
-    /// The parent never gives out again what nobody has.
+    /// The parent never hands lost atoms out again.
     LeaseNotReturned,
 }
 
 impl Bug {
     pub const ALL: [Self; 3] = [Self::LostTransfer, Self::ForwardedTwice, Self::LeaseNotReturned];
 
-    /// What it is called in reports.
+    /// Returns the bug's name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::LostTransfer => "a transfer is lost",
-            Self::ForwardedTwice => "an offer is passed on twice",
-            Self::LeaseNotReturned => "a lease is never returned",
+            Self::ForwardedTwice => "an offer is forwarded twice",
+            Self::LeaseNotReturned => "lost atoms are never handed out again",
         }
     }
 
-    /// What it does to a run.
+    /// Returns the function that injects the bug into a run.
     pub fn tamper(self) -> Tamper {
-        let mut seen = 0;
+        let mut totals = 0;
         let mut is_second = move || {
-            seen += 1;
-            seen == 2
+            totals += 1;
+            totals == 2
         };
         Box::new(move |party, action| {
             let Action::Send { message, .. } = action else { return 1 };

@@ -1,39 +1,66 @@
-//! What has to be true of every run, whatever befalls it: looked for in its records, as they come.
+//! Checks the invariants of a run on its records, as they come.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use thiserror::Error;
 
 use super::plan::ChaosPlan;
 use crate::balance::adaptive::RingMembers;
-use crate::balance::{Action, Condition, Helper, Message, NodeId, Party, Remedy};
+use crate::balance::{Action, Condition, Message, NodeId, OfferDetails, Party, Remedy};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
+use crate::runlog::ResultsInFlight;
 use crate::sim::Sim;
 use crate::time::Time;
 
-/// A run that takes more records than this does not end.
-const MOST_RECORDS: u64 = 1_000_000;
+/// A run with more records counts as endless.
+const MAX_RECORDS: u64 = 1_000_000;
 
-/// Nor one that takes so long.
-const LONGEST: Time = Time(100_000 * 1_000_000_000);
+/// A run that lasts longer counts as endless.
+const MAX_TIME: Time = Time(100_000 * 1_000_000_000);
 
-/// Changes what a party does: how often an action of it is carried out.
+/// Changes a party's actions: returns how often an action is carried out.
 pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 
-/// What a run amounted to.
+/// A property that a run violates.
+#[derive(Clone, Debug, Error)]
+pub(super) enum Violation {
+    #[error("the run does not end")]
+    Endless,
+    #[error("node {node} starts atom {atom} after its shutdown")]
+    StartedAfterShutdown { node: NodeId, atom: Atom },
+    #[error("node {node} sends atom {atom}, which it has not traced")]
+    SentUntraced { node: NodeId, atom: Atom },
+    #[error("the offer that node {offerer} made at {} s is in two places", made.secs())]
+    OfferInTwoPlaces { offerer: NodeId, made: Time },
+    #[error("the parent hands out {0:?} again, but nothing was lost")]
+    AgainWithoutLoss(Vec<Range<Atom>>),
+    #[error("the run is deadlocked, and {missing} atoms are missing")]
+    Deadlock { missing: usize },
+    #[error("the run ended without atom {0}")]
+    EndedWithoutAtom(usize),
+    #[error("{messages} messages are more than the bound of {bound}")]
+    TooManyMessages { messages: u64, bound: f64 },
+    #[error("a machine or the parent panicked: {0}")]
+    Panic(String),
+}
+
+/// Totals of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RunTotals {
     pub records: u64,
-    /// Atoms that the parent gave out again.
+    /// Atoms that the parent handed out again.
     pub again: u64,
-    /// Messages over the bound that is stated.
-    pub of_bound: f64,
+    /// Messages over the bound of [`Check::bound`].
+    pub over_bound: f64,
 }
 
-/// Lets a run happen.
+/// Runs a plan in virtual time and checks every record.
 ///
 /// # Errors
-/// A sentence that says what is wrong with it.
-pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, String> {
+/// The first [`Violation`].
+pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals, Violation> {
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
     if let Some(tamper) = tamper {
@@ -42,29 +69,32 @@ pub(super) fn run(plan: &ChaosPlan, tamper: Option<Tamper>) -> Result<RunTotals,
     let mut check = Check::new(plan);
     while let Some(next) = sim.next() {
         sim.advance(next, &mut |record| check.record(&record));
-        if let Some(wrong) = check.wrong.take() {
-            return Err(wrong);
+        if let Some(violation) = check.violation.take() {
+            return Err(violation);
         }
-        if check.outcome.records > MOST_RECORDS || next > LONGEST {
-            return Err("it does not end".into());
+        if check.totals.records > MAX_RECORDS || next > MAX_TIME {
+            return Err(Violation::Endless);
         }
     }
     check.end(sim.is_finished())
 }
 
-/// What has been seen of a run.
+/// State of the checks of a run.
 struct Check<'a> {
     plan: &'a ChaosPlan,
-    outcome: RunTotals,
-    wrong: Option<String>,
-    /// By node: the atoms that it has traced and not sent.
+    totals: RunTotals,
+    violation: Option<Violation>,
+    /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
+    /// By node: whether it has received its shutdown.
     stopped: Vec<bool>,
-    /// By atom: how often it has reached the parent.
+    /// By atom: how often its result has reached the parent.
     placed: Vec<u32>,
-    /// Results on their way to the parent.
-    results: BTreeMap<u64, Vec<std::ops::Range<Atom>>>,
-    /// Offers, and how many stops they had left when they were last sent.
+    /// Shutdowns in flight.
+    shutdowns: BTreeSet<u64>,
+    /// Results in flight to the parent.
+    results: ResultsInFlight,
+    /// Offers by offerer and time, with the stops left when last sent.
     offers: BTreeMap<(NodeId, Time), u16>,
     messages: u64,
     atoms_done: u64,
@@ -77,12 +107,13 @@ impl<'a> Check<'a> {
         let nodes = plan.header.speeds.len();
         Self {
             plan,
-            outcome: RunTotals::default(),
-            wrong: None,
+            totals: RunTotals::default(),
+            violation: None,
             traced: vec![BTreeSet::new(); nodes],
             stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
-            results: BTreeMap::new(),
+            shutdowns: BTreeSet::new(),
+            results: ResultsInFlight::default(),
             offers: BTreeMap::new(),
             messages: 0,
             atoms_done: 0,
@@ -92,24 +123,28 @@ impl<'a> Check<'a> {
     }
 
     fn record(&mut self, record: &Record) {
-        self.outcome.records += 1;
+        self.totals.records += 1;
         self.last = record.at;
+        for atom in self.results.apply(&record.what).into_iter().flatten() {
+            self.placed[atom as usize] += 1;
+        }
         match &record.what {
             RecordKind::Sent { id, from, message, .. } => self.sent(*id, *from, message),
-            RecordKind::Received { id, by: Party::Parent } => {
-                for atom in self.results.remove(id).into_iter().flatten().flatten() {
-                    self.placed[atom as usize] += 1;
-                }
+            RecordKind::Received { id, by: Party::Node(node) } if self.shutdowns.remove(id) => {
+                self.stopped[usize::from(*node)] = true;
             }
-            RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
             RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
-                self.fail(format!("node {node} begins atom {atom} after its shutdown"));
+                self.fail(Violation::StartedAfterShutdown { node: *node, atom: *atom });
             }
             RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
                 self.traced[usize::from(*node)].insert(*atom);
             }
-            RecordKind::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
+            // A machine that restarts has forgotten its atoms and its shutdown.
+            RecordKind::Condition { node, condition: Condition::Off } => {
+                self.traced[usize::from(*node)].clear();
+                self.stopped[usize::from(*node)] = false;
+            }
             _ => {}
         }
     }
@@ -120,44 +155,44 @@ impl<'a> Check<'a> {
             (Party::Node(node), Message::Results(ranges)) => {
                 for atom in ranges.iter().cloned().flatten() {
                     if !self.traced[usize::from(node)].remove(&atom) {
-                        self.fail(format!("node {node} sends atom {atom}, which it has not traced"));
+                        self.fail(Violation::SentUntraced { node, atom });
                     }
                 }
-                self.results.insert(id, ranges.clone());
             }
-            (_, Message::Offer { who, help: Some(Helper { sent, left: Some(left), .. }), .. }) => {
+            (_, Message::Offer { who, help: Some(OfferDetails { sent, left: Some(left), .. }), .. }) => {
                 let before = self.offers.insert((*who, *sent), *left);
                 if before.is_some_and(|before| before <= *left && before > 0) {
-                    self.fail(format!("the offer of node {who} made at {} s is in two places", sent.secs()));
+                    self.fail(Violation::OfferInTwoPlaces { offerer: *who, made: *sent });
                 }
             }
             (Party::Parent, Message::Again(ranges)) => {
-                self.outcome.again += u64::from(atoms_in(ranges));
-                if self.plan.calm {
-                    self.fail(format!("{ranges:?} are given out again, and nothing was lost"));
+                self.totals.again += u64::from(atoms_in(ranges));
+                if self.plan.faultless {
+                    self.fail(Violation::AgainWithoutLoss(ranges.clone()));
                 }
             }
+            (Party::Parent, Message::Shutdown) => _ = self.shutdowns.insert(id),
             (Party::Parent, Message::Gone(_)) => self.gone += 1,
             _ => {}
         }
     }
 
-    fn end(mut self, finished: bool) -> Result<RunTotals, String> {
+    fn end(mut self, finished: bool) -> Result<RunTotals, Violation> {
         if !finished {
             let missing = self.placed.iter().filter(|&&times| times == 0).count();
-            return Err(format!("it has come to a standstill, and {missing} atoms are missing"));
+            return Err(Violation::Deadlock { missing });
         }
         if let Some(atom) = self.placed.iter().position(|&times| times == 0) {
-            return Err(format!("it ended without atom {atom}"));
+            return Err(Violation::EndedWithoutAtom(atom));
         }
-        self.outcome.of_bound = self.messages as f64 / self.bound();
-        if self.outcome.of_bound > 1.0 {
-            return Err(format!("{} messages are more than the bound of {}", self.messages, self.bound()));
+        self.totals.over_bound = self.messages as f64 / self.bound();
+        if self.totals.over_bound > 1.0 {
+            return Err(Violation::TooManyMessages { messages: self.messages, bound: self.bound() });
         }
-        Ok(self.outcome)
+        Ok(self.totals)
     }
 
-    /// The most messages that such a run may need (see the ring's README).
+    /// The most messages that the run may need (see `src/balance/adaptive/README.md`).
     fn bound(&self) -> f64 {
         let nodes = self.plan.header.speeds.len();
         let rules = self.plan.header.rules;
@@ -167,7 +202,7 @@ impl<'a> Check<'a> {
         3.0 * f64::from(stops + 2) * moments
     }
 
-    fn fail(&mut self, why: String) {
-        self.wrong.get_or_insert(why);
+    fn fail(&mut self, violation: Violation) {
+        self.violation.get_or_insert(violation);
     }
 }

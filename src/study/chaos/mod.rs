@@ -1,92 +1,96 @@
-//! Many random runs of the ring that adapts, with everything that can befall machines and links: each has to end with the
-//! whole picture, whatever happens.
+//! Many random runs of the adaptive ring with failing machines and links. Every run must end with the whole picture.
 
 mod bugs;
 mod check;
 mod plan;
 
-use std::fmt::Write;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use serde_json::json;
 
-use super::{ProgressSink, Study, say};
+use super::markdown::Report;
+use super::{ProgressSink, Study, StudyError};
 use crate::balance::Condition;
 use crate::runlog::{Header, RunLog};
 use crate::scenario::Command;
 use crate::scene::Opened;
 use crate::sim::Sim;
 use bugs::Bug;
-use check::RunTotals;
+use check::{RunTotals, Violation};
 use plan::ChaosPlan;
 
-/// Of so many failing seeds the runs are kept.
-const KEPT: usize = 5;
-/// Seeds that are tried for each bug that is put in.
-const TRIED: u64 = 10_000;
-/// How many seeds are a step.
-const STEP: u64 = 250;
+/// Number of failing seeds whose runs are kept.
+const MAX_KEPT_RUNS: usize = 5;
+/// Seeds tried for each injected bug.
+const SEEDS_PER_BUG: u64 = 10_000;
+/// Seeds per progress step.
+const SEEDS_PER_STEP: u64 = 250;
 
-/// Tries these seeds, and says which fail. Of those, and of a seed that is tried alone, the run is kept as a file that the
-/// window shows, with `scene` as its picture.
+/// Runs every seed and reports the seeds that fail. Keeps the runs of the first failing seeds, or of a single seed, as
+/// run files with the picture of `scene`.
 ///
 /// # Errors
-/// A sentence, if a file could not be made.
-pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
-    let mut seen = Seen::default();
-    let mut failures: Vec<(u64, String)> = Vec::new();
+/// [`StudyError::File`], if a run file cannot be made.
+pub fn chaos(seeds: Range<u64>, scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
+    let mut totals = ChaosTotals::default();
+    let mut failures: Vec<(u64, Violation)> = Vec::new();
     let count = seeds.end.saturating_sub(seeds.start);
     for seed in seeds.clone() {
-        if (seed - seeds.start).is_multiple_of(STEP) {
+        if (seed - seeds.start).is_multiple_of(SEEDS_PER_STEP) {
             let found = if failures.is_empty() { String::new() } else { format!(", {} have failed", failures.len()) };
             tell((seed - seeds.start) as usize, count as usize, &format!("seed {seed}{found}"));
         }
         let plan = ChaosPlan::new(seed);
         match try_run(&plan, None) {
-            Ok(outcome) => seen.add(&plan, outcome),
+            Ok(run) => totals.add(&plan, run),
             Err(why) => failures.push((seed, why)),
         }
     }
-    let bugs: Vec<_> = if count > 1 { Bug::ALL.map(|bug| (bug, find(bug, seeds.start))).into() } else { Vec::new() };
+    let bugs: Vec<_> =
+        if count > 1 { Bug::ALL.map(|bug| (bug, find_bug(bug, seeds.start))).into() } else { Vec::new() };
     let mut study = Study::new("chaos");
-    let kept: Vec<u64> =
-        if count == 1 { seeds.clone().collect() } else { failures.iter().map(|(seed, _)| *seed).take(KEPT).collect() };
+    let kept: Vec<u64> = if count == 1 {
+        seeds.clone().collect()
+    } else {
+        failures.iter().map(|(seed, _)| *seed).take(MAX_KEPT_RUNS).collect()
+    };
     for seed in kept {
-        let mut bytes = Vec::new();
-        record(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| error.to_string())?;
-        study.files.push((format!("chaos-{seed}.anel"), bytes));
+        let (file, mut bytes) = (format!("chaos-{seed}.anel"), Vec::new());
+        record_run(&ChaosPlan::new(seed), scene).write(&mut bytes).map_err(|error| StudyError::file(&*file, error))?;
+        study.files.push((file, bytes));
     }
     let failing: Vec<u64> = failures.iter().map(|(seed, _)| *seed).collect();
     study.summary = [("seeds", json!(count)), ("failures", json!(failing.len())), ("failing_seeds", json!(failing))]
         .map(|(name, value)| (name.to_owned(), value))
         .into_iter()
         .collect();
-    study.add_report(report(&seeds, &seen, &failures, &bugs));
+    study.add_report(report(&seeds, &totals, &failures, &bugs));
     Ok(study)
 }
 
-/// One run of a seed, with a bug if there is to be one. A party that finds the impossible panics; that is a failure too.
-fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, String> {
+/// Runs a seed, with an injected bug if there is one. A panic of a party counts as a violation.
+fn try_run(plan: &ChaosPlan, bug: Option<Bug>) -> Result<RunTotals, Violation> {
     let run = || check::run(plan, bug.map(Bug::tamper));
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        Err(format!("a party panicked: {}", said.unwrap_or_default()))
+        Err(Violation::Panic(said.unwrap_or_default().into()))
     })
 }
 
-/// The first seed from `first` on with which a bug is found, and what is said of it.
-fn find(bug: Bug, first: u64) -> Option<(u64, String)> {
-    (first..first + TRIED).find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
+/// Finds the first seed from `first` on with which a bug is detected, and the violation that reveals it.
+fn find_bug(bug: Bug, first: u64) -> Option<(u64, Violation)> {
+    (first..first + SEEDS_PER_BUG)
+        .find_map(|seed| try_run(&ChaosPlan::new(seed), Some(bug)).err().map(|why| (seed, why)))
 }
 
-/// All records of a plan's run, as far as a run that does not end has any that are of use.
-fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
-    const MOST: usize = 1_000_000;
+/// Returns all records of a plan's run; of a run that does not end, the first million.
+fn record_run(plan: &ChaosPlan, scene: &Opened) -> RunLog {
+    const MAX_RECORDS: usize = 1_000_000;
     let costs = plan.costs.clone();
     let mut sim = Sim::new(&plan.header, &plan.script, move |atom| costs[atom as usize]);
     let mut records = Vec::new();
-    while let Some(next) = sim.next().filter(|_| records.len() < MOST) {
+    while let Some(next) = sim.next().filter(|_| records.len() < MAX_RECORDS) {
         sim.advance(next, &mut |record| records.push(record));
     }
     let header = Header { scene: scene.name.clone(), scene_text: scene.text.clone(), ..plan.header.clone() };
@@ -95,25 +99,26 @@ fn record(plan: &ChaosPlan, scene: &Opened) -> RunLog {
     log
 }
 
-/// What the runs amounted to that did not fail.
+/// Totals over the runs that passed.
 #[derive(Default)]
-struct Seen {
+struct ChaosTotals {
     runs: u64,
-    calm: u64,
+    faultless: u64,
     records: u64,
     again: u64,
-    of_bound: f64,
-    /// Of all scripts: switched off, hung, cut off, links cut, ways held up, speeds, latencies.
-    befell: [u64; 7],
+    over_bound: f64,
+    /// Commands in all scripts: machines off, hung and cut off; links cut; messages delayed; speeds and latencies
+    /// changed.
+    commands: [u64; 7],
 }
 
-impl Seen {
-    fn add(&mut self, plan: &ChaosPlan, outcome: RunTotals) {
+impl ChaosTotals {
+    fn add(&mut self, plan: &ChaosPlan, run: RunTotals) {
         self.runs += 1;
-        self.calm += u64::from(plan.calm);
-        self.records += outcome.records;
-        self.again += outcome.again;
-        self.of_bound = self.of_bound.max(outcome.of_bound);
+        self.faultless += u64::from(plan.faultless);
+        self.records += run.records;
+        self.again += run.again;
+        self.over_bound = self.over_bound.max(run.over_bound);
         for (_, command) in &plan.script {
             let kind = match command {
                 Command::Condition { condition: Condition::Off, .. } => 0,
@@ -125,51 +130,55 @@ impl Seen {
                 Command::Latency(_) => 6,
                 _ => continue,
             };
-            self.befell[kind] += 1;
+            self.commands[kind] += 1;
         }
     }
 }
 
 fn report(
     seeds: &Range<u64>,
-    seen: &Seen,
-    failures: &[(u64, String)],
-    bugs: &[(Bug, Option<(u64, String)>)],
-) -> String {
-    let mut text = String::from("# Whatever befalls the ring that adapts\n\n");
-    say!(
-        text,
-        "Seeds {} to {}: random runs in virtual time, of 1 to 24 machines (some of them spares that join later), 1 to 400 atoms whose cost \
-         varies a hundredfold, speeds of 0.001 to 1, latencies of 0 to 200 ms, in some a slow shared wire and a slow parent. In seven of \
-         eight runs machines change their speed, stand still, hang, are cut off, are switched off and begin anew, join, or are lost for \
-         good, links are cut and mended, and what is on a way is held up for up to 10 s; at last one machine is well. Each run has to end; the picture has to be whole, each atom of it \
-         traced by who sent it; no node may begin an atom after its shutdown; no offer may be in two places; nothing may be given out again \
-         where nothing was lost; and there may be no more messages than the ring's README says.\n",
+    totals: &ChaosTotals,
+    failures: &[(u64, Violation)],
+    bugs: &[(Bug, Option<(u64, Violation)>)],
+) -> Report {
+    let mut report = Report::titled("The adaptive ring under random failures");
+    report.line(format!(
+        "Seeds {} to {}: random runs in virtual time with 1 to 24 machines (some of them spares that join later), 1 \
+         to 400 atoms whose costs vary by a factor of 100, speeds from 0.001 to 1 and latencies from 0 to 200 ms. \
+         Some runs have a slow shared wire and a slow parent. In seven of eight runs, machines change their speed, \
+         stand still, hang, are cut off, are switched off and restart, join, or are lost for good; links are cut and \
+         repaired; and messages are delayed by up to 10 s. In the end at least one machine works. Every run must \
+         satisfy these conditions: it ends; the picture is whole, and each atom was traced by the node that sent it; \
+         no node starts an atom after its shutdown; no offer is in two places; no atom is handed out again where \
+         nothing was lost; and the number of messages stays within the bound of the adaptive ring's README.\n",
         seeds.start,
         seeds.end.saturating_sub(1)
-    );
-    let [off, hung, cut_off, links, delays, speeds, latencies] = seen.befell;
-    say!(text, "- runs that held: {}, of which nothing befell {}", seen.runs, seen.calm);
-    say!(text, "- runs that failed: {}", failures.len());
-    say!(
-        text,
-        "- what befell them: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} ways held up, {speeds} changed speeds, {latencies} changed latencies"
-    );
-    say!(text, "- records: {}; atoms given out again by the parent: {}", seen.records, seen.again);
-    say!(text, "- most messages, over the bound: {:.2}\n", seen.of_bound);
+    ));
+    let [off, hung, cut_off, links, delays, speeds, latencies] = totals.commands;
+    report.line(format!(
+        "- runs that passed: {}, of which {} had no failures and no changes",
+        totals.runs, totals.faultless
+    ));
+    report.line(format!("- runs that failed: {}", failures.len()));
+    report.line(format!(
+        "- injected: {off} machines switched off, {hung} hung, {cut_off} cut off, {links} links cut, {delays} delays, \
+         {speeds} changes of speed, {latencies} changes of latency"
+    ));
+    report.line(format!("- records: {}; atoms handed out again by the parent: {}", totals.records, totals.again));
+    report.line(format!("- most messages / bound: {:.2}\n", totals.over_bound));
     for (seed, why) in failures {
-        say!(text, "- seed {seed}: {why} (`anel study chaos --seed {seed}` tries it again and keeps its run)");
+        report.line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` runs it again and keeps its run)"));
     }
     if !bugs.is_empty() {
-        say!(text, "\n## Bugs that were put in on purpose\n");
+        report.line("\n## Injected bugs\n");
         for (bug, found) in bugs {
             match found {
-                Some((seed, why)) => say!(text, "- {}: found with seed {seed}: {why}", bug.name()),
-                None => say!(text, "- {}: NOT FOUND in {TRIED} seeds", bug.name()),
+                Some((seed, why)) => report.line(format!("- {}: found with seed {seed}: {why}", bug.name())),
+                None => report.line(format!("- {}: NOT FOUND in {SEEDS_PER_BUG} seeds", bug.name())),
             }
         }
     }
-    text
+    report
 }
 
 #[cfg(test)]
@@ -177,7 +186,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_ring_survives_whatever_befalls_it() {
+    fn adaptive_ring_survives_random_failures() {
         for seed in 0..3_000 {
             if let Err(why) = try_run(&ChaosPlan::new(seed), None) {
                 panic!("seed {seed}: {why}");
@@ -186,16 +195,16 @@ mod tests {
     }
 
     #[test]
-    fn bugs_that_are_put_in_are_found() {
+    fn injected_bugs_are_found() {
         for bug in Bug::ALL {
-            assert!(find(bug, 0).is_some(), "{bug:?}");
+            assert!(find_bug(bug, 0).is_some(), "{bug:?}");
         }
     }
 
     #[test]
-    fn a_seed_is_the_same_run_whenever_it_is_tried() {
-        let scene = Opened::new("csg-primer").expect("a scene that is built in");
-        assert_eq!(record(&ChaosPlan::new(77), &scene), record(&ChaosPlan::new(77), &scene));
+    fn seed_determines_run() {
+        let scene = Opened::new("csg-primer").expect("a built-in scene");
+        assert_eq!(record_run(&ChaosPlan::new(77), &scene), record_run(&ChaosPlan::new(77), &scene));
         let study = chaos(77..78, &scene, &mut |_, _, _| {}).expect("a study");
         assert!(study.files.iter().any(|(name, _)| name == "chaos-77.anel"));
         assert_eq!(study.summary["failures"], 0);

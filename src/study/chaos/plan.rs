@@ -1,79 +1,79 @@
-//! A random run from its seed: machines, what atoms cost, a network, and everything that befalls them.
+//! A random run made from a seed: machines, costs of atoms, a network, and injected failures.
 
 use std::time::Duration;
 
 use fastrand::Rng;
 
-use super::super::random::between;
+use super::super::random::uniform;
 use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
-/// Pixels in an atom: a picture has an atom a row.
-const ATOM: u32 = 50;
+/// Pixels in an atom: each row of the picture is an atom.
+const ATOM_PX: u32 = 50;
 
-/// No speed is less than this, but where a machine stands still.
-const SLOWEST: f64 = 1e-3;
+/// Least speed of a machine that does not stand still.
+const MIN_SPEED: f64 = 1e-3;
 
-/// A run that is to be tried.
+/// A random run.
 #[derive(Clone, Debug)]
 pub(super) struct ChaosPlan {
     pub header: Header,
     pub script: Script,
-    /// By atom.
+    /// CPU time by atom.
     pub costs: Vec<Duration>,
-    /// Whether nothing befalls anybody: no loss, no change of speed.
-    pub calm: bool,
+    /// Whether the run has no losses and no changes of speed.
+    pub faultless: bool,
 }
 
 impl ChaosPlan {
-    /// The run of a seed: the same on every computer.
+    /// Makes the run of a seed, which is the same on every computer.
     pub fn new(seed: u64) -> Self {
         let mut rng = Rng::with_seed(seed);
         let nodes = *pick(&mut rng, &[1, 2, 3, 4, 5, 6, 8, 12, 24]);
-        let atoms = 10f64.powf(between(&mut rng, 0.0, 2.6)) as u32;
-        // Where nothing is lost, no machine may seem to be stuck.
-        let calm = rng.u32(0..8) == 0;
-        let mean = 10f64.powf(between(&mut rng, -5.0, if calm { -3.0 } else { -2.3 }));
+        let atoms = 10f64.powf(uniform(&mut rng, 0.0, 2.6)) as u32;
+        // Where nothing is lost, no machine may be so slow that it seems stuck.
+        let faultless = rng.u32(0..8) == 0;
+        let mean = 10f64.powf(uniform(&mut rng, -5.0, if faultless { -3.0 } else { -2.3 }));
         let costs =
-            (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(between(&mut rng, -1.0, 1.0)))).collect();
-        let speeds: Vec<f64> = (0..nodes).map(|_| speed(&mut rng, if calm { 0.2 } else { SLOWEST })).collect();
+            (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(uniform(&mut rng, -1.0, 1.0)))).collect();
+        let speeds: Vec<f64> = (0..nodes).map(|_| speed(&mut rng, if faultless { 0.2 } else { MIN_SPEED })).collect();
         let mut header = plain(atoms, speeds);
         let batches = [None, Some(Duration::ZERO), Some(Rules::BATCH), Some(5 * Rules::BATCH)];
         header.rules.batch = *pick(&mut rng, &batches);
-        header.link.latency = latency(&mut rng, calm);
+        header.link.latency = latency(&mut rng, faultless);
         if rng.u32(0..4) == 0 {
-            // Nor may what waits behind a whole picture's results.
-            let slowest = if calm { 6.5 } else { 5.0 };
-            let bandwidth = Some(10f64.powf(between(&mut rng, slowest, 8.0)));
+            // For the same reason a whole picture's results must not delay a message too long.
+            let slowest = if faultless { 6.5 } else { 5.0 };
+            let bandwidth = Some(10f64.powf(uniform(&mut rng, slowest, 8.0)));
             header.link = LinkSettings { bandwidth, shared: rng.bool(), ..header.link };
-            let longest = if calm { 100 } else { 500 };
+            let longest = if faultless { 100 } else { 500 };
             header.handling = Duration::from_micros(rng.u64(0..longest));
         }
         header.rules.beat = Rules::beat_for(header.handling, nodes);
         if rng.u32(0..4) == 0 && nodes > 1 {
             header.spares = rng.u16(0..nodes as NodeId / 2 + 1);
         }
-        let mut plan = Self { header, script: Vec::new(), costs, calm };
-        if !calm {
-            plan.befall(&mut rng);
+        let mut plan = Self { header, script: Vec::new(), costs, faultless };
+        if !faultless {
+            plan.inject_failures(&mut rng);
         }
         plan
     }
 
-    /// How long all machines take together at their first speeds.
+    /// Returns the time that all machines together need at their first speeds.
     pub fn ideal(&self) -> Duration {
         self.costs.iter().sum::<Duration>().div_f64(self.header.speeds.iter().sum::<f64>())
     }
 
-    /// Lets things happen to machines and links, and at last makes one of the machines well: somebody has to be.
-    fn befall(&mut self, rng: &mut Rng) {
+    /// Injects failures and changes. At the end at least one machine works again, so that the run can finish.
+    fn inject_failures(&mut self, rng: &mut Rng) {
         let nodes = self.header.speeds.len() as NodeId;
-        // Long enough that what is lost is noticed.
+        // Long enough for losses to be detected.
         let span = (self.ideal().as_secs_f64() * 3.0).max(2.0);
-        let at = |rng: &mut Rng, from: f64| Time::from_secs(between(rng, from, span));
+        let at = |rng: &mut Rng, from: f64| Time::from_secs(uniform(rng, from, span));
         let mut script = Script::new();
         for _ in 0..rng.u32(1..=12) {
             let node = rng.u16(0..nodes);
@@ -90,7 +90,7 @@ impl ChaosPlan {
                     script.push((begins, Command::Condition { node, condition }));
                     script.push((ends, Command::Condition { node, condition: Condition::Well }));
                 }
-                // For good.
+                // It is lost for good.
                 3 => script.push((begins, Command::Condition { node, condition })),
                 4 => {
                     let (one, other) = (Party::Node(node), party(rng, nodes));
@@ -100,7 +100,7 @@ impl ChaosPlan {
                     }
                 }
                 5 => {
-                    let by = Duration::from_secs_f64(10f64.powf(between(rng, -3.0, 1.0)));
+                    let by = Duration::from_secs_f64(10f64.powf(uniform(rng, -3.0, 1.0)));
                     let (one, other) = (Party::Node(node), party(rng, nodes));
                     let (from, to) = if rng.bool() { (one, other) } else { (other, one) };
                     script.push((begins, Command::Delay { from, to, by }));
@@ -108,14 +108,14 @@ impl ChaosPlan {
                 6 => script.push((begins, Command::Latency(latency(rng, false)))),
                 7 => {
                     script.push((begins, Command::Speed { node, speed: 0.0 }));
-                    script.push((ends, Command::Speed { node, speed: speed(rng, SLOWEST) }));
+                    script.push((ends, Command::Speed { node, speed: speed(rng, MIN_SPEED) }));
                 }
-                _ => script.push((begins, Command::Speed { node, speed: speed(rng, SLOWEST) })),
+                _ => script.push((begins, Command::Speed { node, speed: speed(rng, MIN_SPEED) })),
             }
         }
         let (node, end) = (rng.u16(0..nodes), Time::from_secs(span));
         script.push((end, Command::Condition { node, condition: Condition::Well }));
-        script.push((end, Command::Speed { node, speed: between(rng, 0.1, 1.0) }));
+        script.push((end, Command::Speed { node, speed: uniform(rng, 0.1, 1.0) }));
         script.push((end, Command::Link { one: Party::Node(node), other: Party::Parent, cut: false }));
         script.sort_by_key(|(at, _)| *at);
         self.script = script;
@@ -123,12 +123,12 @@ impl ChaosPlan {
 }
 
 fn plain(atoms: u32, speeds: Vec<f64>) -> Header {
-    // No picture is without pixels, and none of these is too large.
-    let size = Size::new(ATOM, atoms.max(1)).expect("a small picture");
-    Header { driver: Driver::Sim, ..Header::plain(size, ATOM, Strategy::Adaptive, speeds) }
+    // No side is 0, and the picture is small.
+    let size = Size::new(ATOM_PX, atoms.max(1)).expect("a small picture");
+    Header { driver: Driver::Sim, ..Header::plain(size, ATOM_PX, Strategy::Adaptive, speeds) }
 }
 
-/// A node, or the parent.
+/// Picks a node or the parent.
 fn party(rng: &mut Rng, nodes: NodeId) -> Party {
     match rng.u16(0..=nodes) {
         last if last == nodes => Party::Parent,
@@ -136,10 +136,10 @@ fn party(rng: &mut Rng, nodes: NodeId) -> Party {
     }
 }
 
-fn latency(rng: &mut Rng, calm: bool) -> Duration {
-    // Where nothing is lost, no message may seem to be.
-    let longest = if calm { -2.5 } else { -0.7 };
-    if rng.u32(0..4) == 0 { Duration::ZERO } else { Duration::from_secs_f64(10f64.powf(between(rng, -5.0, longest))) }
+fn latency(rng: &mut Rng, faultless: bool) -> Duration {
+    // Where nothing is lost, no message may take so long that it seems lost.
+    let longest = if faultless { -2.5 } else { -0.7 };
+    if rng.u32(0..4) == 0 { Duration::ZERO } else { Duration::from_secs_f64(10f64.powf(uniform(rng, -5.0, longest))) }
 }
 
 fn speed(rng: &mut Rng, slowest: f64) -> f64 {

@@ -1,13 +1,13 @@
-//! The article's charts anew, and others.
+//! Charts of the study: the article's own, run again, and others.
 
-use super::article::{self, PACKETS, SERIAL};
+use super::article::{self, PACKETS, SERIAL_TIME};
 use super::rows::PaperRow;
 use crate::balance::Strategy;
 use crate::language::Language;
 use crate::study::fixture::STRATEGIES;
 use crate::view::{Axis, Bar, BarChart, CHART_SIZE, LineChart, Mark, Scale, Series, Style, series_hue};
 
-/// What a figure's chart is of: one kind of rows.
+/// Selects the rows of a figure, a network and a driver.
 pub(super) fn select<'a>(
     rows: &'a [PaperRow],
     figure: &'a str,
@@ -17,7 +17,7 @@ pub(super) fn select<'a>(
     rows.iter().filter(move |row| row.figure == figure && row.network == network && row.driver == driver)
 }
 
-/// All charts, by their names.
+/// Returns all charts with their names.
 pub(super) fn all(rows: &[PaperRow], handling: &[(f64, [f64; 4])]) -> Vec<(&'static str, Vec<Mark>)> {
     let mut charts = Vec::new();
     let figures = [
@@ -27,17 +27,17 @@ pub(super) fn all(rows: &[PaperRow], handling: &[(f64, [f64; 4])]) -> Vec<(&'sta
         ("figure5-sim-network", "sim", "modelled", "In virtual time, on the modelled network"),
     ];
     for (name, driver, network, title) in figures {
-        charts.push((name, times(rows, driver, network, title).marks(CHART_SIZE, Language::English)));
+        charts.push((name, makespans(rows, driver, network, title).marks(CHART_SIZE, Language::English)));
     }
     charts.push(("atoms", sizes(rows, "atom").marks(CHART_SIZE, Language::English)));
     charts.push(("parts", sizes(rows, "part").marks(CHART_SIZE, Language::English)));
     charts.push(("figure9", packets(rows).marks(CHART_SIZE, Language::English)));
-    charts.push(("handling", choked(handling).marks(CHART_SIZE, Language::English)));
+    charts.push(("handling", handling_chart(handling).marks(CHART_SIZE, Language::English)));
     charts
 }
 
-/// Figures 5 to 7: times over the ideal, and the article's beside them.
-fn times(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChart {
+/// Charts Figures 5 to 7: makespan / ideal, with the article's values.
+fn makespans(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChart {
     let group = |nodes: usize, slow: bool| {
         let figure = if slow { "7" } else { "6" };
         let ours = select(rows, figure, network, driver).filter(move |row| row.nodes == nodes);
@@ -51,14 +51,14 @@ fn times(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> BarChar
     };
     BarChart {
         title: title.into(),
-        note: "Times over the ideal: 1 is perfect. Dark marks: what the article measured".into(),
-        y: Axis { label: "time / ideal time".into(), scale: Scale::Log2, range: Some((1.0, 10.0)) },
+        note: "Makespan / ideal: 1 is perfect. Dark marks: the article's values".into(),
+        y: Axis { label: "makespan / ideal".into(), scale: Scale::Log2, range: Some((1.0, 10.0)) },
         groups: vec![group(2, false), group(3, false), group(4, false), group(5, true)],
         reference: Some(1.0),
     }
 }
 
-/// Times over sizes of atoms or of parts, in pixels.
+/// Charts makespan / ideal by size of atoms or parts, in pixels.
 fn sizes(rows: &[PaperRow], figure: &str) -> LineChart {
     let mut series = Vec::new();
     for strategy in [Strategy::Ring, Strategy::Farm] {
@@ -82,21 +82,21 @@ fn sizes(rows: &[PaperRow], figure: &str) -> LineChart {
         }
     }
     let (title, label) = match figure {
-        "atom" => ("How large is an atom to be?", "pixels in an atom"),
-        _ => ("How large is a part, or a ring's smallest transfer, to be?", "pixels in a part or a smallest transfer"),
+        "atom" => ("Which size of atoms is best?", "pixels in an atom"),
+        _ => ("Which size of parts or smallest transfers is best?", "pixels in a part or a smallest transfer"),
     };
     LineChart {
         title: title.into(),
         note: "Dashed: on the modelled network".into(),
         x: Axis { label: label.into(), scale: Scale::Log10, range: None },
-        y: Axis { label: "time / ideal time".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "makespan / ideal".into(), scale: Scale::Log10, range: None },
         series,
     }
 }
 
-/// Figure 9: time over the mean size of a packet.
+/// Charts Figure 9: makespan / ideal by mean size of a packet.
 fn packets(rows: &[PaperRow]) -> LineChart {
-    let ratio = |seconds: f64| seconds * 4.0 / SERIAL.as_secs_f64();
+    let ratio = |seconds: f64| seconds * 4.0 / SERIAL_TIME.as_secs_f64();
     let article = PACKETS.map(|(tens, _, atoms)| (atoms, ratio(10.0 * tens))).to_vec();
     let ours = |strategy: Strategy, network| {
         let is_one = move |row: &&PaperRow| row.strategy == strategy.name() && !row.slow && row.transfers > 0;
@@ -105,10 +105,10 @@ fn packets(rows: &[PaperRow]) -> LineChart {
     };
     let line = |i, name: &str, points, style| Series { name: name.into(), hue: series_hue(i), points, style };
     LineChart {
-        title: "Figure 9: does time rise as packets shrink?".into(),
-        note: "A ring of four; ours by the smallest transfer that is worth while".into(),
+        title: "Figure 9: does the makespan rise as packets shrink?".into(),
+        note: "A ring of four; ours by the smallest transfer allowed".into(),
         x: Axis { label: "mean atoms in a packet".into(), scale: Scale::Log10, range: None },
-        y: Axis { label: "time / ideal time".into(), scale: Scale::Linear, range: Some((0.95, 1.3)) },
+        y: Axis { label: "makespan / ideal".into(), scale: Scale::Linear, range: Some((0.95, 1.3)) },
         series: vec![
             line(0, "no network", ours(Strategy::Ring, "none"), Style::Dots),
             line(1, "modelled network", ours(Strategy::Ring, "modelled"), Style::Dots),
@@ -119,20 +119,20 @@ fn packets(rows: &[PaperRow]) -> LineChart {
     }
 }
 
-/// How a farm's parent is choked by what it has to handle.
-fn choked(handling: &[(f64, [f64; 4])]) -> LineChart {
+/// Charts how handling time chokes a farm's parent.
+fn handling_chart(handling: &[(f64, [f64; 4])]) -> LineChart {
     let names = ["farm, parts of 1 atom", "farm, 16 parts a machine", "ring", "static"];
     let line = |(i, name): (usize, &str)| Series {
         name: name.into(),
         hue: series_hue(i),
-        points: handling.iter().map(|(ms, times)| (*ms, times[i])).collect(),
+        points: handling.iter().map(|(ms, makespans)| (*ms, makespans[i])).collect(),
         style: Style::Line,
     };
     LineChart {
         title: "When is a farm worse than static bands?".into(),
-        note: "Four equal machines on one wire, by how long the parent is busy with a message".into(),
-        x: Axis { label: "milliseconds a message".into(), scale: Scale::Log10, range: None },
-        y: Axis { label: "time / ideal time".into(), scale: Scale::Log10, range: None },
+        note: "Four equal machines on one wire; the parent is busy for this time with each message".into(),
+        x: Axis { label: "ms a message".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "makespan / ideal".into(), scale: Scale::Log10, range: None },
         series: names.into_iter().enumerate().map(line).collect(),
     }
 }

@@ -1,27 +1,27 @@
-//! What is measured: a row for each run.
+//! The rows of the study's table: one for each run.
 
 use std::time::Duration;
 
 use serde::Serialize;
 
-use super::article::{self, times_ideal};
+use super::article::{self, makespan_over_ideal};
 use crate::runlog::{Driver, Header, Metrics};
 
-/// One run, or the middle one of several of the same kind.
+/// A run, or the median of several runs of the same kind.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct PaperRow {
-    /// The article's figure that it belongs to, or what is varied: `atom`, `part`, `place`, `swing`.
+    /// The article's figure that the run belongs to, or the parameter that is varied: `atom`, `part`, `place`, `swing`.
     pub figure: &'static str,
     /// `none`, or `modelled`.
     pub network: &'static str,
     pub strategy: &'static str,
     pub driver: &'static str,
     pub nodes: usize,
-    /// Whether a slow machine is among them.
+    /// Whether one of the machines is slow.
     pub slow: bool,
     /// The slow machine's place in the ring, from 1.
     pub place: Option<usize>,
-    /// Pixels.
+    /// Pixels in an atom.
     pub atom: u32,
     /// The farm's atoms in a part; the ring's least atoms in a transfer.
     pub part: u32,
@@ -29,14 +29,14 @@ pub(super) struct PaperRow {
     pub ideal_s: f64,
     pub over_ideal: f64,
     pub article_over_ideal: Option<f64>,
-    /// The makespan of the same run in virtual time, with the costs measured in it.
+    /// Makespan of the same run in virtual time, with the costs measured on threads.
     pub twin_s: Option<f64>,
     pub finish_spread_s: f64,
     pub messages: u64,
     pub bytes: u64,
     pub transfers: u64,
     pub atoms_moved: u64,
-    /// The period with which a machine's speed swings.
+    /// Period with which a machine's speed swings.
     pub period_s: Option<f64>,
 }
 
@@ -45,29 +45,29 @@ pub(super) struct PaperRow {
 pub(super) struct RowSubject {
     pub figure: &'static str,
     pub modelled: bool,
-    /// The period with which a machine's speed swings.
+    /// Period with which a machine's speed swings.
     pub period: Option<Duration>,
 }
 
 impl RowSubject {
-    /// A run of machines whose speeds do not change.
+    /// Describes a run of machines with constant speeds.
     pub fn new(figure: &'static str, modelled: bool) -> Self {
         Self { figure, modelled, period: None }
     }
 }
 
 impl PaperRow {
-    /// The row of a run; with its twin in virtual time, if it has one.
-    pub fn new(about: RowSubject, header: &Header, tally: &Metrics, twin: Option<&Metrics>) -> Self {
-        let messages = tally.messages();
-        let seconds = |tally: &Metrics| tally.makespan().unwrap_or_default().as_secs_f64();
+    /// Makes the row of a run, and of its twin in virtual time if it has one.
+    pub fn new(subject: RowSubject, header: &Header, metrics: &Metrics, twin: Option<&Metrics>) -> Self {
+        let messages = metrics.messages();
+        let seconds = |metrics: &Metrics| metrics.makespan().unwrap_or_default().as_secs_f64();
         let place = header.speeds.iter().position(|&speed| speed < 1.0);
         let nodes = header.speeds.len();
         let is_last = place.is_none_or(|place| place + 1 == nodes);
         let article = article::over_ideal(header.rules.strategy, nodes, place.is_some());
         Self {
-            figure: about.figure,
-            network: if about.modelled { "modelled" } else { "none" },
+            figure: subject.figure,
+            network: if subject.modelled { "modelled" } else { "none" },
             strategy: header.strategy_name(),
             driver: header.driver.name(),
             nodes,
@@ -75,24 +75,24 @@ impl PaperRow {
             place: place.map(|place| place + 1),
             atom: header.division.atom_pixels(),
             part: header.rules.part,
-            makespan_s: seconds(tally),
-            ideal_s: tally.ideal().unwrap_or_default().as_secs_f64(),
-            over_ideal: times_ideal(tally),
+            makespan_s: seconds(metrics),
+            ideal_s: metrics.ideal().unwrap_or_default().as_secs_f64(),
+            over_ideal: makespan_over_ideal(metrics),
             article_over_ideal: article.filter(|_| is_last && header.driver != Driver::WorkStealing),
             twin_s: twin.map(seconds),
-            finish_spread_s: tally.finish_spread().as_secs_f64(),
+            finish_spread_s: metrics.finish_spread().as_secs_f64(),
             messages: messages.total,
             bytes: messages.bytes,
             transfers: messages.transfers,
             atoms_moved: messages.atoms_moved,
-            period_s: about.period.map(|period| period.as_secs_f64()),
+            period_s: subject.period.map(|period| period.as_secs_f64()),
         }
     }
 }
 
-/// The middle one of several rows, by how far from ideal they are.
-pub(super) fn middle(mut rows: Vec<PaperRow>) -> Option<PaperRow> {
+/// Returns the median row by makespan / ideal.
+pub(super) fn median_row(mut rows: Vec<PaperRow>) -> Option<PaperRow> {
     rows.sort_by(|a, b| a.over_ideal.total_cmp(&b.over_ideal));
-    let middle = rows.len() / 2;
-    rows.into_iter().nth(middle)
+    let median_row = rows.len() / 2;
+    rows.into_iter().nth(median_row)
 }

@@ -1,8 +1,9 @@
-//! Every pixel beside POV-Ray 3.7's, which knows nothing of this program: how many differ, why, and who is right.
+//! Compares every pixel with POV-Ray 3.7, which shares no code with this program: how many differ, why, and which is
+//! right.
 //!
-//! Causes are found by taking them away: a scene is changed for both programs alike, one step after the other, and what
-//! a step makes agree is what its cause had made differ. No pixel is left out, not even at edges, since both programs
-//! send their rays through the same points.
+//! Causes are found by removing them: a scene is changed for both programs alike, step by step, and pixels that agree
+//! after a step had differed for its cause. No pixel is excluded, not even at edges, since both programs send their
+//! rays through the same points.
 
 mod bored_cylinder;
 mod povray;
@@ -12,42 +13,43 @@ mod step;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::output::as_file_name;
-use crate::picture::{Difference, Quality, Size, apart, encode_png, srgb8};
+use crate::picture::{Difference, Quality, Size, encode_png, max_channel_difference, srgb8};
 use crate::scene::{Opened, Scene};
 use crate::tracer::{Scratch, Tracer};
 use bored_cylinder::Bore;
 use povray::PovRay;
+pub use povray::PovRayError;
 use step::Step;
 
-/// A scene after some of the steps, as both programs see it.
+/// A scene after some of the steps, in both programs.
 #[derive(Clone, Debug, Serialize)]
 struct PeerRow {
     scene: String,
-    /// The last step that was taken.
+    /// The last step taken.
     step: &'static str,
     pixels: u32,
-    /// Pixels with a channel that is more than [`Difference::SAME`] apart.
+    /// Pixels with a channel that is more than [`Difference::TOLERANCE`] apart.
     differing: u32,
-    /// Of all pixels.
+    /// Share of all pixels.
     share: f64,
-    /// The greatest difference of a channel, of 255.
+    /// Greatest difference of a channel, of 255.
     greatest: u8,
-    /// Pixels through which one looks through the bore, if there is one.
+    /// Pixels with a view through the bore, if the scene has one.
     through_bore: Option<u32>,
-    /// Pixels of these in which anel does not see the background.
+    /// Number of these pixels in which anel does not show the background.
     anel_wrong: Option<u32>,
-    /// Pixels of these in which POV-Ray does not.
+    /// Number of these pixels in which POV-Ray does not show the background.
     povray_wrong: Option<u32>,
 }
 
-/// Both programs on each of the scenes, and on a bored cylinder whose ends coincide with those of its bore, in pictures of
-/// `size`.
+/// Compares both programs on each of the scenes, and on a cylinder whose ends coincide with those of its bore, in
+/// pictures of `size`.
 ///
 /// # Errors
-/// A sentence, if POV-Ray is not installed or failed, or a picture could not be kept.
-pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Study, String> {
+/// [`StudyError::PovRay`], if POV-Ray is not installed or fails; [`StudyError::File`], if a picture cannot be encoded.
+pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let povray = PovRay::find()?;
     let bored = bored_cylinder::scene()?;
     let bore = Bore::of(&bored.scene, size);
@@ -58,8 +60,8 @@ pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Stu
         let (mut scene, mut quality) = (opened.scene.clone(), Quality::default());
         let mut started = Vec::new();
         for step in Step::ALL {
-            step.take(&mut scene, &mut quality);
-            // All at once, since POV-Ray takes longer to start than to draw.
+            step.apply(&mut scene, &mut quality);
+            // All at once, since POV-Ray takes longer to start than to render.
             started.push((step, scene.clone(), quality, povray.start(&scene, size, &quality)?));
         }
         for (step, scene, quality, theirs) in started {
@@ -67,9 +69,9 @@ pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Stu
             let ours = trace(&scene, size, quality);
             let pictures = Pictures { size, ours, theirs: theirs.finish()? };
             if step == Step::AsItIs {
-                pictures.keep(&mut study, &opened.name)?;
+                pictures.add_files(&mut study, &opened.name)?;
             }
-            // Later the ends no longer coincide, and the bore is rightly closed.
+            // After later steps the ends no longer coincide, and the bore is rightly closed.
             let looks_through = std::ptr::eq(opened, &bored) && step == Step::AsItIs;
             rows.push(pictures.row(&opened.name, step, looks_through.then_some(&bore)));
         }
@@ -79,14 +81,14 @@ pub fn peer(scenes: &[Opened], size: Size, tell: ProgressSink<'_>) -> Result<Stu
     Ok(study)
 }
 
-/// The pixels of this program's picture, in 8-bit sRGB.
+/// Traces this program's picture, in 8-bit sRGB.
 fn trace(scene: &Scene, size: Size, quality: Quality) -> Vec<[u8; 3]> {
     let mut pixels = Vec::new();
     Tracer::new(scene, size, quality).trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
     pixels.into_iter().map(srgb8).collect()
 }
 
-/// The same scene by both programs, in 8-bit sRGB.
+/// A scene rendered by both programs, in 8-bit sRGB.
 struct Pictures {
     size: Size,
     ours: Vec<[u8; 3]>,
@@ -94,13 +96,13 @@ struct Pictures {
 }
 
 impl Pictures {
-    /// By pixel, the greatest difference of a channel.
+    /// Returns the greatest difference of a channel, by pixel.
     fn differences(&self) -> impl Iterator<Item = u8> {
-        self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| apart(*ours, *theirs))
+        self.ours.iter().zip(&self.theirs).map(|(ours, theirs)| max_channel_difference(*ours, *theirs))
     }
 
     fn row(&self, scene: &str, step: Step, bore: Option<&Bore>) -> PeerRow {
-        let differing = self.differences().filter(|&difference| difference > Difference::SAME).count() as u32;
+        let differing = self.differences().filter(|&difference| difference > Difference::TOLERANCE).count() as u32;
         PeerRow {
             scene: scene.to_owned(),
             step: step.name(),
@@ -114,17 +116,18 @@ impl Pictures {
         }
     }
 
-    /// Adds both pictures to the study's files, and one that shows where they differ.
-    fn keep(&self, study: &mut Study, scene: &str) -> Result<(), String> {
+    /// Adds both pictures and their difference to the study's files.
+    fn add_files(&self, study: &mut Study, scene: &str) -> Result<(), StudyError> {
         let where_they_differ = self.ours.iter().zip(self.differences()).map(|(ours, difference)| {
-            if difference > Difference::SAME { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
+            if difference > Difference::TOLERANCE { [255, 80, 60] } else { ours.map(|channel| channel / 4) }
         });
         let pictures =
             [(OURS, self.ours.clone()), (THEIRS, self.theirs.clone()), (DIFFERENCE, where_they_differ.collect())];
         for (which, pixels) in pictures {
-            let mut png = Vec::new();
-            encode_png(&mut png, self.size, pixels.as_flattened()).map_err(|error| error.to_string())?;
-            study.files.push((picture_name(scene, which), png));
+            let (file, mut png) = (picture_name(scene, which), Vec::new());
+            let encoded = encode_png(&mut png, self.size, pixels.as_flattened());
+            encoded.map_err(|error| StudyError::file(&*file, error))?;
+            study.files.push((file, png));
         }
         Ok(())
     }
@@ -134,7 +137,7 @@ const OURS: &str = "anel";
 const THEIRS: &str = "povray";
 const DIFFERENCE: &str = "difference";
 
-/// The name of a picture's file.
+/// Returns a picture's file name.
 fn picture_name(scene: &str, which: &str) -> String {
     format!("peer-{}-{which}.png", as_file_name(scene))
 }

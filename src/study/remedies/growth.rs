@@ -1,29 +1,29 @@
-//! From four machines to a thousand: efficiency, and how messages grow.
+//! From 4 to 1,024 machines: efficiency, and growth of messages.
 
-use std::fmt::Write;
 use std::time::Duration;
 
 use fastrand::Rng;
 use serde::Serialize;
 
+use super::super::markdown::Report;
 use super::super::progress::Progress;
-use super::super::say;
 use crate::balance::{Remedies, Remedy, Rules, Strategy};
 use crate::picture::Size;
 use crate::runlog::{Driver, Header, LinkSettings};
-use crate::study::fixture::{AtomCosts, simulate, weighted};
+use crate::study::fixture::{AtomCosts, simulate, weighted_costs};
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
-/// How many machines.
-const NODES: [usize; 5] = [4, 16, 64, 256, 1024];
-/// Atoms a machine, and what one costs on the average.
-const ATOMS: u32 = 512;
-const COST: Duration = Duration::from_millis(2);
-/// What a message takes.
+/// Numbers of machines.
+const NODE_COUNTS: [usize; 5] = [4, 16, 64, 256, 1024];
+/// Atoms per machine.
+const ATOMS_PER_NODE: u32 = 512;
+/// Mean CPU time of an atom.
+const ATOM_COST: Duration = Duration::from_millis(2);
+/// Latency of a message.
 const LATENCY: Duration = Duration::from_millis(1);
-/// Where the work is uneven, nine tenths of it are in this part of the picture.
-const PART: usize = 16;
-/// What is compared.
+/// Where the work is uneven, nine tenths of it are in this fraction of the picture: one sixteenth.
+const DENSE_PART_DIVISOR: usize = 16;
+/// Strategies that are compared.
 const RIVALS: [(&str, Strategy, Remedies); 3] = [
     ("ring", Strategy::Ring, Remedies::ALL),
     ("adaptive", Strategy::Adaptive, Remedies::ALL),
@@ -39,19 +39,19 @@ pub(super) struct GrowthRow {
     pub efficiency: f64,
     pub makespan_s: f64,
     pub messages_per_node: f64,
-    /// Offers, hops, offers left by sleepers, and those that are woken, a machine.
+    /// Offers, hops, notes (offers left with sleepers) and wakes per machine.
     pub asking_per_node: f64,
     pub transfers_per_node: f64,
 }
 
-/// How many steps [`measure`] takes.
-pub(super) const STEPS: usize = 2 * NODES.len();
+/// Number of steps that [`measure`] takes.
+pub(super) const STEPS: usize = 2 * NODE_COUNTS.len();
 
-/// Runs all of it in virtual time.
+/// Simulates all runs in virtual time.
 pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<GrowthRow> {
     let mut rows = Vec::new();
     for uneven in [false, true] {
-        for nodes in NODES {
+        for nodes in NODE_COUNTS {
             progress.next(&format!("{nodes} machines"));
             let costs = costs(nodes, uneven);
             rows.extend(
@@ -62,14 +62,14 @@ pub(super) fn measure(progress: &mut Progress<'_>) -> Vec<GrowthRow> {
     rows
 }
 
-/// What atoms cost: within a tenfold range at random, and nine tenths of it in one part of the picture if it is uneven.
+/// Returns random costs within a tenfold range; if `uneven`, nine tenths of the work are in one part of the picture.
 fn costs(nodes: usize, uneven: bool) -> AtomCosts {
     let mut rng = Rng::with_seed(nodes as u64);
-    let atoms = ATOMS as usize * nodes;
-    let dear = if uneven { 0.9 * PART as f64 } else { 1.0 };
-    let cheap = if uneven { 0.1 * PART as f64 / (PART as f64 - 1.0) } else { 1.0 };
-    let weight = |atom| 10f64.powf(rng.f64()) * if atom < atoms / PART { dear } else { cheap };
-    weighted((0..atoms).map(weight).collect(), COST)
+    let atoms = ATOMS_PER_NODE as usize * nodes;
+    let dear = if uneven { 0.9 * DENSE_PART_DIVISOR as f64 } else { 1.0 };
+    let cheap = if uneven { 0.1 * DENSE_PART_DIVISOR as f64 / (DENSE_PART_DIVISOR as f64 - 1.0) } else { 1.0 };
+    let weight = |atom| 10f64.powf(rng.f64()) * if atom < atoms / DENSE_PART_DIVISOR { dear } else { cheap };
+    weighted_costs((0..atoms).map(weight).collect(), ATOM_COST)
 }
 
 fn row(
@@ -79,7 +79,7 @@ fn row(
     rival: &'static str,
     (strategy, remedies): (Strategy, Remedies),
 ) -> GrowthRow {
-    // No picture of so many atoms is too large.
+    // Pictures of this many atoms are small enough.
     let size = Size::new(50, costs.len() as u32).unwrap_or_else(|why| unreachable!("{why}"));
     let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
     let header = Header {
@@ -88,22 +88,22 @@ fn row(
         link: LinkSettings { latency: LATENCY, ..plain.link },
         ..plain
     };
-    let tally = simulate(&header, &[], costs);
-    let messages = tally.messages();
+    let metrics = simulate(&header, &[], costs);
+    let messages = metrics.messages();
     let a_node = |count: u64| count as f64 / nodes as f64;
     GrowthRow {
         nodes,
         uneven,
         rival,
-        efficiency: tally.efficiency().unwrap_or_default(),
-        makespan_s: tally.makespan().unwrap_or_default().as_secs_f64(),
+        efficiency: metrics.efficiency().unwrap_or_default(),
+        makespan_s: metrics.makespan().unwrap_or_default().as_secs_f64(),
         messages_per_node: a_node(messages.total),
         asking_per_node: a_node(messages.offers + messages.hops + messages.notes + messages.wakes),
         transfers_per_node: a_node(messages.transfers),
     }
 }
 
-/// Efficiency, and messages a machine, over the number of machines.
+/// Charts efficiency, and messages per machine, by number of machines.
 pub(super) fn charts(rows: &[GrowthRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
     for uneven in [false, true] {
@@ -115,8 +115,11 @@ pub(super) fn charts(rows: &[GrowthRow]) -> Vec<(String, LineChart)> {
             LineChart { title: format!("A picture that grows: {words}"), ..efficiency },
         ));
         let asking =
-            chart(rows, uneven, "offers, hops, notes and wakes a machine", Scale::Log10, |row| row.asking_per_node);
-        charts.push((format!("asking-{kind}"), LineChart { title: format!("How asking grows: {words}"), ..asking }));
+            chart(rows, uneven, "offers, hops, notes and wakes per machine", Scale::Log10, |row| row.asking_per_node);
+        charts.push((
+            format!("asking-{kind}"),
+            LineChart { title: format!("Growth of messages that look for work: {words}"), ..asking },
+        ));
     }
     charts
 }
@@ -129,7 +132,7 @@ fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: imp
     };
     let range = (scale == Scale::Linear).then_some((0.0, 1.0));
     LineChart {
-        note: format!("{} ms a message, {ATOMS} atoms a machine", LATENCY.as_millis()),
+        note: format!("{} ms a message, {ATOMS_PER_NODE} atoms per machine", LATENCY.as_millis()),
         x: Axis { label: "machines".into(), scale: Scale::Log2, range: None },
         y: Axis { label: label.into(), scale, range },
         series: RIVALS.into_iter().enumerate().map(line).collect(),
@@ -137,26 +140,33 @@ fn chart(rows: &[GrowthRow], uneven: bool, label: &str, scale: Scale, value: imp
     }
 }
 
-/// Both as a table.
-pub(super) fn report(text: &mut String, rows: &[GrowthRow]) {
-    say!(text, "\n## From four machines to a thousand\n");
-    say!(
-        text,
-        "In virtual time, {} ms a message, {ATOMS} atoms of {} ms a machine: efficiency, and in brackets offers, hops, notes and wakes a machine.\n",
+/// Adds the chapter on growth: a table for even and for uneven work.
+pub(super) fn report(report: &mut Report, rows: &[GrowthRow]) {
+    report.line("\n## From 4 to 1,024 machines\n");
+    report.line(format!(
+        "In virtual time, with {} ms a message and {ATOMS_PER_NODE} atoms of {} ms per machine. Each cell: \
+         efficiency, and in brackets offers, hops, notes and wakes per machine.\n",
         LATENCY.as_millis(),
-        COST.as_millis()
-    );
+        ATOM_COST.as_millis()
+    ));
     for uneven in [false, true] {
         let kind = if uneven { "Nine tenths of the work in a sixteenth of the picture" } else { "Work spread evenly" };
-        say!(text, "### {kind}\n");
-        say!(text, "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|", RIVALS.map(|(name, ..)| name).join(" | "));
-        for nodes in NODES {
+        report.line(format!("### {kind}\n"));
+        report.line(format!(
+            "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|",
+            RIVALS.map(|(name, ..)| name).join(" | ")
+        ));
+        for nodes in NODE_COUNTS {
             let cell = |name| {
                 let row = rows.iter().find(|row| row.uneven == uneven && row.nodes == nodes && row.rival == name);
                 row.map_or(String::new(), |row| format!("{:.3} ({:.0})", row.efficiency, row.asking_per_node))
             };
-            say!(text, "| {nodes} | {} | {} |", nodes.ilog2(), RIVALS.map(|(name, ..)| cell(name)).join(" | "));
+            report.line(format!(
+                "| {nodes} | {} | {} |",
+                nodes.ilog2(),
+                RIVALS.map(|(name, ..)| cell(name)).join(" | ")
+            ));
         }
-        say!(text, "");
+        report.line("");
     }
 }

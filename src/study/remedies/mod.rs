@@ -1,4 +1,4 @@
-//! The ring that adapts beside the article's, and what each of its remedies gains, alone.
+//! The adaptive ring compared with the article's ring, and the gain of each remedy alone.
 
 mod cases;
 mod growth;
@@ -6,15 +6,15 @@ mod measure;
 mod report;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::language::Language;
 use crate::scene::Opened;
 
-/// Measures all cases with this scene's picture.
+/// Measures all cases with the scene's picture.
 ///
 /// # Errors
-/// A sentence, if a run failed.
-pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String> {
+/// A [`StudyError`], if a run fails.
+pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let mut progress = Progress::new(measure::steps() + growth::STEPS, tell);
     let growth = growth::measure(&mut progress);
     let rows = measure::measure(scene, &mut progress)?;
@@ -24,8 +24,8 @@ pub fn remedies(scene: &Opened, tell: ProgressSink<'_>) -> Result<Study, String>
     for (name, chart) in report::charts(&rows).into_iter().chain(growth::charts(&growth)) {
         study.add_chart(&name, &chart.marks(crate::view::CHART_SIZE, Language::English));
     }
-    let mut text = report::report(&rows);
-    growth::report(&mut text, &growth);
-    study.add_report(text);
+    let mut report = report::report(&rows);
+    growth::report(&mut report, &growth);
+    study.add_report(report);
     Ok(study)
 }

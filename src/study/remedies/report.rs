@@ -1,26 +1,24 @@
-//! What the measurements say: a table of the cases, a chart for each remedy, and how much it gains.
+//! The report of the study of remedies: a table of the cases, a chart for each remedy, and the gain of each.
 
-use std::fmt::Write;
-
-use super::super::say;
+use super::super::markdown::Report;
 use super::cases::cases;
-use super::measure::{LATENCIES, RemedyRow};
+use super::measure::{LATENCIES_MS, RemedyRow};
 use crate::balance::Remedy;
 use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 
-/// A ring that never ends is shown here.
-const ENDLESS: f64 = 10.0;
+/// Where a run that never ends is drawn, as makespan / bound.
+const ENDLESS_RATIO: f64 = 10.0;
 
-/// A chart for each remedy: what a run takes over the bound, with all remedies and without this one, by case.
+/// Returns a chart for each remedy: makespan / bound by case, with all remedies and without this one.
 pub(super) fn charts(rows: &[RemedyRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
-    for latency in LATENCIES {
+    for latency in LATENCIES_MS {
         let name = |what: &str| format!("{what}-{latency}ms");
-        let title = format!("The article's ring and the ring that adapts, {latency} ms a message");
+        let title = format!("The article's ring and the adaptive ring, {latency} ms a message");
         charts.push((name("ring"), chart(rows, latency, title, &["ring", "adaptive"])));
         for remedy in Remedy::ALL {
             let without = format!("without {remedy}");
-            let title = format!("What “{remedy}” gains, {latency} ms a message");
+            let title = format!("Gain of “{remedy}”, {latency} ms a message");
             charts.push((name(remedy.name()), chart(rows, latency, title, &[&without, "adaptive"])));
         }
     }
@@ -32,8 +30,8 @@ fn chart(rows: &[RemedyRow], latency: f64, title: String, rivals: &[&str]) -> Li
     let of = |rival: &str| {
         let point = |(number, case): (usize, &super::cases::RemedyCase)| {
             let row = find(rows, &case.name, "sim", latency, rival)?;
-            // On a scale of ratios there is no zero.
-            Some((number as f64 + 1.0, row.over_bound.unwrap_or(ENDLESS).min(ENDLESS) - 1.0 + 1e-4))
+            // A logarithmic axis has no zero.
+            Some((number as f64 + 1.0, row.over_bound.unwrap_or(ENDLESS_RATIO).min(ENDLESS_RATIO) - 1.0 + 1e-4))
         };
         cases.iter().enumerate().filter_map(point).collect::<Vec<_>>()
     };
@@ -45,9 +43,9 @@ fn chart(rows: &[RemedyRow], latency: f64, title: String, rivals: &[&str]) -> Li
     });
     LineChart {
         title,
-        note: "time over the bound, less one; at 9 a run never ends; the cases' numbers are the report's".into(),
+        note: "makespan / bound − 1; at 9 a run never ends; the report lists the numbered cases".into(),
         x: Axis { label: "case".into(), scale: Scale::Linear, range: Some((0.0, cases.len() as f64 + 1.0)) },
-        y: Axis { label: "over the bound".into(), scale: Scale::Log10, range: None },
+        y: Axis { label: "makespan / bound − 1".into(), scale: Scale::Log10, range: None },
         series: series.collect(),
     }
 }
@@ -56,19 +54,18 @@ fn find<'a>(rows: &'a [RemedyRow], case: &str, driver: &str, latency: f64, rival
     rows.iter().find(|row| row.case == case && row.driver == driver && row.latency_ms == latency && row.rival == rival)
 }
 
-pub(super) fn report(rows: &[RemedyRow]) -> String {
-    let mut text = String::from("# The ring that adapts\n\n");
-    say!(
-        text,
-        "Time over the bound, the least T with ∫ Σ speed dt ≥ work, where a machine that is off, hangs or is cut off counts for nothing. \
-         In virtual time the middle of five runs with atoms of 40 to 60 pixels, on threads of three runs in turn; ∞ is a run that never \
-         ends. In brackets the worst of the runs.\n"
+pub(super) fn report(rows: &[RemedyRow]) -> Report {
+    let mut report = Report::titled("The adaptive ring");
+    report.line(
+        "Makespan / bound, where the bound is the least T with ∫ Σ speed dt ≥ work; a machine that is off, hangs or \
+         is cut off contributes nothing. In virtual time: the median of five runs with atoms of 40 to 60 pixels. On \
+         threads: the median of three runs, taken in turn. ∞ is a run that never ends. In brackets: the worst run.\n",
     );
-    say!(
-        text,
-        "| | case | aim | ring, 0 ms | adaptive, 0 ms | ring, 1 ms | adaptive, 1 ms | ring, 10 ms | adaptive, 10 ms | ring, threads | adaptive, threads |"
+    report.line(
+        "| | case | aim | ring, 0 ms | adaptive, 0 ms | ring, 1 ms | adaptive, 1 ms | ring, 10 ms | adaptive, 10 ms | \
+         ring, threads | adaptive, threads |",
     );
-    say!(text, "|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    report.line("|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for (number, case) in cases().iter().enumerate() {
         let cell = |driver, latency, rival| {
             find(rows, &case.name, driver, latency, rival).map_or("–".into(), |row| {
@@ -78,39 +75,45 @@ pub(super) fn report(rows: &[RemedyRow]) -> String {
                 }
             })
         };
-        let simulated =
-            LATENCIES.map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
+        let simulated = LATENCIES_MS
+            .map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
         let threads = [cell("threads", 0.0, "ring"), cell("threads", 0.0, "adaptive")].join(" | ");
-        say!(text, "| {} | {} | {:.2} | {} | {threads} |", number + 1, case.name, case.aim, simulated.join(" | "));
+        report.line(format!(
+            "| {} | {} | {:.2} | {} | {threads} |",
+            number + 1,
+            case.name,
+            case.aim,
+            simulated.join(" | ")
+        ));
     }
-    say!(text, "\n## The cases\n");
+    report.line("\n## The cases\n");
     for (number, case) in cases().iter().enumerate() {
-        say!(text, "{}. *{}*: {}", number + 1, case.name, case.about);
+        report.line(format!("{}. *{}*: {}", number + 1, case.name, case.about));
     }
-    say!(text, "\n## What each remedy gains\n");
-    say!(
-        text,
-        "Where a run takes longest without a remedy, over the time with all of them, and the geometric mean of all cases that end.\n"
+    report.line("\n## Gain of each remedy\n");
+    report.line(
+        "The greatest ratio of the makespan without a remedy to the makespan with all of them, with its case; and the \
+         geometric mean over all cases that end.\n",
     );
-    say!(text, "| remedy | most, 0 ms | mean | most, 1 ms | mean | most, 10 ms | mean |");
-    say!(text, "|---|--:|--:|--:|--:|--:|--:|");
+    report.line("| remedy | greatest, 0 ms | mean | greatest, 1 ms | mean | greatest, 10 ms | mean |");
+    report.line("|---|--:|--:|--:|--:|--:|--:|");
     for remedy in Remedy::ALL {
-        let cells = LATENCIES.map(|latency| gain(rows, remedy, latency));
-        say!(text, "| {remedy} | {} |", cells.join(" | "));
+        let cells = LATENCIES_MS.map(|latency| gain(rows, remedy, latency));
+        report.line(format!("| {remedy} | {} |", cells.join(" | ")));
     }
     let throttled = |rival| find(rows, "unequal, throttled", "threads", 0.0, rival).and_then(|row| row.over_bound);
     if let (Some(adaptive), Some(rayon)) = (throttled("adaptive"), throttled("rayon")) {
-        say!(
-            text,
-            "\n## Beside rayon\n\nPaced machines at 100, 70, 40 and 100 %, of which the second falls to 1 % at 30 % of the run, on threads: the \
-             ring that adapts takes {adaptive:.3} × the bound, rayon's work stealing {rayon:.3}: {:.3} × its time.",
+        report.line(format!(
+            "\n## Compared with rayon\n\nPaced machines at 100, 70, 40 and 100 % on threads; the second falls to 1 % \
+             at 30 % of the run. Makespan / bound: the adaptive ring {adaptive:.3}, rayon's work stealing {rayon:.3}. \
+             The adaptive ring takes {:.3} × rayon's time.",
             adaptive / rayon
-        );
+        ));
     }
-    text
+    report
 }
 
-/// What a remedy gains at most, and where; and on the average.
+/// Returns a remedy's greatest gain and its case, and the mean gain.
 fn gain(rows: &[RemedyRow], remedy: Remedy, latency: f64) -> String {
     let (mut most, mut place, mut sum, mut count) = (0.0, String::new(), 0.0, 0u32);
     for case in cases() {

@@ -1,4 +1,4 @@
-//! Numbers without rounding: what is true of the very numbers that a method is given.
+//! Exact numbers without rounding: the truth about the very numbers that a method gets.
 
 use std::borrow::Borrow;
 use std::cmp::Ordering;
@@ -7,18 +7,18 @@ use std::ops::{Add, Mul, Sub};
 use glam::DVec3;
 use num_bigint::{BigInt, Sign};
 
-/// `mantissa` · 2^`exponent`. Every finite f64 is such a number, and so are sums and products of them.
+/// `mantissa` · 2^`exponent`. Every finite f64 is such a number, and so are their sums and products.
 #[derive(Clone, Debug)]
 pub(super) struct Exact {
     mantissa: BigInt,
     exponent: i64,
 }
 
-/// Three of them: a point or a direction.
+/// Three exact numbers: a point or a direction.
 pub(super) type Vector = [Exact; 3];
 
 impl Exact {
-    /// The sign, as the order to 0.
+    /// Compares the number with 0.
     pub fn sign(&self) -> Ordering {
         match self.mantissa.sign() {
             Sign::Minus => Ordering::Less,
@@ -35,8 +35,8 @@ impl Exact {
         self.sign().is_lt()
     }
 
-    /// The nearest f64 or one beside it; 0 or infinite where it is out of range.
-    pub fn rounded(&self) -> f64 {
+    /// Returns the nearest f64 or a neighbour of it; 0 or infinity out of range.
+    pub fn to_f64(&self) -> f64 {
         let more = self.mantissa.bits().saturating_sub(100);
         let leading = i128::try_from(&self.mantissa >> more).unwrap_or_else(|_| unreachable!("100 bits fit"));
         // In two steps, since the power alone may be out of range.
@@ -55,7 +55,7 @@ impl Exact {
 }
 
 impl From<f64> for Exact {
-    /// The number itself, which must be finite.
+    /// Converts a finite number exactly.
     fn from(number: f64) -> Self {
         let bits = number.to_bits();
         let (biased, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
@@ -89,7 +89,7 @@ operator!(Mul, mul, |a: &Exact, b: &Exact| Exact {
     exponent: a.exponent + b.exponent,
 });
 
-/// The vector itself, whose components must be finite.
+/// Converts a vector with finite components exactly.
 pub(super) fn vector(v: DVec3) -> Vector {
     v.to_array().map(Exact::from)
 }
@@ -109,14 +109,14 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_number_is_itself(number in any::<f64>()) {
+        fn conversion_is_exact(number in any::<f64>()) {
             prop_assume!(number.is_finite());
-            prop_assert_eq!(Exact::from(number).rounded(), number);
+            prop_assert_eq!(Exact::from(number).to_f64(), number);
         }
 
-        /// (a + b)(a − b) = a² − b², which no rounded arithmetic knows.
+        /// (a + b)(a − b) = a² − b², which no rounded arithmetic satisfies.
         #[test]
-        fn nothing_is_lost(a in any::<f64>(), b in any::<f64>()) {
+        fn arithmetic_is_exact(a in any::<f64>(), b in any::<f64>()) {
             prop_assume!(a.is_finite() && b.is_finite());
             let (a, b) = (Exact::from(a), Exact::from(b));
             let difference = (&a + &b) * (&a - &b) - (&a * &a - &b * &b);
@@ -125,12 +125,12 @@ mod tests {
     }
 
     #[test]
-    fn what_f64_cannot_tell_apart_has_a_sign() {
+    fn differences_below_f64_precision_have_a_sign() {
         let one = Exact::from(1.0);
         let more = &one + Exact::from(1e-30);
         assert!((more - one).is_positive());
         let across = cross(&vector(DVec3::new(1.0, 1e-30, 0.0)), &vector(DVec3::X));
         assert!(across[2].is_negative());
-        assert_eq!(dot(&vector(DVec3::new(1e20, 1.0, -1e20)), &vector(DVec3::ONE)).rounded(), 1.0);
+        assert_eq!(dot(&vector(DVec3::new(1e20, 1.0, -1e20)), &vector(DVec3::ONE)).to_f64(), 1.0);
     }
 }

@@ -3,47 +3,47 @@
 use fastrand::Rng;
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::super::random::{aside, between, unit};
-use super::subject::Subject;
-use super::{Count, StabilityCase, Verdicts, tens};
+use super::super::random::{perpendicular, uniform, unit_vector};
+use super::placed_primitive::PlacedPrimitive;
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
 
-/// Discriminants by b² − c lose what the ball is to what the distance is.
+/// Returns the case: the discriminant b² − c loses the ball's size against the distance.
 pub(super) fn sphere() -> StabilityCase {
     StabilityCase {
         name: "far-sphere",
         title: "A far sphere",
-        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is it hit? The textbook's discriminant b² − ac \
-                subtracts squares of the distance; ours is that of the line's closest approach (Haines, Günther and \
-                Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the sign of the discriminant, without rounding. In f32 the \
-                ray is rounded first, and the truth is that of the rounded ray.",
+        about: "Rays towards a sphere of radius 1 that pass its centre within 2: is the sphere hit? The textbook's \
+                discriminant b² − ac subtracts squares of the distance; ours is that of the line's closest approach \
+                (Haines, Günther and Akenine-Möller, *Ray Tracing Gems*, ch. 7). Truth: the exact sign of the \
+                discriminant. In f32 the ray is rounded first, and the truth is that of the rounded ray.",
         parameter: "distance, radii",
-        values: tens(1, 13),
+        values: powers_of_10(1, 13),
         required: 1e8,
         scale: Scale::Log10,
         methods: &["textbook, f32", "textbook, f64", "ours"],
-        measures: None,
+        measured_figure: None,
         tries: 20_000,
         attempt,
     }
 }
 
-fn attempt(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
-    let ball = Subject::new(Primitive::Sphere, DAffine3::IDENTITY);
-    let mut count = Count::<3>::new();
+fn attempt(distance: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
+    let ball = PlacedPrimitive::new(Primitive::Sphere, DAffine3::IDENTITY);
+    let mut count = ResultCounter::<3>::new();
     for _ in 0..tries {
-        let way = unit(rng);
-        let (origin, target) = (way * distance, aside(rng, way) * between(rng, 0.0, 2.0));
+        let outward = unit_vector(rng);
+        let (origin, target) = (outward * distance, perpendicular(rng, outward) * uniform(rng, 0.0, 2.0));
         let ray = Ray::new(origin, (target - origin).normalize());
         let truth = ball.truth(&ray);
         let (o, d) = (ray.origin.as_vec3(), ray.direction.as_vec3());
         let rounded = Ray::new(DVec3::from(o), DVec3::from(d));
-        let in_f32 = is_hit_in_f32(o, d) != ball.truth(&rounded).meets();
-        count.add([in_f32, truth.is_missed_by(&ball.textbook(&ray)), truth.is_missed_by(&ball.ours(&ray))]);
+        let in_f32 = is_hit_in_f32(o, d) != ball.truth(&rounded).intersects();
+        count.add([in_f32, truth.contradicts(&ball.textbook(&ray)), truth.contradicts(&ball.ours(&ray))]);
     }
-    count.outcomes()
+    count.results()
 }
 
 fn is_hit_in_f32(o: Vec3, d: Vec3) -> bool {
@@ -54,7 +54,7 @@ fn is_hit_in_f32(o: Vec3, d: Vec3) -> bool {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn a_far_sphere_is_hit_or_missed_rightly() {
+    fn far_sphere_is_hit_or_missed_correctly() {
         super::super::check(&super::sphere(), 2000);
     }
 }

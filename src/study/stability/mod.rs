@@ -1,79 +1,79 @@
-//! Where methods fail: cases that grow harder step by step, and what ours and a naive method make of them.
+//! Where methods fail: cases of growing difficulty, for this program's method and for naive ones.
 //!
-//! What is true is known without rounding ([`exact`]), of the very numbers that the methods were given.
+//! The truth is computed without rounding ([`exact`]), from the very numbers that the methods get.
 
 mod coincident;
 mod exact;
 mod far;
 mod graze;
 mod normals;
+mod placed_primitive;
 mod protocol;
 mod refraction;
 mod report;
 mod scaled;
 mod starts;
-mod subject;
 mod torus;
 
 use fastrand::Rng;
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::{ProgressSink, Study};
+use super::{ProgressSink, Study, StudyError};
 use crate::language::Language;
 use crate::view::Scale;
 
-/// Something that is tried at growing hardness, by several methods.
+/// A test of growing difficulty for several methods.
 pub(super) struct StabilityCase {
-    /// In file names.
+    /// Name in file names.
     name: &'static str,
     title: &'static str,
-    /// What is tried, what counts as wrong, and how the truth is known: sentences.
+    /// Description for the report: the test, what counts as wrong, and the source of the truth.
     about: &'static str,
-    /// What grows harder, and its unit.
+    /// The parameter that makes it harder, with its unit.
     parameter: &'static str,
-    /// What it is set to, the easiest first. 0 is the hardest: it stands for no distance at all.
+    /// Values of the parameter, the easiest first. 0 is the hardest: no distance at all.
     values: Vec<f64>,
-    /// The hardest of them at which ours must not be wrong.
+    /// The hardest value at which this program's method must not be wrong.
     required: f64,
-    /// How [`StabilityCase::values`] are drawn.
+    /// Scale of [`StabilityCase::values`] in the chart.
     scale: Scale,
-    /// Ours is the last one; of the protocol, the ring.
+    /// Methods; this program's is the last. Of the protocol, it is the ring.
     methods: &'static [&'static str],
-    /// What [`Verdicts::measured`] is, if it is drawn instead of the share that is wrong.
-    measures: Option<&'static str>,
-    /// How often each value is tried.
+    /// Meaning of [`MethodResult::measured`], if it is charted instead of the share of wrong answers.
+    measured_figure: Option<&'static str>,
+    /// Number of tries for each value.
     tries: u32,
-    /// Tries one value so often; what comes of it, by method.
-    attempt: fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
+    /// Tries one value a number of times; returns the results by method.
+    attempt: fn(f64, u32, &mut Rng) -> Vec<MethodResult>,
 }
 
-/// What came of a method's tries.
+/// Result of a method's tries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Verdicts {
+pub(super) struct MethodResult {
     tried: u64,
     wrong: u64,
-    /// Something else that was measured; `None` if it is infinite, or nothing is.
+    /// Another measured figure; `None` if it is infinite, or if there is none.
     measured: Option<f64>,
 }
 
-/// What came of one method at one value.
+/// Result of one method at one value.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct StabilityRow {
     case: &'static str,
     parameter: &'static str,
     value: f64,
-    /// Whether ours must not be wrong there.
+    /// Whether this program's method must not be wrong there.
     required: bool,
     method: &'static str,
     tried: u64,
     wrong: u64,
-    /// The greatest error, the greatest time over the ideal one, or how many answers were not even an entry and an exit, as
-    /// the case has it.
+    /// By case: the greatest error, the greatest makespan / ideal, or the number of answers that are not even an entry
+    /// and an exit.
     measured: Option<f64>,
 }
 
-/// All cases, from the geometry to the protocol.
+/// Returns all cases, from the geometry to the protocol.
 fn cases() -> Vec<StabilityCase> {
     let mut cases = vec![far::sphere()];
     cases.extend(graze::cases());
@@ -86,11 +86,11 @@ fn cases() -> Vec<StabilityCase> {
     cases
 }
 
-/// Tries every case, and says in which range each method holds.
+/// Tries every case, and reports the range in which each method holds.
 ///
 /// # Errors
-/// A sentence, if the rows could not be written.
-pub fn stability(tell: ProgressSink<'_>) -> Result<Study, String> {
+/// A [`StudyError`], if a table cannot be made.
+pub fn stability(tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let cases = cases();
     let mut progress = Progress::new(cases.len(), tell);
     let mut study = Study::new("stability");
@@ -112,79 +112,79 @@ pub fn stability(tell: ProgressSink<'_>) -> Result<Study, String> {
 }
 
 impl StabilityCase {
-    /// What comes of `tries` at each value: a row for each value and method.
+    /// Tries each value `tries` times and returns a row for each value and method.
     fn rows(&self, tries: u32) -> Vec<StabilityRow> {
         let mut rows = Vec::new();
         let hardest = self.values.iter().position(|&value| value == self.required);
         for (place, &value) in self.values.iter().enumerate() {
-            let outcomes = (self.attempt)(value, tries, &mut Rng::with_seed(place as u64));
-            rows.extend(self.methods.iter().zip(outcomes).map(|(&method, outcome)| StabilityRow {
+            let results = (self.attempt)(value, tries, &mut Rng::with_seed(place as u64));
+            rows.extend(self.methods.iter().zip(results).map(|(&method, result)| StabilityRow {
                 case: self.name,
                 parameter: self.parameter,
                 value,
                 required: hardest.is_some_and(|hardest| place <= hardest),
                 method,
-                tried: outcome.tried,
-                wrong: outcome.wrong,
-                measured: outcome.measured,
+                tried: result.tried,
+                wrong: result.wrong,
+                measured: result.measured,
             }));
         }
         rows
     }
 
-    /// The name of our method.
+    /// Returns the name of this program's method.
     fn ours(&self) -> &'static str {
         self.methods.last().copied().unwrap_or_default()
     }
 }
 
-/// Powers of ten, from one exponent to another, which may be less.
-fn tens(from: i32, to: i32) -> Vec<f64> {
-    powers(from, to).map(|power| 10f64.powi(power)).collect()
+/// Returns powers of ten, from one exponent to another, which may be smaller.
+fn powers_of_10(from: i32, to: i32) -> Vec<f64> {
+    exponents(from, to).map(|power| 10f64.powi(power)).collect()
 }
 
-/// Powers of two.
-fn twos(from: i32, to: i32) -> Vec<f64> {
-    powers(from, to).map(|power| 2f64.powi(power)).collect()
+/// Returns powers of two, from one exponent to another, which may be smaller.
+fn powers_of_2(from: i32, to: i32) -> Vec<f64> {
+    exponents(from, to).map(|power| 2f64.powi(power)).collect()
 }
 
-fn powers(from: i32, to: i32) -> impl Iterator<Item = i32> {
+fn exponents(from: i32, to: i32) -> impl Iterator<Item = i32> {
     let step = (to - from).signum();
     (0..=(to - from).abs()).map(move |i| from + step * i)
 }
 
-/// Counts wrong answers of several methods that try the same.
-struct Count<const N: usize>([Verdicts; N]);
+/// Counts wrong answers of several methods on the same tries.
+struct ResultCounter<const N: usize>([MethodResult; N]);
 
-impl<const N: usize> Count<N> {
-    /// Nothing has been tried.
+impl<const N: usize> ResultCounter<N> {
+    /// Starts without tries.
     fn new() -> Self {
-        Self([Verdicts::default(); N])
+        Self([MethodResult::default(); N])
     }
 
-    /// All have tried once more; which of them were wrong.
+    /// Adds a try; `wrong` tells by method whether its answer is wrong.
     fn add(&mut self, wrong: [bool; N]) {
-        for (outcome, wrong) in self.0.iter_mut().zip(wrong) {
-            outcome.tried += 1;
-            outcome.wrong += u64::from(wrong);
+        for (result, wrong) in self.0.iter_mut().zip(wrong) {
+            result.tried += 1;
+            result.wrong += u64::from(wrong);
         }
     }
 
-    /// As [`Count::add`], for errors of which none may exceed `most`; what is no number is wrong, and not the greatest.
+    /// Adds a try with errors, of which none may exceed `most`; NaN counts as wrong, but not as the greatest error.
     fn add_errors(&mut self, errors: [f64; N], most: f64) {
         self.add(errors.map(|error| error.is_nan() || error > most));
-        for (outcome, error) in self.0.iter_mut().zip(errors) {
-            outcome.measured = Some(outcome.measured.unwrap_or(0.0).max(error));
+        for (result, error) in self.0.iter_mut().zip(errors) {
+            result.measured = Some(result.measured.unwrap_or(0.0).max(error));
         }
     }
 
-    fn outcomes(self) -> Vec<Verdicts> {
+    fn results(self) -> Vec<MethodResult> {
         self.0.to_vec()
     }
 }
 
-/// Tries a case less often than the study does. Ours must hold as far as it is required, and the case must be a hard one:
-/// there each other method must be wrong somewhere.
+/// Tries a case less often than the study does. This program's method must hold as far as required, and the case must
+/// be hard: within that range every other method must be wrong somewhere.
 #[cfg(test)]
 fn check(case: &StabilityCase, tries: u32) {
     let rows = case.rows(tries);
@@ -205,14 +205,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_case_has_a_name_a_chart_and_its_numbers_in_the_report() {
+    fn cases_have_distinct_names_charts_and_figures_in_the_report() {
         let cases = cases();
         let names: BTreeSet<&str> = cases.iter().map(|case| case.name).collect();
         assert_eq!(names.len(), cases.len());
         let rows: Vec<Vec<StabilityRow>> = cases.iter().map(|case| case.rows(4)).collect();
         let found: Vec<(&StabilityCase, &[StabilityRow])> =
             cases.iter().zip(&rows).map(|(case, rows)| (case, &rows[..])).collect();
-        let report = report::report(&found);
+        let report = report::report(&found).into_text();
         for (case, rows) in found {
             assert!(report.contains(&format!("](stability-{}.svg)", case.name)) && report.contains(case.about));
             let lines: Vec<usize> = report::chart(case, rows).series.iter().map(|series| series.points.len()).collect();
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_is_tried_each_time() {
+    fn tries_are_reproducible() {
         let case = far::sphere();
         let found = || case.rows(50).into_iter().map(|row| row.wrong).collect::<Vec<_>>();
         assert_eq!(found(), found());

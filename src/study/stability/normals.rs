@@ -3,11 +3,11 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::super::random::{turn, unit};
+use super::super::random::{random_rotation, unit_vector};
 use super::exact::{cross, dot, vector};
-use super::subject::Subject;
-use super::{Count, StabilityCase, Verdicts, tens};
-use crate::csg::{Primitive, Surface};
+use super::placed_primitive::PlacedPrimitive;
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
+use crate::csg::{LeafIndex, Primitive, Surface};
 use crate::view::Scale;
 
 pub(super) fn cases() -> [StabilityCase; 2] {
@@ -16,11 +16,11 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         title,
         about,
         parameter: "scale s",
-        values: tens(0, -10),
+        values: powers_of_10(0, -10),
         required,
         scale: Scale::Log10,
         methods: &["as a vector", "ours"],
-        measures: Some("greatest n · tangent"),
+        measured_figure: Some("greatest n · tangent"),
         tries: 5000,
         attempt,
     };
@@ -28,49 +28,49 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         flat(
             "ellipsoid",
             "Normals of a flat ellipsoid",
-            "A sphere scaled by (1, 1, s), and our normal at points of it: the greatest n · tangent of any tangent of length 1, \
-             which is the sine of the angle to the true normal. Naive: the sphere's normal, carried along as if it were a vector; \
-             it has to go by the inverse transpose. Wrong: more than 10⁻¹². Truth: the gradient at that very point, without \
-             rounding.",
+            "A sphere scaled by (1, 1, s), and our normal at its points: the greatest n · tangent of any unit \
+             tangent, which is the sine of the angle to the true normal. Naive: the sphere's normal, transformed as a \
+             vector instead of by the inverse transpose. Wrong: more than 10⁻¹². Truth: the exact gradient at that \
+             very point.",
             1e-3,
             |scale, tries, rng| attempt(scale, tries, rng, |_| DMat3::IDENTITY),
         ),
         flat(
             "ellipsoid-turned",
-            "Normals of a flat ellipsoid that is turned",
-            "The same, turned somehow. At its rim the ellipsoid's curvature is s⁻², so that the last digit of a point, or of the map \
-             that turns it, moves the true normal by some 10⁻¹⁶ s⁻²: from s = 10⁻³ on a normal is as exact as its point, \
-             but no longer within 10⁻¹².",
+            "Normals of a flat ellipsoid that is rotated",
+            "The same, rotated at random. At its rim the ellipsoid's curvature is s⁻², so that the last digit of a \
+             point, or of the rotation, moves the true normal by some 10⁻¹⁶ s⁻²: from s = 10⁻³ on a normal is as \
+             exact as its point, but no longer within 10⁻¹².",
             1e-2,
-            |scale, tries, rng| attempt(scale, tries, rng, turn),
+            |scale, tries, rng| attempt(scale, tries, rng, random_rotation),
         ),
     ]
 }
 
-fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3) -> Vec<Verdicts> {
-    const MOST: f64 = 1e-12;
-    let mut count = Count::<2>::new();
+fn attempt(scale: f64, tries: u32, rng: &mut Rng, turned: fn(&mut Rng) -> DMat3) -> Vec<MethodResult> {
+    const MAX_ERROR: f64 = 1e-12;
+    let mut count = ResultCounter::<2>::new();
     for _ in 0..tries {
         let map = DAffine3::from_mat3(turned(rng) * DMat3::from_diagonal(DVec3::new(1.0, 1.0, scale)));
-        let ellipsoid = Subject::new(Primitive::Sphere, map);
-        let own = unit(rng);
+        let ellipsoid = PlacedPrimitive::new(Primitive::Sphere, map);
+        let own = unit_vector(rng);
         let point = map.transform_point3(own);
         let truth = ellipsoid.gradient(point);
         let sine = |normal: DVec3| {
             let normal = vector(normal);
             let across = cross(&normal, &truth);
-            (dot(&across, &across).rounded() / (dot(&normal, &normal) * dot(&truth, &truth)).rounded()).sqrt()
+            (dot(&across, &across).to_f64() / (dot(&normal, &normal) * dot(&truth, &truth)).to_f64()).sqrt()
         };
-        let ours = ellipsoid.normal(Surface { leaf: 0, face: 0 }, point);
-        count.add_errors([map.transform_vector3(own).normalize(), ours].map(sine), MOST);
+        let ours = ellipsoid.normal(Surface { leaf: LeafIndex::default(), face: 0 }, point);
+        count.add_errors([map.transform_vector3(own).normalize(), ours].map(sine), MAX_ERROR);
     }
-    count.outcomes()
+    count.results()
 }
 
 #[cfg(test)]
 mod tests {
     #[test]
-    fn normals_stand_on_a_flat_ellipsoid() {
+    fn normals_of_flat_ellipsoids_are_exact() {
         super::cases().iter().for_each(|case| super::super::check(case, 300));
     }
 }

@@ -1,18 +1,18 @@
-//! The protocol where machines and networks misbehave, in virtual time.
+//! The protocol under failing machines and networks, in virtual time.
 
 use std::time::Duration;
 
 use fastrand::Rng;
 
-use super::super::random::between;
-use super::{StabilityCase, Verdicts, twos};
+use super::super::random::uniform;
+use super::{MethodResult, StabilityCase, powers_of_2};
 use crate::balance::{Message, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
 use crate::record::RecordKind;
 use crate::runlog::{Driver, Header, LinkSettings, Metrics};
 use crate::scenario::{Command, Script, square_wave};
 use crate::sim::Sim;
-use crate::study::fixture::{AtomCosts, weighted};
+use crate::study::fixture::{AtomCosts, weighted_costs};
 use crate::time::Time;
 use crate::view::Scale;
 
@@ -21,11 +21,11 @@ pub(super) const METHODS: &[&str] = &["static", "farm", "ring"];
 
 const NODES: usize = 8;
 const ATOMS: u32 = 1024;
-/// Of an atom, on average.
-const COST: Duration = Duration::from_millis(2);
-/// What all nodes need together, at full speed.
-const IDEAL: Duration = Duration::from_millis(2 * ATOMS as u64 / NODES as u64);
-/// A message's, where nothing else is said.
+/// Mean cost of an atom.
+const ATOM_COST: Duration = Duration::from_millis(2);
+/// Time that all nodes together need at full speed.
+const IDEAL_TIME: Duration = Duration::from_millis(2 * ATOMS as u64 / NODES as u64);
+/// Latency of a message where a case does not set it.
 const LATENCY: Duration = Duration::from_micros(100);
 
 pub(super) fn cases() -> [StabilityCase; 5] {
@@ -38,7 +38,7 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         values,
         scale,
         methods: METHODS,
-        measures: Some("time / ideal time, the worst run"),
+        measured_figure: Some("makespan / ideal, the worst run"),
         tries: 10,
         attempt,
     };
@@ -46,77 +46,79 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         case(
             "swing",
             "Machines whose speed swings",
-            "Eight machines, each of which swings between full speed and a twentieth, with a period of its own about the one given; \
-             every other one begins slow. The ideal time knows of every swing.",
+            "Each of eight machines swings between full speed and a twentieth, with its own period near the given \
+             one; every other machine begins slow. The ideal time accounts for every swing.",
             "period over the time at full speed",
-            twos(-6, 4),
+            powers_of_2(-6, 4),
             Scale::Log2,
             swing,
         ),
         case(
             "stop",
             "A machine that stops",
-            "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from somewhere in the \
-             first half of the run. The two atoms in its pipe cannot be taken back, so that every strategy waits for it to go on, \
-             and would for ever if it never did; in a ring all its other atoms leave it when others offer help.",
-            "time that it stands over the time of all at full speed",
-            twos(-6, 3),
+            "One of eight machines stands at 0 % for a while, in half of the runs from the start, in the others from \
+             some point in the first half of the run. The two atoms in its pipe cannot be taken back, so that every \
+             strategy waits until the machine goes on, and would wait for ever if it never did. In a ring all its \
+             other atoms leave it when other machines offer help.",
+            "stop over the time of all at full speed",
+            powers_of_2(-6, 3),
             Scale::Log2,
             stop,
         ),
         case(
             "crowd",
             "More machines than atoms",
-            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom: where that is longer, it is \
-             the ideal time, here and below. Where a machine has two atoms, both are in its pipe, and a ring has nothing to give.",
-            "machines an atom",
-            twos(-3, 4),
+            "64 atoms and more and more machines. No strategy needs less than the time of the dearest atom; where \
+             that is longer, it counts as the ideal time, here and below. Where a machine has two atoms, both are in \
+             its pipe, and a ring has nothing to give.",
+            "machines per atom",
+            powers_of_2(-3, 4),
             Scale::Log2,
             crowd,
         ),
         case(
             "corner",
             "All the work in one corner",
-            "Of 1,024 atoms, some that stand together somewhere in the picture cost 999 parts in 1,000 of all the work; at last it is \
-             one atom. Of two dear atoms in one pipe the second has to wait for the first.",
+            "Of 1,024 atoms, some neighbouring ones at a random place in the picture cost 999/1000 of all the work; \
+             in the end it is one atom. Where a pipe holds two dear atoms, the second waits for the first.",
             "share of the atoms that hold the work",
-            twos(0, -10),
+            powers_of_2(0, -10),
             Scale::Log2,
             corner,
         ),
         case(
             "latency",
-            "Wild latencies",
-            "The latency of all messages changes fifty times in the time of the run, to anything between a thousandth of the one given \
-             and that.",
+            "Varying latencies",
+            "The latency of all messages changes fifty times within the time of the run, to a random value between a \
+             thousandth of the given latency and the whole.",
             "greatest latency over an atom's time",
-            twos(-6, 7),
+            powers_of_2(-6, 7),
             Scale::Log2,
             latency,
         ),
     ]
 }
 
-/// So many runs of each strategy. `plan` says, the same for all of them, what atoms cost, how many nodes there are, and what is
-/// done to them.
-fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (AtomCosts, usize, Script)) -> Vec<Verdicts> {
-    let mut outcomes = vec![Verdicts { measured: Some(0.0), ..Verdicts::default() }; STRATEGIES.len()];
+/// Runs each strategy `tries` times. `plan` returns, the same for all strategies, the atoms' costs, the number of
+/// nodes, and the script.
+fn attempt(tries: u32, rng: &mut Rng, plan: impl Fn(u32, &mut Rng) -> (AtomCosts, usize, Script)) -> Vec<MethodResult> {
+    let mut results = vec![MethodResult { measured: Some(0.0), ..MethodResult::default() }; STRATEGIES.len()];
     for index in 0..tries {
         let (costs, nodes, script) = plan(index, rng);
-        for (strategy, outcome) in STRATEGIES.into_iter().zip(&mut outcomes) {
+        for (strategy, result) in STRATEGIES.into_iter().zip(&mut results) {
             let run = run(strategy, nodes, &script, &costs);
-            outcome.tried += run.tried;
-            outcome.wrong += run.wrong;
-            outcome.measured = outcome.measured.zip(run.measured).map(|(worst, this)| worst.max(this));
+            result.tried += run.tried;
+            result.wrong += run.wrong;
+            result.measured = result.measured.zip(run.measured).map(|(worst, this)| worst.max(this));
         }
     }
-    outcomes
+    results
 }
 
-/// One run: wrong are the atoms that were not traced and placed exactly once; measured is its time over the ideal one.
-fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> Verdicts {
+/// Simulates a run. Wrong are the atoms not traced and placed exactly once; measured is makespan / ideal.
+fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> MethodResult {
     // One atom a row.
-    let Ok(size) = Size::new(50, costs.len() as u32) else { return Verdicts::default() };
+    let Ok(size) = Size::new(50, costs.len() as u32) else { return MethodResult::default() };
     let plain = Header::plain(size, 50, strategy, vec![1.0; nodes]);
     let header = Header {
         driver: Driver::Sim,
@@ -127,7 +129,7 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> 
     let cost = costs.clone();
     let mut sim = Sim::new(&header, script, move |atom| cost[atom as usize]);
     let (mut traced, mut placed) = (vec![0u32; costs.len()], vec![0u32; costs.len()]);
-    let mut tally = Metrics::new(&header);
+    let mut metrics = Metrics::new(&header);
     sim.run(&mut |record| {
         match &record.what {
             RecordKind::AtomDone { atom, .. } => traced[*atom as usize] += 1,
@@ -136,72 +138,72 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> 
             }
             _ => {}
         }
-        tally.add(&record);
+        metrics.add(&record);
     });
     let wrong = traced.iter().zip(&placed).filter(|&times| times != (&1, &1)).count();
     let dearest = costs.iter().max().copied().unwrap_or_default();
-    let over = |makespan: Duration| Some(makespan.div_duration_f64(tally.ideal()?.max(dearest)));
-    Verdicts { tried: costs.len() as u64, wrong: wrong as u64, measured: tally.makespan().and_then(over) }
+    let over = |makespan: Duration| Some(makespan.div_duration_f64(metrics.ideal()?.max(dearest)));
+    MethodResult { tried: costs.len() as u64, wrong: wrong as u64, measured: metrics.makespan().and_then(over) }
 }
 
-/// Costs of so many atoms, [`COST`] on average: the dearest costs ten times what the cheapest does.
-fn uneven(atoms: u32, rng: &mut Rng) -> AtomCosts {
-    weighted((0..atoms).map(|_| 10f64.powf(rng.f64())).collect(), COST)
+/// Returns random costs with the mean [`ATOM_COST`]; the dearest atom costs up to ten times the cheapest.
+fn uneven_costs(atoms: u32, rng: &mut Rng) -> AtomCosts {
+    weighted_costs((0..atoms).map(|_| 10f64.powf(rng.f64())).collect(), ATOM_COST)
 }
 
 fn after(duration: Duration) -> Time {
     Time::ZERO + duration
 }
 
-fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn swing(period: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     const FAST: f64 = 1.0;
     const SLOW: f64 = 0.05;
     attempt(tries, rng, |_, rng| {
         let mut script = Script::new();
         for node in 0..NODES as NodeId {
-            let period = IDEAL.mul_f64(period * between(rng, 0.5, 1.5));
+            let period = IDEAL_TIME.mul_f64(period * uniform(rng, 0.5, 1.5));
             let [first, second] = if node % 2 == 0 { [FAST, SLOW] } else { [SLOW, FAST] };
             script.push((Time::ZERO, Command::Speed { node, speed: first }));
-            script.extend(square_wave(node, first, second, period, after(30 * IDEAL)));
+            script.extend(square_wave(node, first, second, period, after(30 * IDEAL_TIME)));
         }
         script.sort_by_key(|(at, _)| *at);
-        (uneven(ATOMS, rng), NODES, script)
+        (uneven_costs(ATOMS, rng), NODES, script)
     })
 }
 
-fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn stop(time: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     attempt(tries, rng, |index, rng| {
         let node = rng.u16(0..NODES as NodeId);
-        let from = if index % 2 == 0 { Duration::ZERO } else { IDEAL.mul_f64(rng.f64() / 2.0) };
+        let from = if index % 2 == 0 { Duration::ZERO } else { IDEAL_TIME.mul_f64(rng.f64() / 2.0) };
         let speed = |at: Duration, speed| (after(at), Command::Speed { node, speed });
-        (uneven(ATOMS, rng), NODES, vec![speed(from, 0.0), speed(from + IDEAL.mul_f64(time), 1.0)])
+        (uneven_costs(ATOMS, rng), NODES, vec![speed(from, 0.0), speed(from + IDEAL_TIME.mul_f64(time), 1.0)])
     })
 }
 
-fn crowd(an_atom: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn crowd(an_atom: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     const FEW: u32 = 64;
-    attempt(tries, rng, |_, rng| (uneven(FEW, rng), (f64::from(FEW) * an_atom) as usize, Script::new()))
+    attempt(tries, rng, |_, rng| (uneven_costs(FEW, rng), (f64::from(FEW) * an_atom) as usize, Script::new()))
 }
 
-fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn corner(share: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     attempt(tries, rng, |_, rng| {
         let dear = (f64::from(ATOMS) * share) as u32;
         let first = rng.u32(0..=ATOMS - dear);
         let cheap = if dear < ATOMS { 0.001 / f64::from(ATOMS - dear) } else { 0.0 };
         let weight = |atom| if (first..first + dear).contains(&atom) { 0.999 / f64::from(dear) } else { cheap };
-        (weighted((0..ATOMS).map(weight).collect(), COST), NODES, Script::new())
+        (weighted_costs((0..ATOMS).map(weight).collect(), ATOM_COST), NODES, Script::new())
     })
 }
 
-fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn latency(greatest: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     attempt(tries, rng, |_, rng| {
         // Longer than any run lasts.
         let changes = (0..50 * 100).map(|change| {
-            let latency = COST.mul_f64(greatest * 10f64.powf(between(rng, -3.0, 0.0)));
-            (after(IDEAL / 50 * change), Command::Latency(latency))
+            let latency = ATOM_COST.mul_f64(greatest * 10f64.powf(uniform(rng, -3.0, 0.0)));
+            (after(IDEAL_TIME / 50 * change), Command::Latency(latency))
         });
         let script = changes.collect();
-        (uneven(ATOMS, rng), NODES, script)
+        (uneven_costs(ATOMS, rng), NODES, script)
     })
 }
 
@@ -210,7 +212,7 @@ mod tests {
     use super::super::StabilityRow;
     use super::*;
 
-    /// The rows of one method, which all have ended with every atom once.
+    /// Returns the rows of a method, all of which ended with every atom traced and placed once.
     fn ended(case: &StabilityCase, method: &str) -> Vec<StabilityRow> {
         let rows: Vec<StabilityRow> = case.rows(4).into_iter().filter(|row| row.method == method).collect();
         assert_eq!(rows.len(), case.values.len());
@@ -221,22 +223,22 @@ mod tests {
     }
 
     #[test]
-    fn the_ring_ends_with_every_atom_once_whatever_happens() {
+    fn ring_ends_with_every_atom_once_in_all_cases() {
         for case in cases() {
             ended(&case, "ring");
         }
     }
 
     #[test]
-    fn who_never_goes_on_keeps_what_is_in_its_pipe_and_no_more() {
-        let costs = uneven(ATOMS, &mut Rng::with_seed(0));
+    fn stopped_machine_keeps_only_the_atoms_in_its_pipe() {
+        let costs = uneven_costs(ATOMS, &mut Rng::with_seed(0));
         let script = vec![(Time::ZERO, Command::Speed { node: 3, speed: 0.0 })];
         let lost = run(Strategy::Ring, NODES, &script, &costs);
         assert_eq!((lost.wrong, lost.measured), (2, None));
     }
 
     #[test]
-    fn the_ring_shares_what_equal_bands_cannot() {
+    fn ring_is_faster_than_equal_bands_under_changes() {
         for case in &cases()[..4] {
             let (ring, bands) = (ended(case, "ring"), ended(case, "static"));
             let gains =

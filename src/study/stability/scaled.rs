@@ -1,9 +1,9 @@
-//! The same scene, larger and smaller by powers of two.
+//! The same scene, scaled by powers of two.
 
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
-use super::{Count, StabilityCase, Verdicts, twos};
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_2};
 use crate::csg::Solid;
 use crate::geometry::Ray;
 use crate::picture::{Colour, Quality, Size};
@@ -11,35 +11,36 @@ use crate::scene::{BUILT_IN, Light, Scene};
 use crate::tracer::{Scratch, Tracer};
 use crate::view::Scale;
 
-/// Nothing in a tracer may know how large a scene is.
+/// Returns the case: nothing in a tracer may depend on a scene's size.
 pub(super) fn scenes() -> StabilityCase {
     StabilityCase {
         name: "scaled",
         title: "A scene and its copies at other scales",
-        about: "Each built-in scene, scaled by 2ᵏ and by 2⁻ᵏ: its picture must be the same, bit by bit, since powers of two round \
-                nothing. The naive picture is of a ball on a floor under a lamp, by rays that forget what is nearer than 10⁻⁴, \
-                which does not shrink with the scene; counted once for each scene. Truth: the picture at k = 0. Counted are pixels.",
+        about: "Each built-in scene, scaled by 2ᵏ and by 2⁻ᵏ: its picture must be identical to the bit, since \
+                multiplication by powers of two does not round. The naive picture is of a ball on a floor under a \
+                lamp, by rays that ignore crossings nearer than 10⁻⁴, an offset that does not scale with the scene; \
+                it counts once for each scene. Truth: the picture at k = 0. The count is of pixels.",
         parameter: "scale 2ᵏ, and its inverse",
-        values: twos(0, 20),
+        values: powers_of_2(0, 20),
         required: f64::from(1 << 20),
         scale: Scale::Log2,
         methods: &["beyond 1e-4", "ours"],
-        measures: None,
+        measured_figure: None,
         // A scene's pixels.
         tries: 48 * 36,
         attempt,
     }
 }
 
-fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Verdicts> {
+fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<MethodResult> {
     let height = (f64::from(tries) * 0.75).sqrt().max(1.0) as u32;
     let Ok(size) = Size::new(height * 4 / 3 + 1, height) else { return Vec::new() };
-    let mut count = Count::<2>::new();
+    let mut count = ResultCounter::<2>::new();
     for factor in [scale, scale.recip()] {
         let naive: Vec<bool> =
-            (0..size.pixels()).map(|at| is_dark(at, size, factor) != is_dark(at, size, 1.0)).collect();
+            (0..size.pixels()).map(|at| is_in_shadow(at, size, factor) != is_in_shadow(at, size, 1.0)).collect();
         for (_, text) in BUILT_IN {
-            // They parse: tests see to that.
+            // They parse, as tests check.
             let Ok(scene) = Scene::parse(text) else { continue };
             let (plain, other) = (picture(&scene, size), picture(&scaled(&scene, factor), size));
             for ((naive, pixel), other) in naive.iter().zip(&plain).zip(&other) {
@@ -47,7 +48,7 @@ fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<Verdicts> {
             }
         }
     }
-    count.outcomes()
+    count.results()
 }
 
 fn picture(scene: &Scene, size: Size) -> Vec<Colour> {
@@ -56,7 +57,7 @@ fn picture(scene: &Scene, size: Size) -> Vec<Colour> {
     pixels
 }
 
-/// The scene with every length times `factor`.
+/// Returns the scene with every length multiplied by `factor`.
 fn scaled(scene: &Scene, factor: f64) -> Scene {
     let mut scene = scene.clone();
     scene.camera.eye *= factor;
@@ -72,15 +73,15 @@ fn scaled(scene: &Scene, factor: f64) -> Scene {
 
 fn scale_solid(solid: &mut Solid, map: &DAffine3) {
     match solid {
-        Solid::Placed { scene_from_own, .. } => *scene_from_own = *map * *scene_from_own,
+        Solid::Placed { scene_from_local, .. } => *scene_from_local = *map * *scene_from_local,
         Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
             solids.iter_mut().for_each(|solid| scale_solid(solid, map));
         }
     }
 }
 
-/// Whether a naive tracer finds that the lamp does not shine on what the pixel shows.
-fn is_dark(pixel: u32, size: Size, factor: f64) -> bool {
+/// Returns whether a naive tracer finds the pixel's point in shadow.
+fn is_in_shadow(pixel: u32, size: Size, factor: f64) -> bool {
     const EPSILON: f64 = 1e-4;
     let (ball, radius) = (DVec3::Y * factor, factor);
     let nearest = |ray: &Ray| {
@@ -96,14 +97,14 @@ fn is_dark(pixel: u32, size: Size, factor: f64) -> bool {
     let ray = Ray::new(eye, DVec3::new(across, 0.75 * up - 0.25, -1.0).normalize());
     let t = nearest(&ray);
     let point = ray.at(t);
-    let way = lamp - point;
-    t.is_finite() && nearest(&Ray::new(point, way.normalize())) < way.length()
+    let to_lamp = lamp - point;
+    t.is_finite() && nearest(&Ray::new(point, to_lamp.normalize())) < to_lamp.length()
 }
 
 #[cfg(test)]
 mod tests {
     #[test]
-    fn a_scaled_scene_has_the_same_picture_bit_by_bit() {
+    fn scaled_scenes_have_identical_pictures() {
         super::super::check(&super::scenes(), 16 * 12);
     }
 }

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
-use super::super::random::{aside, between, unit};
+use super::super::random::{perpendicular, uniform, unit_vector};
 use super::exact::{Exact, dot, vector};
-use super::subject::Subject;
-use super::{Count, StabilityCase, Verdicts, tens};
+use super::placed_primitive::PlacedPrimitive;
+use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::Primitive;
 use crate::geometry::Ray;
 use crate::view::Scale;
@@ -23,7 +23,7 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         required,
         scale: Scale::Log10,
         methods: &["closed form", "ours"],
-        measures: None,
+        measured_figure: None,
         tries: 5000,
         attempt,
     };
@@ -31,60 +31,60 @@ pub(super) fn cases() -> [StabilityCase; 2] {
         torus(
             "far-torus",
             "A far torus",
-            "Rays towards a torus (radius 1, tube 0.25): how often do they cross it? The closed form of the quartic (Ferrari, \
-             Cardano) takes the coefficients as they are, and those grow with the fourth power of the distance. Ours starts \
-             from where the line is closest, and finds the roots between those of the derivatives (Yuksel 2022). Truth: the \
-             changes of sign in Sturm's chain, without rounding.",
+            "Rays towards a torus (radius 1, tube 0.25): how often do they cross it? The closed form of the quartic \
+             (Ferrari, Cardano) uses the coefficients unchanged, and those grow with the fourth power of the \
+             distance. Ours starts from the line's closest point, and finds the roots between those of the \
+             derivatives (Yuksel 2022). Truth: the changes of sign in Sturm's chain, without rounding.",
             "distance, radii",
-            tens(0, 10),
+            powers_of_10(0, 10),
             1e8,
-            far as fn(f64, u32, &mut Rng) -> Vec<Verdicts>,
+            far as fn(f64, u32, &mut Rng) -> Vec<MethodResult>,
         ),
         torus(
             "thin-torus",
             "A thin torus",
-            "Rays from a distance of 10 towards a torus of radius 1 whose tube is thin, which pass the middle of the tube \
-             within two of its radii; otherwise as the far torus. The quartic is there a difference of nearly equal numbers; \
-             ours takes its sign from the factor that changes sign.",
+            "Rays from a distance of 10 towards a torus of radius 1 with a thin tube, which pass the middle of the \
+             tube within two of its radii; otherwise as for the far torus. There the quartic is a difference of \
+             nearly equal numbers; ours takes its sign from the factor that changes sign.",
             "radius of the tube",
-            tens(-1, -9),
+            powers_of_10(-1, -9),
             1e-6,
             thin,
         ),
     ]
 }
 
-fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn far(distance: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     count(tries, rng, |rng| {
-        let (way, target) = (unit(rng), unit(rng) * between(rng, 0.0, 1.5));
-        // All of the torus lies before the origin.
-        (0.25, target + way * (3.0 + distance), target)
+        let (outward, target) = (unit_vector(rng), unit_vector(rng) * uniform(rng, 0.0, 1.5));
+        // All of the torus lies in front of the origin.
+        (0.25, target + outward * (3.0 + distance), target)
     })
 }
 
-fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<Verdicts> {
+fn thin(tube: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
     count(tries, rng, |rng| {
-        let (sine, cosine) = between(rng, 0.0, TAU).sin_cos();
-        let way = unit(rng);
-        let target = DVec3::new(cosine, 0.0, sine) + aside(rng, way) * between(rng, 0.0, 2.0 * tube);
-        (tube, target + way * 10.0, target)
+        let (sine, cosine) = uniform(rng, 0.0, TAU).sin_cos();
+        let outward = unit_vector(rng);
+        let target = DVec3::new(cosine, 0.0, sine) + perpendicular(rng, outward) * uniform(rng, 0.0, 2.0 * tube);
+        (tube, target + outward * 10.0, target)
     })
 }
 
-/// Tries lines from an origin to a target past tori of a radius of the tube.
-fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<Verdicts> {
-    let mut count = Count::<2>::new();
+/// Tries lines; `line` returns the tube's radius, the origin and the target.
+fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec3)) -> Vec<MethodResult> {
+    let mut count = ResultCounter::<2>::new();
     for _ in 0..tries {
         let (tube, origin, target) = line(rng);
-        let torus = Subject::new(Primitive::Torus { tube }, DAffine3::IDENTITY);
+        let torus = PlacedPrimitive::new(Primitive::Torus { tube }, DAffine3::IDENTITY);
         let ray = Ray::new(origin, (target - origin).normalize());
         let truth = distinct_roots(&quartic(tube, &ray));
         count.add([closed_form(tube, &ray) != truth, torus.ours(&ray).len() != truth]);
     }
-    count.outcomes()
+    count.results()
 }
 
-/// The torus's quartic along a ray, the highest power first: (|p|² + 1 − tube²)² − 4 (x² + z²).
+/// Returns the torus's quartic along a ray, the highest power first: (|p|² + 1 − tube²)² − 4 (x² + z²).
 fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
     let (o, d, tube) = (vector(ray.origin), vector(ray.direction), Exact::from(tube));
     let (two, four) = (Exact::from(2.0), Exact::from(4.0));
@@ -100,32 +100,33 @@ fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
     ]
 }
 
-/// How many real roots a polynomial has, each counted once (Sturm 1829).
+/// Counts the distinct real roots of a polynomial (Sturm 1829).
 fn distinct_roots(polynomial: &[Exact]) -> usize {
     let degree = polynomial.len() - 1;
-    let powers = (1..=degree).rev().map(|power| Exact::from(power as f64));
+    let exponents = (1..=degree).rev().map(|power| Exact::from(power as f64));
     let derivative: Vec<Exact> =
-        polynomial.iter().zip(powers).map(|(coefficient, power)| coefficient * power).collect();
+        polynomial.iter().zip(exponents).map(|(coefficient, power)| coefficient * power).collect();
     let mut chain = vec![polynomial.to_vec(), derivative];
     while let [.., a, b] = &chain[..]
         && let Some(next) = negative_remainder(a, b)
     {
         chain.push(next);
     }
-    // At −∞ the odd powers have the other sign.
+    // At −∞ odd powers have the opposite sign.
     let changes = |odd: bool| {
-        let sign = |polynomial: &Vec<Exact>| polynomial[0].is_positive() != (odd && polynomial.len().is_multiple_of(2));
-        chain.windows(2).filter(|two| sign(&two[0]) != sign(&two[1])).count()
+        let random_sign =
+            |polynomial: &Vec<Exact>| polynomial[0].is_positive() != (odd && polynomial.len().is_multiple_of(2));
+        chain.windows(2).filter(|two| random_sign(&two[0]) != random_sign(&two[1])).count()
     };
     changes(true) - changes(false)
 }
 
-/// A positive multiple of −(a mod b), without its leading zeros; nothing if it is 0.
+/// Returns a positive multiple of −(a mod b) without leading zeros; `None` if it is 0.
 fn negative_remainder(a: &[Exact], b: &[Exact]) -> Option<Vec<Exact>> {
     let mut rest = a.to_vec();
     while rest.len() >= b.len() {
         let (first, divisor) = (rest[0].clone(), &b[0]);
-        // Times the divisor's square, which is positive: so nothing has to be divided.
+        // Times the divisor's square, which is positive, so that nothing has to be divided.
         for (place, coefficient) in rest.iter_mut().enumerate() {
             let scaled = &*coefficient * divisor * divisor;
             *coefficient = b.get(place).map_or(scaled.clone(), |other| scaled - other * &first * divisor);
@@ -138,7 +139,7 @@ fn negative_remainder(a: &[Exact], b: &[Exact]) -> Option<Vec<Exact>> {
     (!negative.is_empty()).then_some(negative)
 }
 
-/// How many real roots Ferrari's closed form finds, as textbooks have it.
+/// Counts the real roots that Ferrari's closed form finds, as in textbooks.
 fn closed_form(tube: f64, ray: &Ray) -> usize {
     let (o, d) = (ray.origin, ray.direction);
     let round = |p: DVec3, q: DVec3| 4.0 * (p.x * q.x + p.z * q.z);
@@ -160,7 +161,7 @@ fn closed_form(tube: f64, ray: &Ray) -> usize {
     roots(v, z - u) + roots(-v, z + u)
 }
 
-/// A real root of x³ + a x² + b x + c (Cardano).
+/// Returns a real root of x³ + a x² + b x + c (Cardano).
 fn root_of_cubic(a: f64, b: f64, c: f64) -> f64 {
     let (p, q) = (b / 3.0 - a * a / 9.0, a * a * a / 27.0 - a * b / 6.0 + c / 2.0);
     let discriminant = q * q + p * p * p;
@@ -179,12 +180,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tori_are_crossed_as_often_as_they_are() {
+    fn torus_crossings_match_the_number_of_roots() {
         cases().iter().for_each(|case| check(case, 300));
     }
 
     #[test]
-    fn the_roots_of_a_quartic_are_counted() {
+    fn distinct_roots_of_quartics_are_counted() {
         let roots = |coefficients: [f64; 5]| distinct_roots(&coefficients.map(Exact::from));
         // (t² − 1)(t² − 4), (t² + 1)(t² − 4), (t² + 1)², (t − 1)²(t + 2)², t⁴
         assert_eq!(roots([1.0, 0.0, -5.0, 0.0, 4.0]), 4);
@@ -195,11 +196,11 @@ mod tests {
         assert_eq!(roots([1.0, -240.0, 25_449.0, -1_325_880.0, 26_471_900.25]), 2);
     }
 
-    /// Where nothing is hard both agree with the truth.
+    /// Where the roots are well separated, both methods agree with the truth.
     #[test]
-    fn the_closed_form_is_right_near_by() {
+    fn closed_form_is_right_close_to_the_torus() {
         let rng = &mut Rng::with_seed(3);
-        let wrong = count(1000, rng, |rng| (0.5, unit(rng) * 2.0, unit(rng) * 0.5))[0].wrong;
+        let wrong = count(1000, rng, |rng| (0.5, unit_vector(rng) * 2.0, unit_vector(rng) * 0.5))[0].wrong;
         assert!(wrong < 20, "{wrong}");
     }
 }

@@ -3,7 +3,7 @@
 use super::axis::{Axis, Ruler};
 use super::frame::{ChartFrame, ChartHeading, DASHES, DOTTED, LINE, width_of_name};
 use crate::language::Language;
-use crate::palette::CHART;
+use crate::palette::CHART_NODES;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::draw::polyline::{clipped, is_inside, spread};
 
@@ -56,9 +56,9 @@ pub enum Style {
 }
 
 /// The colour of the `i`-th series of a chart; from the ninth on they repeat. It is that of a node in a ring of
-/// [`crate::palette::DISTINCT`].
+/// [`crate::palette::DISTINCT_COLOURS`].
 pub fn series_hue(i: usize) -> Hue {
-    Hue::Node(CHART[i % CHART.len()])
+    Hue::Node(CHART_NODES[i % CHART_NODES.len()])
 }
 
 /// With more series than this, names stand in a legend and not where the lines end.

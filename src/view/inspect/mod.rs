@@ -12,12 +12,12 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
-use crate::csg::SpanDiagram;
+use crate::csg::{MaterialTag, RootId, SpanDiagram};
 use crate::language::{Language, word};
 use crate::palette::{Rgb, mix};
 use crate::picture::srgb8;
 use crate::scene::{Material, Scene};
-use crate::tracer::{Explained, RayCounts, RayNotes, Scratch, Tracer};
+use crate::tracer::{ExplainedRay, ExplainedSample, RayCounts, Scratch, Tracer};
 
 pub use rays::{RaySpot, RayTree};
 pub use spans::SpanPlot;
@@ -29,13 +29,13 @@ pub struct Inspected {
     /// Its column and its row, from 0 in the upper left corner.
     pub place: [u32; 2],
     /// Its samples; one at least.
-    pub samples: Arc<[Explained]>,
+    pub samples: Arc<[ExplainedSample]>,
     /// What it took.
     pub rays: RayCounts,
     /// The ray that is looked at.
     pub chosen: ChosenRay,
     /// What this ray passes: the root of each solid, and the stays in it and in what it is made of.
-    pub figures: Vec<(u32, SpanDiagram)>,
+    pub figures: Vec<(RootId, SpanDiagram)>,
     materials: Arc<[(String, Material)]>,
     lights: usize,
 }
@@ -59,7 +59,7 @@ impl Inspected {
             return None;
         }
         let mut scratch = Scratch::default();
-        let samples: Arc<[Explained]> = tracer.explain(y * size.width() + x, &mut scratch).into();
+        let samples: Arc<[ExplainedSample]> = tracer.explain(y * size.width() + x, &mut scratch).into();
         let materials = scene.names.iter().cloned().zip(scene.materials.iter().copied()).collect();
         let (rays, lights) = (scratch.rays, scene.lights.len());
         let chosen = ChosenRay { sample: samples.iter().position(|sample| sample.counts)?, ray: 0 };
@@ -70,42 +70,42 @@ impl Inspected {
     /// The same pixel, seen along another of its rays; nothing if it has no such ray.
     pub fn choose(&self, tracer: &Tracer, chosen: ChosenRay) -> Option<Self> {
         let ray = self.samples.get(chosen.sample)?.rays.get(chosen.ray)?;
-        let figures = tracer.figures(&ray.path.ray, ray.path.start, ray.path.to);
+        let figures = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
         Some(Self { chosen, figures, ..self.clone() })
     }
 
     /// Its colour in linear light.
     pub fn colour(&self) -> DVec3 {
-        Explained::mean(&self.samples)
+        ExplainedSample::mean(&self.samples)
     }
 
     /// The sample that is looked at.
-    pub fn sample(&self) -> &Explained {
+    pub fn sample(&self) -> &ExplainedSample {
         &self.samples[self.chosen.sample]
     }
 
     /// The ray that is looked at.
-    pub fn ray(&self) -> &RayNotes {
+    pub fn ray(&self) -> &ExplainedRay {
         &self.sample().rays[self.chosen.ray]
     }
 
     /// What a material is called, if it has a name.
-    fn name(&self, tag: u32) -> Option<&str> {
-        self.materials.get(tag as usize).map(|(name, _)| &**name).filter(|name| !name.is_empty())
+    fn name(&self, tag: MaterialTag) -> Option<&str> {
+        self.materials.get(tag.index()).map(|(name, _)| &**name).filter(|name| !name.is_empty())
     }
 
-    fn material(&self, tag: u32) -> Material {
-        self.materials.get(tag as usize).map(|(_, material)| *material).unwrap_or_default()
+    fn material(&self, tag: MaterialTag) -> Material {
+        self.materials.get(tag.index()).map(|(_, material)| *material).unwrap_or_default()
     }
 
     /// What a ray met, in a word or two.
-    fn what(&self, ray: &RayNotes, language: Language) -> &str {
+    fn what(&self, ray: &ExplainedRay, language: Language) -> &str {
         let nameless = word!(language, "a solid without a material", "um sólido sem material");
         ray.met.map_or(word!(language, "nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
     }
 
     /// The colour of what a ray met, as it is shown.
-    fn colour_of(&self, ray: &RayNotes) -> Rgb {
+    fn colour_of(&self, ray: &ExplainedRay) -> Rgb {
         match ray.met {
             Some(met) => shown(self.material(met.tag).colour),
             None => shown(ray.ambient),

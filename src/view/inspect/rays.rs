@@ -4,7 +4,7 @@ use super::format::{kind_word, share_words};
 use super::{Inspected, cut, edge, label, line};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
-use crate::tracer::{RayKind, RayNotes};
+use crate::tracer::{ExplainedRay, RayKind};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::draw::polyline::dashes;
 use crate::view::text::format::count;
@@ -98,7 +98,7 @@ impl Inspected {
     }
 
     /// A ray's end: round on a solid, square where there is none. Its letter says how the ray came.
-    fn end(&self, ray: &RayNotes, at: Point, is_chosen: bool) -> Vec<Mark> {
+    fn end(&self, ray: &ExplainedRay, at: Point, is_chosen: bool) -> Vec<Mark> {
         let colour = self.colour_of(ray);
         let shape = |radius: f32, hue: Hue| match ray.met {
             Some(_) => Mark::Disc { centre: at, radius, ink: hue.full() },
@@ -128,7 +128,7 @@ fn letter(kind: RayKind) -> &'static str {
 }
 
 /// A ray's way, as broad as its weight; dashed if it is reflected.
-fn way(ray: &RayNotes, from: Point, to: Point) -> Vec<Mark> {
+fn way(ray: &ExplainedRay, from: Point, to: Point) -> Vec<Mark> {
     let (width, ink) = (1.0 + 6.0 * ray.path.weight as f32, Hue::Quiet.full());
     match ray.path.kind {
         RayKind::Reflected => {
@@ -144,11 +144,11 @@ fn way(ray: &RayNotes, from: Point, to: Point) -> Vec<Mark> {
 }
 
 /// How many of the first rays can be drawn.
-fn fitting(rays: &[RayNotes], width: f32) -> usize {
+fn fitting(rays: &[ExplainedRay], width: f32) -> usize {
     let most = ((width / LEAST_APART) as usize).max(2);
     let mut has_followers = vec![false; rays.len()];
     let mut ends = 0;
-    let fits = |ray: &RayNotes| {
+    let fits = |ray: &ExplainedRay| {
         // The first that follows takes the place of the ray at whose end it starts.
         match ray.path.from.map(|from| std::mem::replace(&mut has_followers[from as usize], true)) {
             Some(false) => {}
@@ -161,7 +161,7 @@ fn fitting(rays: &[RayNotes], width: f32) -> usize {
 
 /// Where each ray's end is from left to right: those that have no followers side by side, the others above the middle of
 /// theirs.
-fn places(rays: &[RayNotes], width: f32) -> Vec<f32> {
+fn places(rays: &[ExplainedRay], width: f32) -> Vec<f32> {
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); rays.len()];
     for (number, ray) in rays.iter().enumerate() {
         ray.path.from.into_iter().for_each(|from| followers[from as usize].push(number));

@@ -101,7 +101,7 @@ impl Inspected {
 
     /// What a row is called.
     pub(super) fn row_name(&self, figure: &SpanDiagram, language: Language) -> String {
-        match figure.what {
+        match figure.kind {
             SolidKind::Composition(Operation::Union) => word!(language, "union", "união").into(),
             SolidKind::Composition(Operation::Intersection) => word!(language, "intersection", "interseção").into(),
             SolidKind::Composition(Operation::Difference) => word!(language, "difference", "diferença").into(),
@@ -120,7 +120,7 @@ impl Inspected {
         let (mut first, mut last) = if to.is_finite() { (to, to) } else { (f64::MAX, 0.0) };
         let mut waiting: Vec<&SpanDiagram> = self.figures.iter().map(|(_, figure)| figure).collect();
         while let Some(figure) = waiting.pop() {
-            for &t in figure.stays.iter().flatten().filter(|t| (NOTHING..=most).contains(*t)) {
+            for &t in figure.spans.iter().flatten().filter(|t| (NOTHING..=most).contains(*t)) {
                 (first, last) = (first.min(t), last.max(t));
             }
             waiting.extend(&figure.operands);
@@ -142,14 +142,14 @@ impl Inspected {
     }
 
     fn bars(&self, figure: &SpanDiagram, y: f32, x: &impl Fn(f64) -> f32, range: [f64; 2], marks: &mut Vec<Mark>) {
-        let inks = match figure.what {
+        let inks = match figure.kind {
             SolidKind::Composition(_) => [Hue::Quiet, Hue::Quiet],
             SolidKind::Primitive { tag, .. } => {
                 let colour = shown(self.material(tag).colour);
                 [Hue::Told(edge(colour)), Hue::Told(colour)]
             }
         };
-        let high = if matches!(figure.what, SolidKind::Composition(_)) { 3.0 } else { 6.0 };
+        let high = if matches!(figure.kind, SolidKind::Composition(_)) { 3.0 } else { 6.0 };
         for [enter, leave] in seen(figure, range) {
             let (from, to) = (x(enter), x(leave));
             // A stay that is too short to be seen is seen.
@@ -170,7 +170,7 @@ const RIGHT: f32 = 24.0;
 /// The stays that are drawn, cut to what is drawn of them.
 fn seen(figure: &SpanDiagram, [near, far]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
     let first = near + NOTHING * far;
-    let stays = figure.stays.iter().filter(move |[enter, leave]| *leave > first && *enter < far);
+    let stays = figure.spans.iter().filter(move |[enter, leave]| *leave > first && *enter < far);
     stays.map(move |[enter, leave]| [enter.max(near), leave.min(far)])
 }
 

@@ -49,7 +49,7 @@ impl Inspected {
                 let path = &sample.rays[*place].path;
                 path.kind == kind && path.from == Some(self.chosen.ray as u64)
             };
-            let brings = (0..sample.rays.len()).filter(own).map(|place| sample.brings(place));
+            let brings = (0..sample.rays.len()).filter(own).map(|place| sample.contribution_of(place));
             brings.sum::<DVec3>() / ray.path.weight
         };
         let diffuse = ray.lights.iter().map(|lit| lit.diffuse()).sum();
@@ -125,7 +125,7 @@ mod tests {
                 let one = inspected.choose(tracer, ChosenRay { sample: 0, ray }).expect("a ray of it");
                 let terms = one.terms(language);
                 let (sum, others) = terms.split_last().expect("at least the sum");
-                let brings = one.sample().brings(ray);
+                let brings = one.sample().contribution_of(ray);
                 let scale = 1e-12 * (1.0 + brings.length());
                 assert!((sum.colour * one.ray().path.weight).abs_diff_eq(brings, scale), "{terms:?}");
                 if one.ray().met.is_some() {

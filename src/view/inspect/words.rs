@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::format::{kind_word, number, passes_nothing, share_words};
 use super::{Inspected, shown};
 use crate::language::{Language, decimal, say, word};
-use crate::tracer::{RayKind, RayNotes};
+use crate::tracer::{ExplainedRay, RayKind};
 use crate::view::text::format::{count, counted};
 
 impl Inspected {
@@ -56,7 +56,7 @@ impl Inspected {
                 )
             });
         }
-        let too_deep = |ray: &RayNotes| ray.too_deep;
+        let too_deep = |ray: &ExplainedRay| ray.too_deep;
         let deep: f64 = self
             .samples
             .iter()
@@ -111,7 +111,7 @@ impl Inspected {
         said
     }
 
-    fn light_words(&self, ray: &RayNotes, light: usize, language: Language) -> String {
+    fn light_words(&self, ray: &ExplainedRay, light: usize, language: Language) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
@@ -181,7 +181,7 @@ impl Inspected {
                 let [enter, leave] = stay.map(|distance| number(distance, language));
                 say!(language, "{enter} to {leave}", "{enter} a {leave}")
             };
-            let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
+            let stays: Vec<_> = row.figure.spans.iter().map(stay).collect();
             put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure, language), stays.join(", ")));
         }
         put_more(&mut text, rows.len(), language);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use crate::balance::{NodeId, Remedy};
+use crate::balance::{NodeId, PIPE_ATOMS, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::view::state::node_state::NodeState;
@@ -263,9 +263,6 @@ impl Happening {
         Self::Latency { latency, is_hop: state.sharing.is_ring() }
     }
 }
-
-/// Atoms that a machine's pipe holds at most. The others wait in its queue; only these can be given away.
-pub(crate) const PIPE_ATOMS: u32 = 2;
 
 /// Whether a machine is slow: slower than half of the usual speed.
 pub(crate) fn is_slow(node: &NodeState) -> bool {

@@ -1,7 +1,7 @@
 //! Sentences for single records, with their reasons, for stepping through a run.
 
-use super::happening::{Happening, PIPE_ATOMS};
-use crate::balance::{NodeId, Party, Remedy};
+use super::happening::Happening;
+use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy};
 use crate::language::{Language, say, word};
 use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};

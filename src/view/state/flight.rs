@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::slice;
 use std::time::Duration;
 
-use crate::balance::{Helper, Message, NodeId, Party};
+use crate::balance::{Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
@@ -76,7 +76,7 @@ impl Flight {
     pub fn new(id: u64, (from, to): (Party, Party), message: &Message, sent: Time, arrives: Time) -> Self {
         let cargo = match message {
             Message::Band(band) => Cargo::Band(band.clone()),
-            Message::Offer { help: Some(Helper { left: None, .. }), .. } => Cargo::Sleeps,
+            Message::Offer { help: Some(OfferDetails { left: None, .. }), .. } => Cargo::Sleeps,
             Message::Offer { who, .. } => Cargo::Offer { who: *who },
             Message::Request => Cargo::Request,
             Message::Part(part) => Cargo::Part(part.clone()),

@@ -126,7 +126,7 @@ impl Lane {
 
     pub(crate) fn condition(&mut self, at: Time, condition: Condition) {
         self.conditions.push((at, condition));
-        self.stands(at, matches!(condition, Condition::Hung | Condition::Off));
+        self.stands(at, !condition.is_running());
         if condition == Condition::Off {
             // What it had begun is lost, and it begins anew.
             self.open = None;

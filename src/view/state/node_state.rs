@@ -144,7 +144,7 @@ impl NodeState {
 
     /// Whether its worker stands still, whatever its speed.
     fn stands(&self) -> bool {
-        self.paused || matches!(self.condition, Condition::Hung | Condition::Off)
+        self.paused || !self.condition.is_running()
     }
 
     /// What its pipe holds, the atom that is traced first: two atoms, while it has as many.

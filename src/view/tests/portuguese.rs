@@ -348,9 +348,9 @@ fn texts_of_scenes_and_pixels_are_portuguese() {
         for (_, text) in BUILT_IN {
             let scene = Scene::parse(text).expect("a built-in scene");
             let tracer = Tracer::new(&scene, size, Quality::default());
-            let lines = needs_lines(&tracer.compiled(), &tracer.levels(), language);
+            let lines = needs_lines(&tracer.scene_stats(), &tracer.levels(), language);
             said.extend(lines.into_iter().flat_map(|(what, words)| [what.to_owned(), words]));
-            said.extend(needs_warnings(&tracer.compiled(), language));
+            said.extend(needs_warnings(&tracer.scene_stats(), language));
             for pixel in (0..size.pixels()).step_by(41) {
                 let place = [pixel % size.width(), pixel / size.width()];
                 let pixel = Inspected::new(&tracer, &scene, place).expect("a pixel of the picture");

@@ -10,8 +10,8 @@ pub fn needs_lines(compiled: &SceneStats, levels: &[u64], language: Language) ->
     let of_kind = |(kind, number): (&&'static str, &usize)| several(*number, shape_names(kind, language));
     let kinds: Vec<String> = compiled.primitives.iter().map(of_kind).collect();
     let kept: usize = compiled.primitives.values().sum();
-    let [kept, shapes] = [kept, compiled.given.primitives].map(number);
-    let [operations, given] = [compiled.operations, compiled.given.operations].map(number);
+    let [kept, shapes] = [kept, compiled.source.primitives].map(number);
+    let [operations, given] = [compiled.operations, compiled.source.operations].map(number);
     let solids = word!(language, ["solid", "solids"], ["sólido", "sólidos"]);
     let nothing = || word!(language, "nothing", "nada").into();
     let mut lines = vec![
@@ -172,7 +172,7 @@ mod tests {
     }
 
     fn told(tracer: &Tracer, language: Language) -> String {
-        let lines = needs_lines(&tracer.compiled(), &tracer.levels(), language);
+        let lines = needs_lines(&tracer.scene_stats(), &tracer.levels(), language);
         lines.into_iter().map(|(what, words)| format!("{what}: {words}\n")).collect()
     }
 
@@ -223,13 +223,13 @@ mod tests {
     fn what_cannot_be_seen_is_a_warning() {
         let language = Language::English;
         let seen = tracer("Sphere(radius: 1)");
-        assert!(needs_warnings(&seen.compiled(), language).is_empty());
+        assert!(needs_warnings(&seen.scene_stats(), language).is_empty());
         let far = tracer("Difference(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
-        let warnings = needs_warnings(&far.compiled(), language);
+        let warnings = needs_warnings(&far.scene_stats(), language);
         assert_eq!(warnings, ["1 part is out of reach of what it would be taken from, and left out."]);
         let empty =
             tracer("Sphere(radius: 1), Intersection(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
-        let warnings = needs_warnings(&empty.compiled(), language);
+        let warnings = needs_warnings(&empty.scene_stats(), language);
         assert!(warnings.iter().any(|warning| warning.starts_with("1 solid is empty")), "{warnings:?}");
     }
 

@@ -9,7 +9,7 @@ use crate::gui::session::{Growth, GrowthPoint};
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, decimal, say, word};
-use crate::palette::{DISTINCT, node_colours};
+use crate::palette::{DISTINCT_COLOURS, node_colours};
 use crate::study::article_over_ideal;
 use crate::view::{Axis, Hue, LEAST_HIGH, LineChart, Series, Sharing, Style, TimeBudget, fraction, series_hue};
 
@@ -51,7 +51,7 @@ pub fn show(
             let words = format!("{}\n{}\n{}", chart.y.label, chart.note, lines.join("\n"));
             WidgetInfo::labeled(egui::Role::Image, true, words)
         });
-        let colours = node_colours(DISTINCT);
+        let colours = node_colours(DISTINCT_COLOURS);
         paint(ui.painter(), rect.min, &chart.marks(rect.size().into(), language), &Inks { look, nodes: &colours });
     });
 }

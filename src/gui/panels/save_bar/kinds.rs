@@ -199,7 +199,7 @@ pub const LONGEST_SIDE: u32 = 16_384;
 /// # Errors
 /// A sentence, if there can be none.
 pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
-    Size::new(width.min(LONGEST_SIDE), height.min(LONGEST_SIDE))
+    Ok(Size::new(width.min(LONGEST_SIDE), height.min(LONGEST_SIDE))?)
 }
 
 #[cfg(test)]

@@ -222,7 +222,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
     line(ui, word!(language, "Tree of rays", "Árvore de raios"), look, |ui| {
         let (suffix, name) =
             word!(language, (" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
-        number(ui, &mut quality.max_depth, 1..=Quality::MOST_DEPTH, suffix, VALUE, name);
+        number(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE, name);
     });
     let part = |part: f64| {
         let most = decimal(language, 100.0 * part, 2);

@@ -5,9 +5,8 @@ use super::phrases::{
     Machine, atoms_on_their_way, computing, has_most_atoms, last_computing, machines_wait_for_parent, single_machine,
 };
 use super::stopped::{all_stand_still, atoms_in_queues, atoms_left, machines_stand_still, restart_words, stop_reason};
-use crate::balance::NodeId;
+use crate::balance::{NodeId, PIPE_ATOMS};
 use crate::language::{Language, say, word};
-use crate::view::narration::happening::PIPE_ATOMS;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, fraction, names, node_name};
 

@@ -1,9 +1,8 @@
 //! Machines that stand still because they are paused, stopped or hung: the reason, their atoms, and how to continue.
 
 use super::phrases::Machine;
-use crate::balance::Condition;
+use crate::balance::{Condition, PIPE_ATOMS};
 use crate::language::{Language, say, word};
-use crate::view::narration::happening::PIPE_ATOMS;
 use crate::view::state::node_state::NodeState;
 use crate::view::text::format::{atoms_words, names, node_name};
 

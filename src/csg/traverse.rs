@@ -1,0 +1,267 @@
+//! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
+
+use super::coincidence::{coincide, without_slivers};
+use super::id::NodeIndex;
+use super::merge::{Operation, merge};
+use super::span::Span;
+use super::tree::{Node, NodeKind};
+use super::{Crossing, LeafIndex, RootId, Surface, Tree};
+use crate::geometry::{Ray, fast_max, fast_min};
+
+/// A ray's crossing of the boundary of a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, at least 0.
+    pub t: f64,
+    /// The face at the crossing.
+    pub surface: Surface,
+    /// Whether the ray enters the solid (not the leaf) there; otherwise it leaves it.
+    pub enters: bool,
+}
+
+/// The surface on which a reflected, refracted or shadow ray starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayStart {
+    /// The solid that the incoming ray hit.
+    pub root: RootId,
+    /// The face that it hit.
+    pub surface: Surface,
+    /// The first part of the [`tie_break`]: whether the solid is left there, as seen along the incoming ray.
+    pub exits: bool,
+    /// Whether this ray stays on the incoming ray's side of the face, as reflected rays and shadow rays do.
+    pub reversed: bool,
+}
+
+/// Tie-break for coincident boundaries: entries before exits, then scene order.
+///
+/// The boundaries of solids that touch lie at one point, and rounding puts them in any order along a ray. A ray that
+/// took them in that order would cross some twice and some never. A ray that goes back (`reversed`) crosses them in the
+/// opposite order.
+pub fn tie_break(root: RootId, enters: bool, reversed: bool) -> (bool, RootId) {
+    (enters == reversed, root)
+}
+
+impl RayStart {
+    /// Whether the ray has yet to cross the boundary of another solid at the point where it starts.
+    fn is_before(&self, root: RootId, enters: bool) -> bool {
+        let (here, other) = ((self.exits, self.root), tie_break(root, enters, self.reversed));
+        if self.reversed { other < here } else { other > here }
+    }
+}
+
+/// Scratch memory for the crossings of one ray, two for each span.
+pub type Stack = Vec<Crossing>;
+
+impl Tree {
+    /// Finds the first crossing of the boundary of the solid `root` before `t_max`.
+    #[inline]
+    pub fn nearest(
+        &self,
+        root: RootId,
+        ray: &Ray,
+        start: Option<RayStart>,
+        t_max: f64,
+        stack: &mut Stack,
+    ) -> Option<Hit> {
+        let mut found = None;
+        self.crossings(root, ray, start, t_max, stack, |hit| {
+            found = Some(hit);
+            false
+        });
+        found
+    }
+
+    /// Visits the crossings of the boundary of the solid `root` between the ray's start and `t_max`, in order, until
+    /// `visit` returns false.
+    #[inline]
+    pub fn crossings(
+        &self,
+        root: RootId,
+        ray: &Ray,
+        start: Option<RayStart>,
+        t_max: f64,
+        stack: &mut Stack,
+        mut visit: impl FnMut(Hit) -> bool,
+    ) {
+        let slack = ray.tolerance(0.0);
+        // A ray that starts on this solid does not cross it there again. On another solid it may: of the boundaries
+        // that coincide with its start it crosses at 0 those that come later in the tie-break, on whichever side of 0
+        // rounding puts them.
+        let on_this = start.is_some_and(|start| start.root == root);
+        let is_crossed_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.is_before(root, enters));
+        let is_on_ray = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_crossed_at_0(enters)));
+        let start = start.filter(|_| on_this).map(|start| start.surface);
+        let mut report = |crossing: Crossing, enters: bool| {
+            !is_on_ray(crossing.t, enters) || visit(Hit { t: crossing.t.max(0.0), surface: crossing.surface, enters })
+        };
+        // At edges and coincident faces rounding alone may leave a sliver, inside or outside the solid; it is dropped.
+        // A ray that starts on this solid starts exactly on the face, and may be inside for any short distance.
+        let is_sliver =
+            |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
+        match &self.nodes[root.node().index()].kind {
+            NodeKind::Leaf(leaf) => {
+                let [first, second] = self.leaf_spans(*leaf, ray, start);
+                let mut go_on = true;
+                if let Some([enter, leave]) = first {
+                    go_on = report(enter, true) && report(leave, false);
+                }
+                if let Some([enter, leave]) = second.filter(|_| go_on)
+                    && report(enter, true)
+                {
+                    report(leave, false);
+                }
+            }
+            NodeKind::Convex(leaves) => {
+                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
+                    && !is_sliver(enter, leave)
+                    && report(enter, true)
+                {
+                    report(leave, false);
+                }
+            }
+            NodeKind::Composition { operation, children } => {
+                stack.clear();
+                let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
+                // The caller has tested the bounds.
+                self.push_composition_crossings(*operation, children, ray, start, window, stack);
+                let mut enters = true;
+                for crossing in without_slivers(stack, is_sliver) {
+                    if !report(crossing, enters) {
+                        return;
+                    }
+                    enters = !enters;
+                }
+            }
+        }
+    }
+
+    /// Pushes the crossings of a node. May leave out spans outside `window`.
+    #[inline(always)]
+    pub(super) fn push_crossings(
+        &self,
+        node: NodeIndex,
+        ray: &Ray,
+        start: Option<Surface>,
+        window: [f64; 2],
+        stack: &mut Stack,
+    ) {
+        let Node { bounds, kind } = &self.nodes[node.index()];
+        if bounds.entry(ray, window[0], window[1]).is_some() {
+            self.push_crossings_within_bounds(kind, ray, start, window, stack);
+        }
+    }
+
+    /// Does the same for a ray that is known to meet the node's bounds.
+    #[inline(always)]
+    fn push_crossings_within_bounds(
+        &self,
+        kind: &NodeKind,
+        ray: &Ray,
+        start: Option<Surface>,
+        window: [f64; 2],
+        stack: &mut Stack,
+    ) {
+        let mut push = |[enter, leave]: [Crossing; 2]| {
+            if leave.t >= window[0] && enter.t <= window[1] {
+                stack.extend([enter, leave]);
+            }
+        };
+        match kind {
+            NodeKind::Leaf(leaf) => {
+                let [first, second] = self.leaf_spans(*leaf, ray, start);
+                if let Some(span) = first {
+                    push(span);
+                }
+                if let Some(span) = second {
+                    push(span);
+                }
+            }
+            NodeKind::Convex(leaves) => {
+                if let Some(span) = self.convex_span(leaves, ray, start) {
+                    push(span);
+                }
+            }
+            NodeKind::Composition { operation, children } => {
+                self.push_composition_crossings(*operation, children, ray, start, window, stack);
+            }
+        }
+    }
+
+    fn push_composition_crossings(
+        &self,
+        operation: Operation,
+        children: &[NodeIndex],
+        ray: &Ray,
+        start: Option<Surface>,
+        mut window: [f64; 2],
+        stack: &mut Stack,
+    ) {
+        let first = stack.len();
+        for (index, &child) in children.iter().enumerate() {
+            let second = stack.len();
+            if index == 0 && operation == Operation::Difference {
+                // The bounds of a difference are those of its first operand.
+                self.push_crossings_within_bounds(&self.nodes[child.index()].kind, ray, start, window, stack);
+            } else {
+                self.push_crossings(child, ray, start, window, stack);
+                if index > 0 {
+                    merge(operation, stack, first, second, ray);
+                }
+            }
+            if operation != Operation::Union {
+                // Outside the first operand's spans nothing can change the result any more.
+                let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
+                if enter.t.is_finite() {
+                    window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
+                }
+                if leave.t.is_finite() {
+                    window[1] = fast_min(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
+                }
+            }
+        }
+    }
+
+    /// The crossings of a leaf over the whole line.
+    pub(super) fn leaf_crossings(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
+        self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
+    }
+
+    #[inline(always)]
+    fn leaf_spans(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
+        let spans = self.leaves[leaf.index()].spans(ray, start_face(start, leaf));
+        [spans.first, spans.second].map(|span| span.map(|span| span_crossings(leaf, span)))
+    }
+
+    /// Finds the one span of a ray in the intersection of convex leaves. As in [`merge`], of coincident faces the first
+    /// leaf's is seen, and a span shorter than the tolerance is dropped.
+    fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
+        let mut overlap: Option<[Crossing; 2]> = None;
+        for &leaf in leaves {
+            let span = self.leaves[leaf.index()].spans(ray, start_face(start, leaf)).first?;
+            let [enter, leave] = span_crossings(leaf, span);
+            let [first, last] = overlap.get_or_insert([enter, leave]);
+            if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
+                *first = enter;
+            }
+            if leave.t < last.t - ray.tolerance(leave.t) || last.t == f64::INFINITY {
+                *last = leave;
+            }
+            if last.t <= first.t + ray.tolerance(first.t) {
+                return None;
+            }
+        }
+        overlap
+    }
+}
+
+#[inline(always)]
+fn span_crossings(leaf: LeafIndex, span: Span) -> [Crossing; 2] {
+    let crossing = |t: f64, face: u8| Crossing { t, surface: Surface { leaf, face } };
+    [crossing(span.from, span.from_face), crossing(span.to, span.to_face)]
+}
+
+/// The face of `leaf` that a ray starts on.
+#[inline(always)]
+fn start_face(start: Option<Surface>, leaf: LeafIndex) -> Option<u8> {
+    start.filter(|surface| surface.leaf == leaf).map(|surface| surface.face)
+}

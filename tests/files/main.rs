@@ -1,0 +1,10 @@
+//! Files that the program reads, refuses and writes.
+
+#[path = "../common/virtual_time.rs"]
+mod virtual_time;
+
+mod bad_input;
+mod chrome_trace;
+mod exports;
+mod fuzz;
+mod old_runs;

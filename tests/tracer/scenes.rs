@@ -1,0 +1,151 @@
+//! The built-in scenes, and the effect of compiling on them.
+
+use anel::csg::{MaterialTag, Primitive, Solid};
+use anel::export::to_pov;
+use anel::picture::{Colour, Quality, Size};
+use anel::scene::{BUILT_IN, Scene};
+use anel::tracer::{RayKind, Scratch, Tracer};
+use glam::{DAffine3, DVec3};
+
+fn parse(name: &str, text: &str) -> Scene {
+    Scene::parse(text).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn pixels(scene: &Scene) -> Vec<Colour> {
+    let size = Size::new(80, 60).expect("small");
+    let mut pixels = Vec::new();
+    let tracer = Tracer::new(scene, size, Quality::default());
+    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+    pixels
+}
+
+fn leaves(solid: &Solid, visit: &mut impl FnMut(&Primitive)) {
+    placed(solid, &mut |primitive, _| visit(primitive));
+}
+
+fn tags(solid: &Solid, visit: &mut impl FnMut(MaterialTag)) {
+    placed(solid, &mut |_, tag| visit(tag));
+}
+
+fn placed(solid: &Solid, visit: &mut impl FnMut(&Primitive, MaterialTag)) {
+    match solid {
+        Solid::Placed { primitive, tag, .. } => visit(primitive, *tag),
+        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
+            solids.iter().for_each(|solid| placed(solid, visit));
+        }
+    }
+}
+
+#[test]
+fn built_in_scenes_show_many_colours_and_only_finite_ones() {
+    for (name, text) in BUILT_IN {
+        let pixels = pixels(&parse(name, text));
+        let finite = pixels.iter().flatten().all(|channel| channel.is_finite() && *channel >= 0.0);
+        assert!(finite, "{name} has a negative or infinite pixel");
+        let mut colours: Vec<_> = pixels.iter().map(|pixel| pixel.map(|channel| (channel * 64.0) as u32)).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        assert!(colours.len() > 100, "{name} has only {} colours", colours.len());
+    }
+}
+
+#[test]
+fn scene_of_the_article_has_ten_objects_and_two_lights() {
+    let (name, text) = BUILT_IN[0];
+    let scene = parse(name, text);
+    assert_eq!((scene.solids.len(), scene.lights.len()), (10, 2));
+    assert!(scene.materials.iter().any(|material| material.kt > 0.5), "a glass");
+    assert!(scene.materials.iter().any(|material| material.ks > 0.5), "a mirror");
+}
+
+#[test]
+fn every_primitive_is_used_by_a_scene() {
+    let mut used = [false; 7];
+    for (name, text) in BUILT_IN {
+        for solid in &parse(name, text).solids {
+            leaves(solid, &mut |primitive| {
+                used[match primitive {
+                    Primitive::Sphere => 0,
+                    Primitive::HalfSpace { .. } => 1,
+                    Primitive::Cube => 2,
+                    Primitive::Cylinder => 3,
+                    Primitive::Cone { .. } => 4,
+                    Primitive::Quadric(_) => 5,
+                    Primitive::Torus { .. } => 6,
+                }] = true;
+            });
+        }
+    }
+    assert_eq!(used, [true; 7], "sphere, half-space, cube, cylinder, cone, quadric, torus");
+}
+
+/// Ray tracers treat overlapping glass in different ways, and all are to show the same picture.
+#[test]
+fn transmitting_solids_do_not_overlap() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let transmits = |solid: &&Solid| {
+            let mut found = false;
+            tags(solid, &mut |tag| found |= scene.materials[tag.index()].kt > 0.0);
+            found
+        };
+        let glasses: Vec<&Solid> = scene.solids.iter().filter(transmits).collect();
+        let size = Size::new(80, 60).expect("small");
+        let tracer = Tracer::new(&scene, size, Quality::default());
+        tracer.paths(0..size.pixels(), &mut Scratch::default(), |path| {
+            if path.kind == RayKind::Refracted && path.to.is_finite() {
+                let middle = path.ray.at(path.to / 2.0);
+                let around = glasses.iter().filter(|solid| solid.contains(middle)).count();
+                assert!(around < 2, "{name}: {around} solids around {middle}");
+            }
+        });
+    }
+}
+
+/// Compiling splits opaque unions, which must not change the picture. An intersection with a large box keeps a union
+/// whole.
+#[test]
+fn split_union_looks_the_same() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let mut kept_whole = scene.clone();
+        let around = Solid::Placed {
+            primitive: Primitive::Cube,
+            scene_from_local: DAffine3::from_scale(DVec3::splat(1e5)),
+            tag: MaterialTag(0),
+        };
+        for solid in &mut kept_whole.solids {
+            if matches!(solid, Solid::Union(_)) {
+                *solid = Solid::Intersection(vec![solid.clone(), around.clone()]);
+            }
+        }
+        let (apart, whole) = (pixels(&scene), pixels(&kept_whole));
+        let differing = apart.iter().zip(&whole).filter(|(a, b)| a != b).count();
+        assert_eq!(differing, 0, "{name}: differing pixels, of {}", apart.len());
+    }
+}
+
+#[test]
+fn exported_scene_has_every_primitive_and_every_light() {
+    for (name, text) in BUILT_IN {
+        let scene = parse(name, text);
+        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default());
+        let count = |word: &str| pov.matches(word).count();
+        assert_eq!(count("light_source {"), scene.lights.len(), "{name}");
+        let mut primitives = 0;
+        scene.solids.iter().for_each(|solid| leaves(solid, &mut |_| primitives += 1));
+        assert_eq!(count("matrix <") + count("plane {"), primitives, "{name}");
+        assert_eq!(count("{"), count("}"), "{name}");
+    }
+}
+
+#[test]
+fn scenes_in_the_documents_are_valid() {
+    let documents =
+        [("README.md", include_str!("../../README.md")), ("docs/scenes.md", include_str!("../../docs/scenes.md"))];
+    for (name, document) in documents {
+        let scene = document.split("```ron\n").find(|block| block.starts_with("Scene("));
+        let text = scene.and_then(|rest| rest.split("```").next()).expect("an example");
+        assert!(parse(name, text).solids.len() > 1, "{name}");
+    }
+}
