@@ -3,7 +3,7 @@
 use anel::balance::{Condition, Remedy, Strategy};
 use anel::language::Language;
 use anel::record::RecordKind;
-use anel::view::message_at;
+use anel::view::{RingLayout, message_at};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -113,7 +113,7 @@ fn ring_without_remedies_says_that_it_hangs() {
     until(&mut window, "the run to hang", |window| {
         let (stage, now) = (session(window).stage(), session(window).now());
         stage.narrator().sentence(stage.state(), now, language)
-            == "The run hangs, since 1 is off: the article's ring has no remedy, the adaptive ring has"
+            == "The run hangs because 1 is off: the article's ring cannot recover, the adaptive ring can"
     });
 }
 
@@ -126,7 +126,8 @@ fn message_is_delayed_by_its_menu() {
         let (stage, now) = (session(window).stage(), session(window).now());
         let points =
             (0..60 * 60).map(|i| [(i % 60) as f32 / 60.0 * ring.width(), (i / 60) as f32 / 60.0 * ring.height()]);
-        let found = points.map(|at| (at, message_at(stage.state(), now, ring.size().into(), at, language)));
+        let layout = RingLayout::new(stage.state().nodes().len(), ring.size().into(), language);
+        let found = points.map(|at| (at, message_at(&layout, stage.state(), now, at)));
         found.filter_map(|(at, flight)| flight.map(|flight| (at, flight.from, flight.to))).next()
     };
     until(&mut window, "a message", |window| message(window).is_some());
@@ -143,7 +144,7 @@ fn message_is_delayed_by_its_menu() {
         })
     };
     until(&mut window, "a delay", |window| held(window) == [(from, to)]);
-    until(&mut window, "event of the delay", |window| is_narrated(window, " is held up for 5.0 s"));
+    until(&mut window, "event of the delay", |window| is_narrated(window, " are held up for 5.0 s"));
 }
 
 #[test]

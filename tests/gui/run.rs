@@ -83,7 +83,9 @@ fn stopped_machines_need_few_repaints_and_a_pause_none() {
         drag(&mut window, &format!("Speed of node {node}"), 0.0);
     }
     until(&mut window, "rest", |window| repaint_delay(window) >= Duration::from_millis(200));
-    until(&mut window, "a sentence", |window| window.query_by_label_contains("All machines stand still").is_some());
+    until(&mut window, "a sentence", |window| {
+        window.query_by_label_contains("All machines are stopped (0 %)").is_some()
+    });
     key(&mut window, Key::Space);
     until(&mut window, "a window at rest", |window| repaint_delay(window) > Duration::from_secs(1));
 }

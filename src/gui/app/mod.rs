@@ -292,13 +292,13 @@ impl App {
         let known = [(&mut self.hovered, self.focus.hovered()), (&mut self.selected, self.focus.selected)];
         for (dossier, about) in known {
             // What is not over yet is looked up again.
-            let is_known = |dossier: &Details| Some(dossier.about) == about && dossier.is_complete();
+            let is_known = |dossier: &Details| Some(dossier.subject) == about && dossier.is_complete();
             if !dossier.as_ref().is_some_and(is_known) {
                 *dossier = about.map(|about| stage.dossier(about, language));
             }
         }
         let lit = self.hovered.as_ref().or(self.selected.as_ref());
-        self.lit = lit.map(|dossier| dossier.lit(stage.state())).unwrap_or_default();
+        self.lit = lit.map(|dossier| dossier.highlight(stage.state())).unwrap_or_default();
     }
 
     fn heroes(&mut self, ui: &mut Ui) {

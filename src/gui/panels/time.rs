@@ -48,7 +48,7 @@ impl TimePanel {
     /// Closes that list; returns what leads to what stands at this place of it.
     pub fn choose(&mut self, place: usize) -> Option<UserCommand> {
         self.toggle_find();
-        self.found.get(place).map(|mark| UserCommand::Jump(mark.records, mark.about))
+        self.found.get(place).map(|mark| UserCommand::Jump(mark.records, mark.subject))
     }
 
     /// Whether that list is open, or about to be.
@@ -154,7 +154,7 @@ impl TimePanel {
             let mut chosen = None;
             for (place, mark) in self.found.iter().enumerate() {
                 if entry(ui, (place + 1, mark), session.stage().grain(), look, language).clicked() {
-                    chosen = Some(UserCommand::Jump(mark.records, mark.about));
+                    chosen = Some(UserCommand::Jump(mark.records, mark.subject));
                 }
             }
             if self.found.is_empty() {
@@ -237,7 +237,7 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
         Time((f64::from(share) * length.0 as f64) as u64)
     };
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
-        let stands = session.stage().time.stands() || response.dragged();
+        let stands = session.stage().time.is_paused() || response.dragged();
         let is_end = at.x >= rail.right() && !session.stage().hides_later;
         let at = if is_end { Time(u64::MAX) } else { time_at(at) };
         session.drag_to(at, stands);

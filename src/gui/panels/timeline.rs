@@ -70,7 +70,7 @@ impl TimelinePanel {
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
         // Low lanes have no sliders, and need less room for what stands beside them.
-        let has_sliders = TimelineLayout::new(nodes, area.width(), area.height()).lane >= SLIDER + 2.0;
+        let has_sliders = TimelineLayout::new(nodes, area.width(), area.height()).lane_height >= SLIDER + 2.0;
         let left = if has_sliders { LEFT } else { 6.0 * GRID };
         let place = area.with_min_x(area.left() + left);
         let plan = TimelineLayout::new(nodes, place.width(), place.height());
@@ -126,7 +126,7 @@ impl TimelinePanel {
 
     /// Times below the lanes.
     fn axis(&self, painter: &Painter, place: Rect, plan: &TimelineLayout, look: Look, language: Language) {
-        if plan.foot == 0.0 {
+        if plan.axis_height == 0.0 {
             return;
         }
         let (times, rate) = axis(&self.window, plan.width);
@@ -232,7 +232,7 @@ impl TimelinePanel {
             painter.rect_filled(later, 0.0, look.ground.gamma_multiply(strength));
         }
         painter.line_segment(
-            [pos2(now, place.top() + 0.5 * plan.head), pos2(now, place.top() + plan.bottom())],
+            [pos2(now, place.top() + 0.5 * plan.header_height), pos2(now, place.top() + plan.bottom())],
             Stroke::new(1.5, look.accent),
         );
     }
@@ -286,7 +286,7 @@ fn lane_head(ui: &mut Ui, row: Rect, node: NodeId, session: &mut Session, focus:
 
 /// How the machines' time was used until the shown time, in as many words as fit, above the strip that shows it.
 fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, look: Look, language: Language) {
-    if plan.head == 0.0 || stage.lasted() == Time::ZERO {
+    if plan.header_height == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }
     let layout = |text: String| painter.layout_no_wrap(text, theme::regular(theme::SMALL), look.quiet);
@@ -296,11 +296,11 @@ fn usage(painter: &Painter, area: Rect, plan: &TimelineLayout, stage: &Stage, lo
         painter.galley(area.min, galley, look.quiet);
     }
     // Beside low lanes there is no room for it.
-    if plan.lane < SLIDER + 2.0 {
+    if plan.lane_height < SLIDER + 2.0 {
         return;
     }
     let label = layout(word!(language, "machines in use", "máquinas em uso").into());
-    let place = pos2(area.left(), area.top() + plan.head - label.size().y - 4.0);
+    let place = pos2(area.left(), area.top() + plan.header_height - label.size().y - 4.0);
     painter.galley(place, label, look.quiet);
 }
 

@@ -94,7 +94,7 @@ impl Stage {
     /// A run that was recorded, from its beginning; `known` is what is known of all of it.
     pub fn recorded(performer: RunSource, log: RunLog, known: RunView, ground: Rgb) -> Self {
         let result = Summary::of(&log);
-        let mut time = Playback::from_the_beginning();
+        let mut time = Playback::from_start();
         // A run of no time would be over before anybody looked.
         let length = known.latest.state.head().secs();
         time.set_rate(RATES.iter().rposition(|&rate| rate <= 1.0 && length >= 6.0 * rate).unwrap_or_default());
@@ -165,7 +165,7 @@ impl Stage {
 
     /// What stands out in its time.
     pub fn signs(&self) -> &Markers {
-        &self.known.signs
+        &self.known.markers
     }
 
     /// What each machine did and when, all of it.
@@ -234,7 +234,7 @@ impl Stage {
         match self.phase {
             Phase::Running if self.time.is_live() => !self.paused,
             Phase::Preparing | Phase::Failed(_) if self.time.is_live() => false,
-            _ => !self.time.stands() && self.now() < self.clock(),
+            _ => !self.time.is_paused() && self.now() < self.clock(),
         }
     }
 
@@ -332,7 +332,7 @@ impl Stage {
 
     /// Comes to the moment that the shown time asks for.
     fn show_now(&mut self) {
-        if !self.time.stands() {
+        if !self.time.is_paused() {
             self.stepped_to = None;
         }
         let records = match self.stepped_to {
@@ -348,7 +348,7 @@ impl Stage {
         } else if self.earlier.as_ref().is_none_or(|earlier| earlier.records() != records) {
             let is_first = self.earlier.is_none();
             let moment = self.earlier.get_or_insert_with(|| Snapshot::new(&self.log.header));
-            let went_on = self.past.go(&self.log, records, moment);
+            let went_on = self.past.seek(&self.log, records, moment);
             if is_first || !went_on {
                 moment.state.take_touched();
                 self.canvas.show_all(&moment.state);

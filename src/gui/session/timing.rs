@@ -27,7 +27,7 @@ impl Session {
         } else if stage.is_at_end() {
             stage.seek(Time::ZERO, false);
         } else {
-            stage.time.set_stands(stage.goes_on());
+            stage.time.set_paused(stage.goes_on());
         }
     }
 
@@ -42,7 +42,7 @@ impl Session {
     /// Shows the moment that a hand drags along the run's time; meanwhile time stands still.
     pub fn drag_to(&mut self, time: Time, stands: bool) {
         if self.dragged_from.is_none() && stands {
-            self.dragged_from = Some(self.stage.time.stands() && !self.stage.is_live());
+            self.dragged_from = Some(self.stage.time.is_paused() && !self.stage.is_live());
         }
         self.stage.seek(time, stands);
     }
@@ -50,7 +50,7 @@ impl Session {
     /// The hand lets go: time goes on if it did before.
     pub fn let_time_go(&mut self) {
         if let Some(stood) = self.dragged_from.take() {
-            self.stage.time.set_stands(stood);
+            self.stage.time.set_paused(stood);
         }
     }
 

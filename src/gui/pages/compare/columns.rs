@@ -155,7 +155,7 @@ fn picture(
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture, fitted, whole, Color32::WHITE);
         }
-        let (done, all) = (contender.moment().state.done(), contender.moment().state.atoms());
+        let (done, all) = (contender.snapshot().state.done(), contender.snapshot().state.atoms());
         response.widget_info(|| {
             let name = &contender.name;
             let share = percent(done, all);
@@ -186,15 +186,15 @@ fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: 
     painter.rect_filled(rail.with_max_x(x(now.min(until))), 3.0, look.accent);
     let base = pos2(rail.left(), rail.bottom() + 0.5 * GRID);
     let (large, small) = (theme::strong(theme::BODY), theme::regular(theme::SMALL));
-    let state = &contender.moment().state;
+    let state = &contender.snapshot().state;
     let is_over = end.is_some_and(|end| now >= end);
-    let (first, colour) = match &contender.account {
+    let (first, colour) = match &contender.budget {
         Some(account) if is_over => (duration(account.makespan, language), look.text),
         None if now >= length => (word!(language, "never ends", "nunca termina").to_owned(), look.trouble),
         _ => (percent(state.done(), state.atoms()), look.quiet),
     };
     painter.text(base, egui::Align2::LEFT_TOP, first, large, colour);
-    if let Some(account) = contender.account.as_ref().filter(|_| is_over) {
+    if let Some(account) = contender.budget.as_ref().filter(|_| is_over) {
         let efficiency = fraction(account.efficiency());
         let words = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
         painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, words, small, look.quiet);

@@ -105,7 +105,7 @@ fn beside(growth: &Growth, entries: &[CompareColumn], measure: Measure) -> Vec<S
     /// What differs by less than this is the same.
     const SAME: f64 = 0.005;
     let dot = |(place, entry): (usize, &CompareColumn)| {
-        let account: &TimeBudget = entry.contender.as_ref()?.account.as_ref()?;
+        let account: &TimeBudget = entry.contender.as_ref()?.budget.as_ref()?;
         let header = &entry.trial.header;
         let (machines, speedup) = (header.speeds.len(), growth.alone.div_duration_f64(account.makespan));
         let curve = growth.of.iter().find(|(strategy, _)| *strategy == header.rules.strategy);
@@ -136,7 +136,7 @@ fn note(article: bool, dots: bool, entries: &[CompareColumn], language: Language
     if dots {
         told.push(word!(language, "Letters: the runs above.", "Letras: as execuções acima.").to_owned());
     }
-    let is_endless = |entry: &CompareColumn| entry.contender.as_ref().is_some_and(|run| run.account.is_none());
+    let is_endless = |entry: &CompareColumn| entry.contender.as_ref().is_some_and(|run| run.budget.is_none());
     for (place, _) in entries.iter().enumerate().filter(|(_, entry)| is_endless(entry)) {
         let letter = letter(place);
         told.push(say!(language, "{letter} never ends, and is not here.", "{letter} nunca termina, e não está aqui."));

@@ -87,7 +87,7 @@ impl Compare {
     /// Whether time goes on, and how fast.
     fn play(&mut self, ui: &mut Ui, look: Look, language: Language) {
         let over = self.time.now() >= self.length();
-        let (icon, name) = match self.time.stands() {
+        let (icon, name) = match self.time.is_paused() {
             _ if over => (Icon::Restart, word!(language, "Play again", "Repetir")),
             true => (Icon::Play, word!(language, "Go on", "Continuar")),
             false => (Icon::Pause, word!(language, "Pause", "Pausar")),

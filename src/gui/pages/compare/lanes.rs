@@ -69,7 +69,7 @@ fn run(
     let contender = entry.contender.as_ref()?;
     let lanes = contender.lanes.lanes().len();
     let lane = strip.height() / lanes.max(1) as f32;
-    let plan = TimelineLayout { width: strip.width(), head: 0.0, foot: 0.0, lane, lanes };
+    let plan = TimelineLayout { width: strip.width(), header_height: 0.0, axis_height: 0.0, lane_height: lane, lanes };
     let key = (strip.size(), window.to());
     if entry.lanes.as_ref().is_none_or(|(size, of, _)| (*size, *of) != key) {
         let drawn = timeline(&contender.lanes, window, &plan, contender.length());
@@ -105,7 +105,7 @@ fn run(
 
 /// The machines' numbers, as many as there is room for.
 fn numbers(painter: &Painter, strip: Rect, plan: &TimelineLayout, look: Look) {
-    let every = (theme::SMALL / plan.lane).ceil().max(1.0) as usize;
+    let every = (theme::SMALL / plan.lane_height).ceil().max(1.0) as usize;
     for node in (0..plan.lanes as NodeId).step_by(every) {
         let [top, bottom] = plan.lane(node);
         let at = pos2(strip.left() - 0.5 * GRID, strip.top() + (top + bottom) / 2.0);
@@ -126,7 +126,7 @@ fn seconds(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, langua
 }
 
 fn words(contender: &ComparedRun, language: Language) -> String {
-    contender.account.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)], language))
+    contender.budget.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)], language))
 }
 
 /// What is to be seen; of changes only if there are any.

@@ -76,7 +76,7 @@ impl Default for Compare {
             job: None,
             growth: None,
             trouble: None,
-            time: Playback::from_the_beginning(),
+            time: Playback::from_start(),
             is_paced: false,
             findings: Findings::default(),
             holds_run: false,
@@ -133,7 +133,7 @@ impl Compare {
     /// Names and makespans of the runs that are known, for tests.
     pub fn runs(&self) -> Vec<(String, Option<Duration>)> {
         let known = self.entries.iter().filter_map(|entry| entry.contender.as_ref());
-        known.map(|known| (known.name.clone(), known.account.as_ref().map(|account| account.makespan))).collect()
+        known.map(|known| (known.name.clone(), known.budget.as_ref().map(|account| account.makespan))).collect()
     }
 
     /// The runs that are known, for a file; nothing until there is one.
@@ -142,7 +142,7 @@ impl Compare {
         let run = |entry: &CompareColumn| {
             let header = &entry.trial.header;
             let (strategy, machines) = (header.rules.strategy, header.speeds.len());
-            let account = entry.contender.as_ref()?.account.clone();
+            let account = entry.contender.as_ref()?.budget.clone();
             Some(ComparisonEntry { strategy, changes: entry.changes.clone(), machines, account })
         };
         let (title, size) = (header.title().to_owned(), header.size);
@@ -178,7 +178,7 @@ impl Compare {
     pub fn handle_command(&mut self, command: UserCommand) -> bool {
         match command {
             UserCommand::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
-            UserCommand::Pause => self.time.set_stands(!self.time.stands()),
+            UserCommand::Pause => self.time.set_paused(!self.time.is_paused()),
             UserCommand::Rate(faster) => self.time.change_rate(if faster { 1 } else { -1 }),
             UserCommand::SetRate(index) => self.time.set_rate(index),
             UserCommand::Beginning => self.time.seek(Time::ZERO, true),
@@ -194,7 +194,7 @@ impl Compare {
         let look = Look::of(ui.ctx());
         self.keep_up(session);
         let length = self.length();
-        if !self.time.stands() && length > Time::ZERO && self.time.now() < length {
+        if !self.time.is_paused() && length > Time::ZERO && self.time.now() < length {
             let passed = Duration::from_secs_f32(ui.input(|input| input.stable_dt).min(0.1));
             self.time.advance(passed, length, false);
             ui.ctx().request_repaint_after(Duration::from_millis(33));
@@ -263,7 +263,7 @@ impl Compare {
             self.add(changes);
         }
         self.findings.pair = [0, self.entries.len() - 1];
-        (self.time, self.is_paced) = (Playback::from_the_beginning(), false);
+        (self.time, self.is_paced) = (Playback::from_start(), false);
         self.run(session);
     }
 

@@ -124,7 +124,7 @@ impl LessonProgress {
         if let Some(records) = self.until {
             let stage = session.stage_mut();
             // Whoever takes time in his own hand is not hindered.
-            if stage.time.stands() {
+            if stage.time.is_paused() {
                 self.until = None;
             } else if stage.records_shown() >= records {
                 stage.show_after(records);
