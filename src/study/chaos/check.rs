@@ -27,8 +27,6 @@ pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 pub(super) enum Violation {
     #[error("the run does not end")]
     Endless,
-    #[error("node {node} starts atom {atom} after its shutdown")]
-    StartedAfterShutdown { node: NodeId, atom: Atom },
     #[error("node {node} sends atom {atom}, which it has not traced")]
     SentUntraced { node: NodeId, atom: Atom },
     #[error("the offer that node {offerer} made at {} s is in two places", made.secs())]
@@ -85,7 +83,6 @@ struct Check<'a> {
     violation: Option<Violation>,
     /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
-    stopped: Vec<bool>,
     /// By atom: how often its result has reached the parent.
     placed: Vec<u32>,
     /// Results in flight to the parent, by message.
@@ -106,7 +103,6 @@ impl<'a> Check<'a> {
             totals: RunTotals::default(),
             violation: None,
             traced: vec![BTreeSet::new(); nodes],
-            stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
             results: BTreeMap::new(),
             offers: BTreeMap::new(),
@@ -126,10 +122,6 @@ impl<'a> Check<'a> {
                 for atom in self.results.remove(id).into_iter().flatten().flatten() {
                     self.placed[atom as usize] += 1;
                 }
-            }
-            RecordKind::Received { .. } | RecordKind::Lost { .. } => {}
-            RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
-                self.fail(Violation::StartedAfterShutdown { node: *node, atom: *atom });
             }
             RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
