@@ -96,9 +96,9 @@ mod tests {
     fn encoded(images: &[RgbImage]) -> Vec<u8> {
         let mut bytes = Vec::new();
         let (width, height) = images[0].dimensions();
-        let mut animation = Animation::begin(&mut bytes, [width, height]).expect("memory takes everything");
+        let mut animation = Animation::begin(&mut bytes, [width, height]).expect("writing to memory cannot fail");
         (7..).zip(images).for_each(|(hundredths, image)| animation.show(image, hundredths).expect("a frame"));
-        animation.end().expect("memory takes everything");
+        animation.end().expect("writing to memory cannot fail");
         bytes
     }
 

@@ -110,9 +110,9 @@ fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result
     let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
     let processes = [
         (MACHINES, run.as_str()),
-        (ATOMS, "atoms under way"),
-        (OFFERS, "offers and requests under way"),
-        (RESULTS, "results under way"),
+        (ATOMS, "atoms in flight"),
+        (OFFERS, "offers and requests in flight"),
+        (RESULTS, "results in flight"),
     ];
     for (process, name) in processes {
         let order =
@@ -274,7 +274,7 @@ fn write_instants(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
             RecordKind::Retired { node } => (Some(*node), "retired".into()),
             RecordKind::Condition { node, condition } => (Some(*node), condition_words(*condition).into()),
             RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
-            RecordKind::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
+            RecordKind::LatencySet { latency } => (None, format!("latency {latency:?}")),
             RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,
         };

@@ -222,7 +222,7 @@ mod tests {
     /// Reads the rows, by column name.
     fn read(log: &RunLog) -> Vec<BTreeMap<String, String>> {
         let mut text = Vec::new();
-        write_csv(&mut text, log).expect("memory takes everything");
+        write_csv(&mut text, log).expect("writing to memory cannot fail");
         csv::Reader::from_reader(&text[..]).deserialize().collect::<Result<_, _>>().expect("a table")
     }
 
@@ -259,7 +259,7 @@ mod tests {
         let some = log(vec![1.0], 1, Sharing::Ring);
         let columns = |log: &RunLog| {
             let mut text = Vec::new();
-            write_csv(&mut text, log).expect("memory takes everything");
+            write_csv(&mut text, log).expect("writing to memory cannot fail");
             String::from_utf8_lossy(&text).lines().next().map(str::to_owned)
         };
         assert_eq!(columns(&RunLog::new(some.header.clone())), columns(&some));

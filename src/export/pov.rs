@@ -158,5 +158,5 @@ fn vector(v: DVec3) -> String {
 }
 
 fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
-    text.write_fmt(what).expect("a String takes everything");
+    text.write_fmt(what).expect("writing to a String cannot fail");
 }

@@ -78,7 +78,7 @@ mod tests {
     fn text_is_drawn_without_system_fonts() {
         assert!(ink("ring", TextSize::Body(1.0)) > 100);
         assert_eq!(ink("", TextSize::Body(1.0)), 0);
-        assert!(ink("ring", TextSize::Fit(13.0)) > ink("ring", TextSize::Small(1.0)), "strong is broader");
+        assert!(ink("ring", TextSize::Fit(13.0)) > ink("ring", TextSize::Small(1.0)), "bold is wider");
         // The font has these characters and draws no replacement boxes.
         assert_ne!(
             ink("→ × … µ", TextSize::Body(1.0)),

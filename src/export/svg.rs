@@ -177,7 +177,7 @@ impl Svg {
     }
 
     fn put(&mut self, what: std::fmt::Arguments<'_>) {
-        self.text.write_fmt(what).expect("a String takes everything");
+        self.text.write_fmt(what).expect("writing to a String cannot fail");
     }
 }
 

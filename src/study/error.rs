@@ -21,10 +21,10 @@ pub enum StudyError {
     #[error("the study's own scene cannot be opened: {0}")]
     Scene(#[from] FileError),
     /// A picture could not be traced, or a run did not end.
-    #[error("a run of the study failed: {0}; run the study again")]
+    #[error("a run failed: {0}; try again")]
     Run(#[source] Source),
     /// A measurement was cancelled.
-    #[error("the measurement was cancelled; run the study again")]
+    #[error("the measurement was cancelled; start it again")]
     Cancelled,
     /// A row could not become JSON.
     #[error("a row of the study cannot be written as JSON: {0}")]

@@ -102,7 +102,7 @@ struct RivalRun {
 }
 
 impl RivalRun {
-    #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+    #[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as the user experiences it")]
     fn measure(fixture: &Fixture, header: &Header) -> Result<Self, StudyError> {
         let (begun, before) = (Instant::now(), context_switches());
         let log = run_to_end(&fixture.tracer, header, &[]).map_err(StudyError::run)?;

@@ -21,7 +21,7 @@ impl Bug {
     pub fn name(self) -> &'static str {
         match self {
             Self::LostTransfer => "a transfer is lost",
-            Self::ForwardedTwice => "an offer is passed on twice",
+            Self::ForwardedTwice => "an offer is forwarded twice",
             Self::LeaseNotReturned => "lost atoms are never handed out again",
         }
     }

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 /// Writes the report.
 pub(super) fn report(found: &PaperFindings<'_>) -> Report {
     let PaperFindings { rows, competing, divisions, handling, .. } = found;
-    let mut report = Report::titled("The article's comparison, run anew");
+    let mut report = Report::titled("The article's comparison, repeated");
     head(&mut report, found);
     verdicts(&mut report, rows, competing);
     figures(&mut report, rows);

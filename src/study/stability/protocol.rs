@@ -88,7 +88,7 @@ pub(super) fn cases() -> [StabilityCase; 5] {
         ),
         case(
             "latency",
-            "Wild latencies",
+            "Varying latencies",
             "The latency of all messages changes fifty times within the time of the run, to a random value between a \
              thousandth of the given latency and the whole.",
             "greatest latency over an atom's time",
