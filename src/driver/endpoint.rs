@@ -157,9 +157,8 @@ impl Endpoint {
         self.record(RecordKind::Condition { node, condition });
         if transition == Transition::MemoryLost {
             self.timer = None;
-            mem::take(&mut self.mailbox)
-                .into_iter()
-                .for_each(|Envelope { id, .. }| _ = self.record(RecordKind::Lost { id }));
+            let lost = mem::take(&mut self.mailbox);
+            lost.into_iter().for_each(|envelope| _ = self.record(RecordKind::Lost { id: envelope.id }));
         }
         Some(transition)
     }
@@ -318,11 +317,8 @@ mod tests {
 
     /// Returns the header of a run with two emulated nodes.
     fn header(handling: Duration, latency: Duration) -> Header {
-        Header {
-            handling,
-            link: LinkSettings { latency, bandwidth: None, shared: false },
-            ..examples::header(&[0.5, 0.5])
-        }
+        let link = LinkSettings { latency, bandwidth: None, shared: false };
+        Header { handling, link, ..examples::header(&[0.5, 0.5]) }
     }
 
     /// Sends empty results from each node to the parent, the second node's 1 ms before the first's. Returns what the
@@ -353,14 +349,14 @@ mod tests {
     }
 
     #[test]
-    fn the_parent_handles_one_message_after_the_other() {
+    fn parent_handles_one_message_at_a_time() {
         let (zero, one) = (Party::Node(0), Party::Node(1));
         let got = results(&header(5 * MS, Duration::ZERO), &[7, 9, 9, 20]);
         assert_eq!(got, [None, Some((one, 8)), None, Some((zero, 13))]);
     }
 
     #[test]
-    fn a_command_takes_no_handling_time() {
+    fn command_takes_no_handling_time() {
         let header = header(5 * MS, Duration::ZERO);
         let (shared, inboxes) = SharedRun::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();
@@ -376,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn a_timer_fires_once_and_a_later_one_replaces_it() {
+    fn timer_fires_once_and_a_later_one_replaces_it() {
         let header = header(Duration::ZERO, Duration::ZERO);
         let (shared, mut inboxes) = SharedRun::new(&header);
         let (updates, _listener) = crossbeam_channel::unbounded();

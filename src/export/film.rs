@@ -13,7 +13,9 @@ use crate::palette::{PRINT, node_colours};
 use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::{Anchor, Canvas, Hue, Layer, Mark, RingOverlay, Snapshot, Summary, TextSize, ring, time_words};
+use crate::view::{
+    Anchor, Canvas, Hue, Layer, Mark, RingLayout, RingOverlay, Snapshot, Summary, TextSize, ring, time_words,
+};
 
 /// Settings of a run's animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,13 +182,12 @@ impl<'a> FilmFrames<'a> {
     fn ring(&self, at: Time, is_last: bool) -> Result<RgbImage, ExportError> {
         /// Longer than the last message is drawn.
         const LINGER: Duration = Duration::from_secs(5);
-        let overlay = RingOverlay { outcome: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
+        let overlay = RingOverlay { summary: self.outcome.filter(|_| is_last), ..RingOverlay::default() };
         let at = if is_last { at + LINGER.mul_f64(self.rate.max(1.0)) } else { at };
         let [_, _, width, height] = self.layout.ring;
-        self.draw(
-            &ring(&self.snapshot.state, &overlay, at, [width as f32, height as f32], Language::English),
-            [width, height],
-        )
+        let state = &self.snapshot.state;
+        let layout = RingLayout::new(state.nodes().len(), [width as f32, height as f32], Language::English);
+        self.draw(&ring(&layout, state, &overlay, at, Language::English), [width, height])
     }
 
     /// Draws time and sentence, if they differ from the last caption.

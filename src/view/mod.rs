@@ -68,6 +68,7 @@ pub use playback::details::{Details, Highlight};
 pub use playback::run_view::RunView;
 pub use playback::snapshots::{Snapshot, SnapshotCache};
 pub use print::PrintedDrawing;
+pub use ring::layout::RingLayout;
 pub use ring::{RingOverlay, RingSpot, message_at, ring, ring_at};
 pub use state::atom_state::AtomState;
 pub use state::flight::{Cargo, Flight};
@@ -87,6 +88,8 @@ pub use text::tooltips::{atom_words, flight_words, node_words, parent_words, sma
 pub use text::trial_names::{change_words, trial_name};
 pub use timeline::conditions::condition_strokes;
 pub use timeline::landmarks::{Landmark, StepUnit, Subject, landmarks, step};
+pub use timeline::layout::TimelineLayout;
 pub use timeline::markers::{Marker, MarkerKind, Markers};
+pub use timeline::quads::{Quad, Timeline};
 pub use timeline::time_window::TimeWindow;
-pub use timeline::{Quad, Timeline, TimelineLayout, axis, timeline, timeline_at};
+pub use timeline::{axis, timeline, timeline_at};

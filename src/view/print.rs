@@ -1,4 +1,5 @@
-//! A run on paper: the ring at a moment and the timeline, each with what it is of, so that it can be read alone.
+//! Drawings of a run for paper: the ring at a time, and the timeline, each with a heading, so that it can be read
+//! alone.
 
 use std::time::Duration;
 
@@ -7,78 +8,87 @@ use super::analysis::time_budget::TimeBudget;
 use super::charts::time_budget_chart::{spent, spent_height};
 use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use super::playback::snapshots::Snapshot;
+use super::ring::layout::RingLayout;
 use super::ring::{RingOverlay, ring};
 use super::state::lanes::Lanes;
 use super::text::format::{duration, fraction, node_name, time_words};
+use super::timeline::layout::TimelineLayout;
 use super::timeline::time_window::TimeWindow;
-use super::timeline::{TimelineLayout, axis, timeline};
+use super::timeline::{axis, timeline};
 use crate::language::Language;
 use crate::runlog::RunLog;
 use crate::sentence::shown;
 use crate::time::Time;
 
-/// What is drawn on a sheet of paper, and how large that is.
+/// A drawing for a sheet of paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrintedDrawing {
-    /// What is drawn.
+    /// Its marks.
     pub marks: Vec<Mark>,
     /// Width and height.
     pub size: Point,
 }
 
+/// Margin of all sheets.
 const MARGIN: f32 = 28.0;
 
-/// So much of a title or a memo is shown: more than a line may stand in the run's file.
-const LONGEST: usize = 150;
+/// Letters of a title or a memo that are shown; the run's file may have more than a line.
+const MAX_TITLE_LETTERS: usize = 150;
 
-/// Of the ring's sheet.
-const RING: Point = [900.0, 760.0];
+/// Size of the ring's sheet.
+const RING_SIZE: Point = [900.0, 760.0];
 
-/// Of the timeline's sheet, and of what stands left of its lanes.
-const WIDTH: f32 = 1200.0;
-const LEFT: f32 = 96.0;
+/// Width of the timeline's sheet.
+const TIMELINE_WIDTH: f32 = 1200.0;
+/// Width of the labels to the left of its lanes.
+const LANE_LABEL_WIDTH: f32 = 96.0;
 
 impl PrintedDrawing {
-    /// The ring of a run as it was at a time, with the sentence of that moment; its result, if the picture was complete.
-    /// After the end it is as at the end.
+    /// Draws the ring of a run at a time, with the sentence at that time, or the result if the picture was complete. A
+    /// time after the end counts as the end.
     pub fn ring(log: &RunLog, at: Time, language: Language) -> Self {
-        /// Longer than the last message is drawn: at the end all is at rest.
+        /// Longer than the last message stays visible: at the end nothing moves.
         const LINGER: Duration = Duration::from_secs(5);
         let at = at.min(log.end());
-        let mut moment = Snapshot::new(&log.header);
-        log.records()[..log.until(at)].iter().for_each(|record| moment.apply(record));
-        let state = &moment.state;
-        let outcome = Summary::of(log).filter(|_| state.finished().is_some());
-        let is_over = outcome.is_some() && at == log.end();
+        let mut snapshot = Snapshot::new(&log.header);
+        log.records()[..log.until(at)].iter().for_each(|record| snapshot.apply(record));
+        let state = &snapshot.state;
+        let summary = Summary::of(log).filter(|_| state.finished().is_some());
+        let is_over = summary.is_some() && at == log.end();
         let drawn_at = if is_over { at + LINGER } else { at };
-        let [width, height] = RING;
+        let [width, height] = RING_SIZE;
         let mut marks = Vec::new();
-        let top = heading(log, outcome.as_ref(), width, &mut marks, language);
-        let overlay = RingOverlay { outcome, ..RingOverlay::default() };
+        let top = heading(log, summary.as_ref(), width, &mut marks, language);
+        let overlay = RingOverlay { summary, ..RingOverlay::default() };
         let room = [width - 2.0 * MARGIN, height - top - 2.5 * MARGIN];
-        marks.extend(ring(state, &overlay, drawn_at, room, language).into_iter().map(|mark| mark.moved([MARGIN, top])));
+        let layout = RingLayout::new(state.nodes().len(), room, language);
+        let drawn = ring(&layout, state, &overlay, drawn_at, language);
+        marks.extend(drawn.into_iter().map(|mark| mark.moved([MARGIN, top])));
         let sentence =
-            format!("At {}: {}", time_words(at, grain(log), language), moment.narrator.sentence(state, at, language));
+            format!("At {}: {}", time_words(at, grain(log), language), snapshot.narrator.sentence(state, at, language));
         let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);
         marks.push(label([width / 2.0, height - MARGIN], Anchor::Centre, sentence, size, Hue::Text));
-        Self { marks, size: RING }
+        Self { marks, size: RING_SIZE }
     }
 
-    /// The timeline of all of a run: a lane a machine, with its number and its speed at the beginning.
+    /// Draws the timeline of a whole run: a lane for each machine, with its number and its first speed.
     pub fn timeline(log: &RunLog, language: Language) -> Self {
         let lanes = Lanes::of(log);
         let nodes = log.header.speeds.len();
         let mut marks = Vec::new();
-        let top = heading(log, Summary::of(log).as_ref(), WIDTH, &mut marks, language);
-        let lane = (640.0 / nodes as f32).clamp(4.0, 26.0);
+        let top = heading(log, Summary::of(log).as_ref(), TIMELINE_WIDTH, &mut marks, language);
+        let lane_height = (640.0 / nodes as f32).clamp(4.0, 26.0);
         // Enough for the strip above the lanes and the axis below.
-        let room = (58.0 + lane * nodes as f32).max(121.0);
-        let plan = TimelineLayout { lane, ..TimelineLayout::new(nodes, WIDTH - LEFT - MARGIN, room) };
+        let room = (58.0 + lane_height * nodes as f32).max(121.0);
+        let layout = TimelineLayout {
+            lane_height,
+            ..TimelineLayout::new(nodes, TIMELINE_WIDTH - LANE_LABEL_WIDTH - MARGIN, room)
+        };
         let end = log.end();
         let mut window = TimeWindow::default();
         window.fit(end);
         let mut drawn = Vec::new();
-        let made = timeline(&lanes, &window, &plan, end);
+        let made = timeline(&lanes, &window, &layout, end);
         drawn.extend(made.quads.into_iter().map(|quad| {
             let [left, top, right, bottom] = quad.place;
             let (centre, half) =
@@ -86,71 +96,77 @@ impl PrintedDrawing {
             Mark::Box { centre, half, round: 0.0, ink: quad.ink }
         }));
         let within = |[x, y]: Point, [u, v]: Point| {
-            // What is still under way at the end leads out of the sheet's edge.
-            let part = if u > plan.width { (plan.width - x) / (u - x) } else { 1.0 };
+            // A message that is on its way at the end is cut at the edge.
+            let part = if u > layout.width { (layout.width - x) / (u - x) } else { 1.0 };
             [x + part * (u - x), y + part * (v - y)]
         };
         drawn.extend(made.lines.into_iter().map(|(from, to, ink)| {
             let points = vec![from, within(from, to)];
             Mark::Line { points, width: 1.0, ink }
         }));
-        heads(log, &plan, &mut drawn);
-        times(log, &window, &plan, &mut drawn, language);
-        marks.extend(drawn.into_iter().map(|mark| mark.moved([LEFT, top])));
-        let foot = top + plan.bottom() + plan.foot + 18.0;
+        lane_labels(log, &layout, &mut drawn);
+        time_axis(log, &window, &layout, &mut drawn, language);
+        marks.extend(drawn.into_iter().map(|mark| mark.moved([LANE_LABEL_WIDTH, top])));
+        let foot = top + layout.bottom() + layout.axis_height + 18.0;
         let legend = "Bars: atoms traced. Dark lines: atoms to another machine. Pale lines: offers from neighbour to \
-                      neighbour. Ticks: results to the parent. Above: what part of the machines traced.";
-        marks.push(label([LEFT, foot], Anchor::Left, legend.into(), TextSize::Small(0.9), Hue::Quiet));
-        Self { marks, size: [WIDTH, foot + MARGIN] }
+                      neighbour. Ticks: results to the parent. Above: the share of the machines that traced.";
+        marks.push(label([LANE_LABEL_WIDTH, foot], Anchor::Left, legend.into(), TextSize::Small(0.9), Hue::Quiet));
+        Self { marks, size: [TIMELINE_WIDTH, foot + MARGIN] }
     }
 }
 
 impl PrintedDrawing {
-    /// Where the time of several runs went.
+    /// Draws the time budgets of several runs.
     pub fn comparison(title: &str, runs: &[(&str, &TimeBudget)], language: Language) -> Self {
         const TOP: f32 = MARGIN + 36.0;
-        let room = WIDTH - 2.0 * MARGIN;
-        let title = shown(title, LONGEST);
+        let room = TIMELINE_WIDTH - 2.0 * MARGIN;
+        let title = shown(title, MAX_TITLE_LETTERS);
         let size = fitting(&title, 1.5 * TextSize::BODY, room);
         let mut marks = vec![label([MARGIN, MARGIN + 6.0], Anchor::Left, title, size, Hue::Text)];
         marks.extend(spent(runs, room, language).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
-        Self { marks, size: [WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
+        Self { marks, size: [TIMELINE_WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
     }
 }
 
-/// Number and speed of the machines, as many as there is room for, and what the strip above them is.
-fn heads(log: &RunLog, plan: &TimelineLayout, marks: &mut Vec<Mark>) {
-    let every = (TextSize::SMALL / plan.lane).ceil().max(1.0) as usize;
+/// Draws number and speed of the machines, as many as there is room for, and the caption of the strip above them.
+fn lane_labels(log: &RunLog, layout: &TimelineLayout, marks: &mut Vec<Mark>) {
+    let every = (TextSize::SMALL / layout.lane_height).ceil().max(1.0) as usize;
     for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
-        let [top, bottom] = plan.lane(node);
+        let [top, bottom] = layout.lane(node);
         let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if every > 1 { 0.8 } else { 1.0 }));
         marks.push(label([-56.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
         marks.push(label([-8.0, y], Anchor::Right, fraction(*speed), size, Hue::Quiet));
     }
-    if plan.head > 0.0 {
-        marks.push(label([-8.0, plan.head - 14.0], Anchor::Right, "tracing".into(), TextSize::Small(0.9), Hue::Quiet));
+    if layout.header_height > 0.0 {
+        marks.push(label(
+            [-8.0, layout.header_height - 14.0],
+            Anchor::Right,
+            "tracing".into(),
+            TextSize::Small(0.9),
+            Hue::Quiet,
+        ));
     }
 }
 
-/// The axis below the lanes.
-fn times(log: &RunLog, window: &TimeWindow, plan: &TimelineLayout, marks: &mut Vec<Mark>, language: Language) {
+/// Draws the axis below the lanes.
+fn time_axis(log: &RunLog, window: &TimeWindow, layout: &TimelineLayout, marks: &mut Vec<Mark>, language: Language) {
     let ink = Hue::Quiet.full();
-    let y = plan.bottom() + 2.0;
-    marks.push(Mark::Line { points: vec![[0.0, y], [plan.width, y]], width: 1.0, ink });
-    let (times, rate) = axis(window, plan.width);
+    let y = layout.bottom() + 2.0;
+    marks.push(Mark::Line { points: vec![[0.0, y], [layout.width, y]], width: 1.0, ink });
+    let (times, rate) = axis(window, layout.width);
     for time in times {
-        let x = plan.width * window.share(time) as f32;
+        let x = layout.width * window.share(time) as f32;
         marks.push(Mark::Line { points: vec![[x, y], [x, y + 5.0]], width: 1.0, ink });
         let words = time_words(time, rate.min(grain(log)), language);
         let half = TextSize::Small(1.0).width(words.chars().count()) / 2.0;
-        let x = x.clamp(half.min(0.0), plan.width - half);
+        let x = x.clamp(half.min(0.0), layout.width - half);
         let anchor = if x < half { Anchor::Left } else { Anchor::Centre };
         marks.push(label([x, y + 14.0], anchor, words, TextSize::Small(1.0), Hue::Quiet));
     }
 }
 
-/// What the run is called, what it was, and what is said of it; returns where it ends.
-fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<Mark>, language: Language) -> f32 {
+/// Draws the title of a run, its header in words, and its memo; returns the y below them.
+fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<Mark>, language: Language) -> f32 {
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };
@@ -158,31 +174,31 @@ fn heading(log: &RunLog, outcome: Option<&Summary>, width: f32, marks: &mut Vec<
     if header.title() != header.scene {
         what = format!("{}, {what}", header.scene);
     }
-    if let Some(outcome) = outcome {
-        what += &format!("; {}, efficiency {}", duration(outcome.makespan, language), fraction(outcome.efficiency));
+    if let Some(summary) = summary {
+        what += &format!("; {}, efficiency {}", duration(summary.makespan, language), fraction(summary.efficiency));
     }
     let caption = &header.caption;
     let lines = [(&what, Hue::Text), (&caption.memo, Hue::Quiet), (&caption.machine, Hue::Quiet)];
-    let title = shown(header.title(), LONGEST);
+    let title = shown(header.title(), MAX_TITLE_LETTERS);
     let mut y = MARGIN + 6.0;
     let size = fitting(&title, 1.5 * TextSize::BODY, room);
     marks.push(label([MARGIN, y], Anchor::Left, title, size, Hue::Text));
     y += 8.0;
     for (line, hue) in lines.into_iter().filter(|(line, _)| !line.is_empty()) {
         y += 18.0;
-        let line = shown(line, LONGEST);
+        let line = shown(line, MAX_TITLE_LETTERS);
         let size = fitting(&line, TextSize::SMALL, room).units() / TextSize::SMALL;
         marks.push(label([MARGIN, y], Anchor::Left, line, TextSize::Small(size), hue));
     }
     y + 20.0
 }
 
-/// How exactly times are told: the shorter the run, the more.
+/// Returns the precision of times, as a rate: finer for a shorter run.
 fn grain(log: &RunLog) -> f64 {
     (log.end().secs() / 2.0).clamp(1e-9, 1.0)
 }
 
-/// The size of a text that is to be no broader than this.
+/// Returns the text size, at most `size`, at which a text is at most `width` wide.
 fn fitting(text: &str, size: f32, width: f32) -> TextSize {
     let broad = TextSize::Fit(size).width(text.chars().count());
     TextSize::Fit(size * (width / broad.max(1.0)).min(1.0))
@@ -208,10 +224,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn nothing_lies_beside_the_sheet(
+        fn marks_stay_inside_the_sheet(
             speeds in prop::collection::vec(0.05..1.0f64, 1..40), atoms in 1..400u32, at in 0.0..20.0f64, title in ".{0,300}",
         ) {
-        let language = Language::English;
+            let language = Language::English;
             let mut log = sample_runs::log(&speeds, atoms);
             log.header.caption.title = title;
             for paper in [PrintedDrawing::ring(&log, Time::from_secs(at), language), PrintedDrawing::timeline(&log, language)] {
@@ -234,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_says_what_it_is_of() {
+    fn sheet_has_a_heading() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
         let caption = Metadata { title: "A slow third".into(), memo: "for a talk".into(), machine: "some CPU".into() };
@@ -250,12 +266,12 @@ mod tests {
         }
         assert!(
             texts(&PrintedDrawing::timeline(&log, language)).contains(&"sample"),
-            "without a title it is the scene"
+            "without a title it shows the scene"
         );
     }
 
     #[test]
-    fn the_ring_shows_its_moment() {
+    fn ring_shows_its_time() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 300);
         let at = |secs| texts(&PrintedDrawing::ring(&log, Time::from_secs(secs), language)).join("\n");

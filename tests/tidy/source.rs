@@ -61,7 +61,7 @@ pub fn files(directories: &[&str]) -> Vec<SourceFile> {
 pub fn shipped(files: &[SourceFile]) -> Vec<&SourceFile> {
     let of = |file: &SourceFile| {
         let module = file.module();
-        file.test_modules.iter().map(move |name| [&module[..], &[name.clone()]].concat()).collect::<Vec<_>>()
+        file.test_modules.iter().map(move |name| [&module[..], std::slice::from_ref(name)].concat()).collect::<Vec<_>>()
     };
     let test_modules: BTreeSet<Module> = files.iter().flat_map(of).collect();
     let is_test = |file: &SourceFile| {

@@ -297,13 +297,13 @@ impl App {
         let pairs = [(&mut self.hovered, self.selection.hovered()), (&mut self.selected, self.selection.selected)];
         for (details, subject) in pairs {
             // Details change until the subject's atom is traced or its message has arrived.
-            let is_final = |details: &Details| Some(details.about) == subject && details.is_complete();
+            let is_final = |details: &Details| Some(details.subject) == subject && details.is_complete();
             if !details.as_ref().is_some_and(is_final) {
-                *details = subject.map(|subject| stage.dossier(subject, language));
+                *details = subject.map(|subject| stage.details(subject, language));
             }
         }
         let details = self.hovered.as_ref().or(self.selected.as_ref());
-        self.highlight = details.map(|details| details.lit(stage.state())).unwrap_or_default();
+        self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
     /// Shows the picture and, beside it, the ring or the inspector.

@@ -12,8 +12,8 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
-    Highlight, Point, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name, node_words,
-    parent_words, ring, ring_at, small_print, time_words,
+    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name,
+    node_words, parent_words, ring, ring_at, small_print, time_words,
 };
 
 /// Shows the ring as large as possible. A click selects a machine or a message, the right button opens its menu, and a
@@ -35,16 +35,17 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
     let overlay = RingOverlay {
-        outcome: stage.result().copied(),
+        summary: stage.result().copied(),
         selected: selection.node(),
-        lit: highlight.nodes.clone(),
+        highlighted: highlight.nodes.clone(),
         message: highlight.message,
     };
-    paint(&painter, rect.min, &ring(state, &overlay, now, rect.size().into(), language), &inks);
+    let layout = RingLayout::new(state.nodes().len(), rect.size().into(), language);
+    paint(&painter, rect.min, &ring(&layout, state, &overlay, now, language), &inks);
 
     let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
-    let spot = pointed.and_then(|at| ring_at(state.nodes().len(), rect.size().into(), at, language));
-    let message = pointed.and_then(|at| message_at(state, now, rect.size().into(), at, language));
+    let spot = pointed.and_then(|at| ring_at(&layout, at));
+    let message = pointed.and_then(|at| message_at(&layout, state, now, at));
     if response.clicked() {
         match (message, spot) {
             (Some(message), _) => selection.toggle(Subject::Message(message.id)),

@@ -71,15 +71,16 @@ impl TimelinePanel {
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
         // Low lanes have narrow heads without sliders.
-        let has_sliders = TimelineLayout::new(nodes, area.width(), area.height()).lane >= MIN_SLIDER_LANE_PT + 2.0;
+        let has_sliders =
+            TimelineLayout::new(nodes, area.width(), area.height()).lane_height >= MIN_SLIDER_LANE_PT + 2.0;
         let left = if has_sliders { HEAD_WIDTH_PT } else { 6.0 * GRID };
         let lanes = area.with_min_x(area.left() + left);
         let layout = TimelineLayout::new(nodes, lanes.width(), lanes.height());
         let response = ui.allocate_rect(lanes, Sense::click_and_drag());
-        self.window.fit(session.stage().told_length());
+        self.window.fit(session.stage().shown_length());
         self.follow(session.stage());
         self.zoom_and_pan(ui, &response, lanes);
-        self.window.fit(session.stage().told_length());
+        self.window.fit(session.stage().shown_length());
         self.handle_pointer(&response, lanes, &layout, session, selection);
         let stage = session.stage();
         describe(&response, stage, language);
@@ -127,7 +128,7 @@ impl TimelinePanel {
 
     /// Paints the time axis below the lanes.
     fn axis(&self, painter: &Painter, lanes: Rect, layout: &TimelineLayout, look: Look, language: Language) {
-        if layout.foot == 0.0 {
+        if layout.axis_height == 0.0 {
             return;
         }
         let (times, rate) = axis(&self.window, layout.width);
@@ -188,7 +189,7 @@ impl TimelinePanel {
         look: Look,
     ) {
         let inks = Inks { look, nodes: &stage.colours };
-        let length = stage.told_length();
+        let length = stage.shown_length();
         let key = DrawingKey { version: stage.lanes().version(), window: self.window, layout: *layout, length };
         if self.cache.as_ref().is_none_or(|(cached, _)| *cached != key) {
             self.cache = Some((key, timeline(stage.lanes(), &self.window, layout, length)));
@@ -234,7 +235,7 @@ impl TimelinePanel {
             painter.rect_filled(later, 0.0, look.ground.gamma_multiply(opacity));
         }
         painter.line_segment(
-            [pos2(now, lanes.top() + 0.5 * layout.head), pos2(now, lanes.top() + layout.bottom())],
+            [pos2(now, lanes.top() + 0.5 * layout.header_height), pos2(now, lanes.top() + layout.bottom())],
             Stroke::new(1.5, look.accent),
         );
     }
@@ -295,7 +296,7 @@ fn lane_head(
 
 /// Paints the figures of the machines' usage up to the shown time, as many as fit, above the strip that shows it.
 fn usage(painter: &Painter, area: Rect, lanes: &TimelineLayout, stage: &Stage, look: Look, language: Language) {
-    if lanes.head == 0.0 || stage.lasted() == Time::ZERO {
+    if lanes.header_height == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }
     let layout = |text: String| painter.layout_no_wrap(text, theme::regular(theme::SMALL), look.quiet);
@@ -305,11 +306,11 @@ fn usage(painter: &Painter, area: Rect, lanes: &TimelineLayout, stage: &Stage, l
         painter.galley(area.min, galley, look.quiet);
     }
     // The narrow heads of low lanes have no room for the caption.
-    if lanes.lane < MIN_SLIDER_LANE_PT + 2.0 {
+    if lanes.lane_height < MIN_SLIDER_LANE_PT + 2.0 {
         return;
     }
     let label = layout(word!(language, "machines in use", "máquinas em uso").into());
-    let corner = pos2(area.left(), area.top() + lanes.head - label.size().y - 4.0);
+    let corner = pos2(area.left(), area.top() + lanes.header_height - label.size().y - 4.0);
     painter.galley(corner, label, look.quiet);
 }
 
@@ -332,7 +333,7 @@ fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
 fn describe(response: &Response, stage: &Stage, language: Language) {
     widgets::describe(response, word!(language, "Timeline", "Linha do tempo"), || {
         let [until, length] =
-            [stage.lasted(), stage.told_length()].map(|time| time_words(time, stage.grain(), language));
+            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.grain(), language));
         let is_over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if is_over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
         let usage = usage_figures(stage, language).join(" · ");

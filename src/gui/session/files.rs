@@ -7,7 +7,7 @@ use super::super::settings::Settings;
 use super::Notice;
 use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
-use super::performer::RunSource;
+use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
 use crate::driver::Retrace;
@@ -118,7 +118,7 @@ impl Session {
     /// Writes the run's records to the file of `--log`, if given, before the window closes. Reports a failure on
     /// standard error, since the window is gone.
     pub fn save_log_on_exit(&self) {
-        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer)
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source)
             && let Err(error) = self.stage.log.save(path)
         {
             eprintln!("anel: {error}");
@@ -144,7 +144,7 @@ impl Session {
     /// Writes the records in the background to the file of `--log`, if given.
     pub(super) fn write_log(&self) {
         let language = self.language;
-        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer) {
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source) {
             self.jobs.save_run(path.clone(), self.stage.log.clone(), language);
         }
     }

@@ -28,8 +28,6 @@ pub(super) type Tamper = Box<dyn FnMut(Party, &Action) -> usize + Send>;
 pub(super) enum Violation {
     #[error("the run does not end")]
     Endless,
-    #[error("node {node} starts atom {atom} after its shutdown")]
-    StartedAfterShutdown { node: NodeId, atom: Atom },
     #[error("node {node} sends atom {atom}, which it has not traced")]
     SentUntraced { node: NodeId, atom: Atom },
     #[error("the offer that node {offerer} made at {} s is in two places", made.secs())]
@@ -86,12 +84,8 @@ struct Check<'a> {
     violation: Option<Violation>,
     /// By node: atoms traced and not yet sent.
     traced: Vec<BTreeSet<Atom>>,
-    /// By node: whether it has received its shutdown.
-    stopped: Vec<bool>,
     /// By atom: how often its result has reached the parent.
     placed: Vec<u32>,
-    /// Shutdowns in flight.
-    shutdowns: BTreeSet<u64>,
     /// Results in flight to the parent.
     results: ResultsInFlight,
     /// Offers by offerer and time, with the stops left when last sent.
@@ -110,9 +104,7 @@ impl<'a> Check<'a> {
             totals: RunTotals::default(),
             violation: None,
             traced: vec![BTreeSet::new(); nodes],
-            stopped: vec![false; nodes],
             placed: vec![0; plan.costs.len()],
-            shutdowns: BTreeSet::new(),
             results: ResultsInFlight::default(),
             offers: BTreeMap::new(),
             messages: 0,
@@ -129,27 +121,17 @@ impl<'a> Check<'a> {
             self.placed[atom as usize] += 1;
         }
         match &record.what {
-            RecordKind::Sent { id, from, message, .. } => self.sent(*id, *from, message),
-            RecordKind::Received { id, by: Party::Node(node) } if self.shutdowns.remove(id) => {
-                self.stopped[usize::from(*node)] = true;
-            }
-            RecordKind::AtomStarted { node, atom } if self.stopped[usize::from(*node)] => {
-                self.fail(Violation::StartedAfterShutdown { node: *node, atom: *atom });
-            }
+            RecordKind::Sent { from, message, .. } => self.sent(*from, message),
             RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
                 self.traced[usize::from(*node)].insert(*atom);
             }
-            // A machine that restarts has forgotten its atoms and its shutdown.
-            RecordKind::Condition { node, condition: Condition::Off } => {
-                self.traced[usize::from(*node)].clear();
-                self.stopped[usize::from(*node)] = false;
-            }
+            RecordKind::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
             _ => {}
         }
     }
 
-    fn sent(&mut self, id: u64, from: Party, message: &Message) {
+    fn sent(&mut self, from: Party, message: &Message) {
         self.messages += 1;
         match (from, message) {
             (Party::Node(node), Message::Results(ranges)) => {
@@ -171,7 +153,6 @@ impl<'a> Check<'a> {
                     self.fail(Violation::AgainWithoutLoss(ranges.clone()));
                 }
             }
-            (Party::Parent, Message::Shutdown) => _ = self.shutdowns.insert(id),
             (Party::Parent, Message::Gone(_)) => self.gone += 1,
             _ => {}
         }

@@ -149,7 +149,7 @@ fn report(
          stand still, hang, are cut off, are switched off and restart, join, or are lost for good; links are cut and \
          repaired; and messages are delayed by up to 10 s. In the end at least one machine works. Every run must \
          satisfy these conditions: it ends; the picture is whole, and each atom was traced by the node that sent it; \
-         no node starts an atom after its shutdown; no offer is in two places; no atom is handed out again where \
+         no offer is in two places; no atom is handed out again where \
          nothing was lost; and the number of messages stays within the bound of the adaptive ring's README.\n",
         seeds.start,
         seeds.end.saturating_sub(1)

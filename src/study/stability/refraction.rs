@@ -23,8 +23,8 @@ pub(super) fn cases() -> [StabilityCase; 3] {
             title: "The critical angle",
             about: "Rays inside glass (n = 1.5) that meet its face at a small angle above or below the critical one \
                     (41.81°: at 41.80° light refracts, at 41.82° it reflects), the face in a random orientation: is \
-                    the light transmitted? A method that takes the root of 1 − n² sin² without checking its sign gets \
-                    NaN where light is reflected. Truth: the exact sign of the radicand, for the given ray and \
+                    the light transmitted? A method that takes the root of 1 − n² sin² without checking its sign has \
+                    no result where light is reflected. Truth: the exact sign of the radicand, for the given ray and \
                     normal.",
             parameter: "angle off the critical angle, radians",
             values: powers_of_10(-1, -16),

@@ -1,22 +1,23 @@
-//! The sentence for each thing that happens in a run.
+//! Sentences for the events of a run.
 
-use super::happening::{Giver, Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
+use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
+use super::transfer_sentences;
 use crate::balance::{NodeId, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, counted, duration, fraction, names, node_name};
 
-/// Until all costs of a run in virtual time are known.
+/// Sentence for a run in virtual time whose costs are not known yet.
 pub(crate) fn before_virtual_time(language: Language) -> &'static str {
     word!(
         language,
-        "Virtual time begins when the picture is traced and its costs are known",
-        "O tempo virtual começa quando a imagem está calculada e os custos são conhecidos"
+        "Virtual time begins when the picture is traced and all costs are known",
+        "O tempo virtual começa quando a imagem está calculada e todos os custos são conhecidos"
     )
 }
 
 impl Happening {
-    /// One sentence without a full stop.
+    /// Puts it into one sentence without a full stop.
     pub fn sentence(&self, language: Language) -> String {
         match self {
             Self::Complete => word!(language, "The picture is complete", "A imagem está completa").into(),
@@ -36,21 +37,20 @@ impl Happening {
                 let each = duration(*handling, language);
                 say!(
                     language,
-                    "{waiting} messages wait at the parent, which needs {each} for each",
-                    "{waiting} mensagens esperam pelo pai, que leva {each} em cada uma"
+                    "{waiting} messages wait at the parent; it needs {each} for each",
+                    "{waiting} mensagens esperam pelo pai; ele leva {each} em cada uma"
                 )
             }
             Self::BandsDone(nodes) => bands_done(language, nodes),
             Self::Retired { nodes, reason } => retired(language, nodes, *reason),
             &Self::Offer { node, reason } => offer(language, node, reason),
-            &Self::Theft { thief, from, atoms } => {
-                let (thief, atoms, from) = (node_name(thief), atoms_words(atoms, language), node_name(from));
-                say!(language, "{thief} steals {atoms} from {from}", "{thief} rouba {atoms} de {from}")
+            &Self::Theft { thief, from, atoms } => transfer_sentences::theft(language, thief, from, atoms),
+            &Self::Takeover { from, to, atoms, giver } => {
+                transfer_sentences::takeover(language, from, to, atoms, giver)
             }
-            &Self::Takeover { from, to, atoms, giver } => takeover(language, from, to, atoms, giver),
-            &Self::Gift { from, to, atoms, slow_at } => gift(language, from, to, atoms, slow_at),
+            &Self::Gift { from, to, atoms, slow_at } => transfer_sentences::gift(language, from, to, atoms, slow_at),
             Self::SmallTransfers { from, to, transfers, atoms, is_theft } => {
-                small_transfers(language, (*from, to), (*transfers, *atoms), *is_theft)
+                transfer_sentences::small_transfers(language, (*from, to), (*transfers, *atoms), *is_theft)
             }
             &Self::Speed { node, speed, effect } => self::speed(language, node, speed, effect),
             &Self::Paused { node, atoms, effect } => paused(language, node, atoms, effect),
@@ -59,11 +59,11 @@ impl Happening {
                 if is_stopped {
                     say!(
                         language,
-                        "Machine {name} is no longer paused, but its speed is 0 %",
-                        "A máquina {name} saiu da pausa, mas sua velocidade é 0 %"
+                        "Machine {name} is not paused any more, but its speed is 0 %",
+                        "A máquina {name} não está mais em pausa, mas sua velocidade é 0 %"
                     )
                 } else {
-                    say!(language, "Machine {name} goes on", "A máquina {name} continua")
+                    say!(language, "Machine {name} continues", "A máquina {name} continua")
                 }
             }
             &Self::Latency { latency, is_hop } => {
@@ -74,9 +74,9 @@ impl Happening {
                 };
                 let takes = duration(latency, language);
                 if latency.is_zero() {
-                    say!(language, "{what} takes no time now", "{what} agora não leva tempo")
+                    say!(language, "{what} now takes no time", "{what} agora não leva tempo")
                 } else {
-                    say!(language, "{what} takes {takes} now", "{what} agora leva {takes}")
+                    say!(language, "{what} now takes {takes}", "{what} agora leva {takes}")
                 }
             }
             Self::Failure(failure) => failure.sentence(language),
@@ -88,8 +88,8 @@ fn bands(language: Language, machines: usize, first: u32, is_whole: bool, sharin
     match machines {
         _ if sharing == Sharing::Stealing => say!(
             language,
-            "{machines} threads trace the picture: an idle thread steals from another",
-            "{machines} threads calculam a imagem: uma thread ociosa rouba de outra"
+            "{machines} threads trace the picture; an idle thread steals from another",
+            "{machines} threads calculam a imagem; uma thread ociosa rouba de outra"
         ),
         _ if sharing.is_farm() => {
             let part = atoms_words(first, language);
@@ -129,8 +129,8 @@ fn part(language: Language, to: NodeId, atoms: u32) -> String {
     match atoms {
         0 => say!(
             language,
-            "{name} asks the parent for more, but all is given away: it is no longer needed",
-            "{name} pede mais ao pai, mas tudo já foi dado: ela não é mais necessária"
+            "{name} asks for more, but the parent has no more: {name} is no longer needed",
+            "{name} pede mais, mas o pai não tem mais: {name} não é mais necessária"
         ),
         _ => {
             say!(language, "{name} asks the parent for more and gets {gets}", "{name} pede mais ao pai e recebe {gets}")
@@ -143,12 +143,12 @@ fn bands_done(language: Language, nodes: &[NodeId]) -> String {
     match nodes {
         [_] => say!(
             language,
-            "{who} is done and waits: nobody shares with it",
+            "{who} has finished and waits: nobody shares with it",
             "{who} terminou e espera: ninguém divide com ela"
         ),
         _ => say!(
             language,
-            "{who} are done and wait: nobody shares with them",
+            "{who} have finished and wait: nobody shares with them",
             "{who} terminaram e esperam: ninguém divide com elas"
         ),
     }
@@ -158,26 +158,34 @@ fn retired(language: Language, nodes: &[NodeId], reason: Retirement) -> String {
     let who = names(nodes, language);
     match (nodes, reason) {
         ([_], Retirement::NothingLeft) => {
-            say!(language, "{who} asked for more, but all is given away", "{who} pediu mais, mas tudo já foi dado")
+            say!(
+                language,
+                "{who} asked for more, but the parent has no more",
+                "{who} pediu mais, mas o pai não tem mais"
+            )
         }
         (_, Retirement::NothingLeft) => {
-            say!(language, "{who} asked for more, but all is given away", "{who} pediram mais, mas tudo já foi dado")
+            say!(
+                language,
+                "{who} asked for more, but the parent has no more",
+                "{who} pediram mais, mas o pai não tem mais"
+            )
         }
         ([_], Retirement::Sleeps) => {
-            say!(language, "{who} sleeps until somebody needs it", "{who} dorme até que alguém precise dela")
+            say!(language, "{who} sleeps until it is needed", "{who} dorme até ser necessária")
         }
         (_, Retirement::Sleeps) => {
-            say!(language, "{who} sleep until somebody needs them", "{who} dormem até que alguém precise delas")
+            say!(language, "{who} sleep until they are needed", "{who} dormem até serem necessárias")
         }
         ([_], Retirement::OfferCameBack) => say!(
             language,
-            "{who}'s offer came back, nobody needs its help: it retires",
-            "A oferta de {who} voltou, ninguém quer ajuda: ela não é mais necessária"
+            "{who}'s offer came back: nobody needs its help, and it retires",
+            "A oferta de {who} voltou: ninguém precisa de ajuda, e ela é dispensada"
         ),
         (_, Retirement::OfferCameBack) => say!(
             language,
             "{who} retire: their offers came back, nobody needs their help",
-            "{who} não são mais necessárias: suas ofertas voltaram, ninguém quer ajuda"
+            "{who} são dispensadas: suas ofertas voltaram, ninguém precisa de ajuda"
         ),
     }
 }
@@ -208,87 +216,29 @@ fn offer(language: Language, node: NodeId, reason: OfferReason) -> String {
     }
 }
 
-fn takeover(language: Language, from: NodeId, to: NodeId, atoms: u32, giver: Giver) -> String {
-    let state = match giver {
-        Giver::Paused => word!(language, "is paused", "está em pausa").into(),
-        Giver::Stopped => word!(language, "stands still", "está parada").into(),
-        Giver::Slow(speed) => {
-            let speed = fraction(speed);
-            say!(language, "is slow ({speed})", "é lenta ({speed})")
-        }
-        Giver::Busy => word!(language, "is still busy", "ainda está ocupada").into(),
-    };
-    let (giver, offerer) = (node_name(from), node_name(to));
-    let atoms = if atoms == 1 { word!(language, "one atom", "um átomo").into() } else { atoms_words(atoms, language) };
-    say!(
-        language,
-        "{offerer} has finished and takes over {atoms} from {giver}, which {state}",
-        "{offerer} terminou e assume {atoms} de {giver}, que {state}"
-    )
-}
-
-fn gift(language: Language, from: NodeId, to: NodeId, atoms: u32, slow_at: Option<f64>) -> String {
-    let (giver, atoms, to) = (node_name(from), atoms_words(atoms, language), node_name(to));
-    let giver = slow_at.map_or(giver.to_string(), |speed| {
-        let speed = fraction(speed);
-        say!(language, "{giver}, slow at {speed},", "{giver}, lenta a {speed},")
-    });
-    say!(
-        language,
-        "{giver} gave {atoms} to {to}, which had finished",
-        "{giver} deu {atoms} a {to}, que tinha terminado"
-    )
-}
-
-fn small_transfers(
-    language: Language,
-    (from, to): (NodeId, &[NodeId]),
-    (transfers, all): (u32, u32),
-    is_theft: bool,
-) -> String {
-    let (giver, takers, words) = (node_name(from), names(to, language), atoms_words(all, language));
-    if is_theft && to.len() == 1 {
-        say!(
-            language,
-            "{takers} steals few atoms at a time from {giver}: {words}",
-            "{takers} rouba poucos átomos por vez de {giver}: {words}"
-        )
-    } else if is_theft {
-        say!(
-            language,
-            "{takers} steal few atoms at a time from {giver}: {words}",
-            "{takers} roubam poucos átomos por vez de {giver}: {words}"
-        )
-    } else if to.len() == 1 {
-        say!(language, "{giver} gave {words} to {takers}", "{giver} deu {words} a {takers}")
-    } else if all as usize == to.len() {
-        say!(language, "{giver} gave 1 atom to {takers}", "{giver} deu 1 átomo a {takers}")
-    } else {
-        say!(
-            language,
-            "{giver} gave few atoms at a time to {takers}: {all} in {transfers} parcels",
-            "{giver} deu poucos átomos por vez a {takers}: {all} em {transfers} pacotes"
-        )
-    }
-}
-
 fn speed(language: Language, node: NodeId, speed: f64, effect: SpeedEffect) -> String {
     let (name, new) = (node_name(node), fraction(speed));
     let effect = match effect {
         SpeedEffect::AfterPause => {
             return say!(
                 language,
-                "Machine {name} is paused; it will go on at {new}",
+                "Machine {name} is paused; it will continue at {new}",
                 "A máquina {name} está em pausa; vai continuar a {new}"
             );
         }
         SpeedEffect::None => None,
-        SpeedEffect::NobodyHelps => Some(word!(language, "nobody will make up for it", "ninguém vai compensar")),
-        SpeedEffect::BandSooner => Some(word!(language, "its band is done sooner", "sua faixa acaba antes")),
+        SpeedEffect::NobodyHelps => {
+            Some(word!(language, "nobody will take over its work", "ninguém vai assumir seu trabalho"))
+        }
+        SpeedEffect::BandSooner => {
+            Some(word!(language, "it will finish its band sooner", "vai terminar sua faixa antes"))
+        }
         SpeedEffect::AsksLess => Some(word!(language, "it will ask less often", "vai pedir menos vezes")),
         SpeedEffect::AsksMore => Some(word!(language, "it will ask more often", "vai pedir mais vezes")),
-        SpeedEffect::KeepsPart => Some(word!(language, "what it has stays with it", "o que tem fica com ela")),
-        SpeedEffect::OthersHelp => Some(word!(language, "the others will make up for it", "as outras vão compensar")),
+        SpeedEffect::KeepsPart => Some(word!(language, "it keeps its atoms", "fica com seus átomos")),
+        SpeedEffect::OthersHelp => {
+            Some(word!(language, "the others will take over its work", "as outras vão assumir seu trabalho"))
+        }
         SpeedEffect::TakesMore => Some(word!(language, "it can take more work", "pode assumir mais trabalho")),
     };
     let runs = if speed == 0.0 {
@@ -310,8 +260,8 @@ fn paused(language: Language, node: NodeId, atoms: u32, effect: PauseEffect) -> 
         }
         PauseEffect::NobodyHelps => say!(
             language,
-            "{paused}: its {atoms} wait, nobody will make up for it",
-            "{paused} com {atoms}: ninguém vai compensar"
+            "{paused} with {atoms}: nobody will take over its work",
+            "{paused} com {atoms}: ninguém vai assumir seu trabalho"
         ),
         PauseEffect::KeepsPipe if count == 1 => {
             say!(language, "{paused} and keeps the atom in its pipe", "{paused} e fica com o átomo em seu pipe")
@@ -320,7 +270,11 @@ fn paused(language: Language, node: NodeId, atoms: u32, effect: PauseEffect) -> 
             say!(language, "{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe")
         }
         PauseEffect::OthersHelp => {
-            say!(language, "{paused}: the others will make up for it", "{paused}: as outras vão compensar")
+            say!(
+                language,
+                "{paused}: the others will take over its work",
+                "{paused}: as outras vão assumir seu trabalho"
+            )
         }
     }
 }
@@ -336,7 +290,7 @@ mod tests {
     use crate::view::state::run_state::RunState;
     use crate::view::tests::sample_runs;
 
-    /// A run by this strategy in which each of two machines has nine atoms.
+    /// A run by `strategy` in which each of two machines has nine atoms.
     fn run(strategy: Strategy) -> RunState {
         let mut header = sample_runs::header(&[1.0, 1.0], 90);
         header.rules.strategy = strategy;
@@ -351,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_change_means_depends_on_how_atoms_are_shared() {
+    fn effect_of_a_change_depends_on_the_strategy() {
         let said = |strategy| {
             let state = run(strategy);
             let set = |before, now| {
@@ -362,13 +316,10 @@ mod tests {
         };
         assert_eq!(
             said(Strategy::Static),
-            ["nobody will make up for it", "its band is done sooner", "nobody will make up for it"]
+            ["nobody will take over its work", "it will finish its band sooner", "nobody will take over its work"]
         );
-        assert_eq!(
-            said(Strategy::Farm),
-            ["it will ask less often", "it will ask more often", "what it has stays with it"]
-        );
-        let others = "the others will make up for it";
+        assert_eq!(said(Strategy::Farm), ["it will ask less often", "it will ask more often", "it keeps its atoms"]);
+        let others = "the others will take over its work";
         assert_eq!(said(Strategy::Ring), [others, "it can take more work", others]);
         assert_eq!(
             Happening::paused(&run(Strategy::Farm), 1).sentence(Language::English),
@@ -376,12 +327,12 @@ mod tests {
         );
         assert_eq!(
             Happening::paused(&run(Strategy::Static), 1).sentence(Language::English),
-            "Machine 2 is paused: its 9 atoms wait, nobody will make up for it"
+            "Machine 2 is paused with 9 atoms: nobody will take over its work"
         );
         let ms = Duration::from_millis(90);
         assert_eq!(
             Happening::latency(&run(Strategy::Farm), ms).sentence(Language::English),
-            "A message takes 90 ms now"
+            "A message now takes 90 ms"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Failures of machines and links, and what the adaptive ring does about them, with the facts that the sentence needs.
+//! Failures of machines and links, and steps of the recovery, with the facts that their sentences need.
 
 use std::time::Duration;
 
@@ -9,27 +9,27 @@ use crate::view::state::run_state::RunState;
 /// A failure, or a step of the recovery from one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// A machine is switched off with this many atoms; `is_recovered` if the parent will notice.
+    /// A machine is switched off while it has `atoms`; `is_recovered` if the parent will hand them out again.
     SwitchedOff { node: NodeId, atoms: u32, is_recovered: bool },
-    /// A machine hangs with this many atoms; `is_recovered` if the parent will notice.
+    /// A machine hangs while it has `atoms`; `is_recovered` if the parent will notice.
     Hung { node: NodeId, atoms: u32, is_recovered: bool },
     /// A machine is cut off.
     CutOff(NodeId),
     /// A spare machine joins.
     Joined(NodeId),
-    /// A machine that was off starts anew and asks to be let in.
+    /// A machine that was off starts again and asks to be let in.
     Restarted(NodeId),
-    /// A machine that was off starts anew, and the ring does not let it in.
+    /// A machine that was off starts again, and the ring does not let it in.
     RestartedOutside(NodeId),
-    /// A machine that was cut off can be reached.
+    /// A machine that was cut off can be reached again.
     Reachable(NodeId),
-    /// A machine that hung goes on.
+    /// A machine that hung continues.
     Continues(NodeId),
-    /// The parent misses one node, not heard of for `silent`.
+    /// The parent has not heard from a node for `silent`.
     Missed { node: NodeId, silent: Duration },
-    /// The parent misses several nodes.
+    /// The parent does not hear from several nodes.
     MissedMany(Vec<NodeId>),
-    /// The parent hears of nodes again.
+    /// The parent hears from nodes again.
     Returned(Vec<NodeId>),
     /// Messages from one party to another are held up.
     Delayed { from: Party, to: Party, by: Duration },
@@ -42,7 +42,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A machine's condition has changed; `None` for a machine that the run does not have.
+    /// Describes the change of a machine's condition; `None` for a machine that the run does not have.
     pub(crate) fn condition(state: &RunState, node: NodeId) -> Option<Self> {
         let machine = state.nodes().get(usize::from(node))?;
         let is_recovered = state.has(Remedy::Leases);
@@ -58,7 +58,7 @@ impl Failure {
         })
     }
 
-    /// The parent tells who is gone; `None` if it tells the same again.
+    /// Describes the parent's list of missing nodes; `None` if it has not changed.
     pub(crate) fn ring_changed(state: &RunState, now: Time) -> Option<Self> {
         let without = |all: &[NodeId], others: &[NodeId]| -> Vec<NodeId> {
             all.iter().copied().filter(|node| !others.contains(node)).collect()

@@ -1,4 +1,4 @@
-//! The sentence for each failure and each step of the recovery.
+//! Sentences for failures and for the steps of the recovery.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use crate::language::{Language, say, word};
 use crate::view::text::format::{atoms_words, duration, names, node_name};
 
 impl Failure {
-    /// One sentence without a full stop.
+    /// Puts it into one sentence without a full stop.
     pub(crate) fn sentence(&self, language: Language) -> String {
         match self {
             &Self::SwitchedOff { node, atoms, is_recovered } => switched_off(language, node, atoms, is_recovered),
@@ -17,15 +17,15 @@ impl Failure {
                 let name = node_name(node);
                 say!(
                     language,
-                    "Machine {name} is cut off: it traces on, but nothing comes from it or to it",
-                    "A máquina {name} está isolada: calcula, mas nada sai dela nem chega a ela"
+                    "Machine {name} is cut off: it still traces, but no message leaves it or reaches it",
+                    "A máquina {name} está isolada: ainda calcula, mas nenhuma mensagem sai dela ou chega a ela"
                 )
             }
             &Self::Joined(node) => {
                 let name = node_name(node);
                 say!(
                     language,
-                    "Machine {name} joins: it asks the parent to be let in",
+                    "Machine {name} joins: it asks the parent to let it in",
                     "A máquina {name} chega e pede ao pai para entrar"
                 )
             }
@@ -33,7 +33,7 @@ impl Failure {
                 let name = node_name(node);
                 say!(
                     language,
-                    "Machine {name} begins anew and asks the parent to be let in",
+                    "Machine {name} starts again and asks the parent to let it in",
                     "A máquina {name} recomeça e pede ao pai para entrar"
                 )
             }
@@ -41,8 +41,8 @@ impl Failure {
                 let name = node_name(node);
                 say!(
                     language,
-                    "Machine {name} is on again, but has forgotten all, and nobody lets it in",
-                    "A máquina {name} voltou, mas esqueceu tudo, e ninguém a deixa entrar"
+                    "Machine {name} starts again, but it has forgotten everything, and nobody lets it in",
+                    "A máquina {name} recomeça, mas esqueceu tudo, e ninguém a deixa entrar"
                 )
             }
             &Self::Reachable(node) => {
@@ -51,22 +51,22 @@ impl Failure {
             }
             &Self::Continues(node) => {
                 let name = node_name(node);
-                say!(language, "Machine {name} goes on where it was", "A máquina {name} continua de onde estava")
+                say!(language, "Machine {name} continues where it stopped", "A máquina {name} continua de onde parou")
             }
             Self::Missed { node, silent } => {
                 let (name, silent) = (node_name(*node), duration(*silent, language));
                 say!(
                     language,
-                    "The parent has not heard of machine {name} for {silent}: the ring closes round it",
-                    "O pai não ouve a máquina {name} há {silent}: o anel se fecha sem ela"
+                    "The parent has not heard from machine {name} for {silent}: the ring closes round it",
+                    "O pai não recebe nada da máquina {name} há {silent}: o anel se fecha sem ela"
                 )
             }
             Self::MissedMany(nodes) => {
                 let who = names(nodes, language);
                 say!(
                     language,
-                    "The parent does not hear of machines {who}: the ring closes round them",
-                    "O pai não ouve as máquinas {who}: o anel se fecha sem elas"
+                    "The parent does not hear from machines {who}: the ring closes round them",
+                    "O pai não recebe nada das máquinas {who}: o anel se fecha sem elas"
                 )
             }
             Self::Returned(nodes) => {
@@ -74,13 +74,13 @@ impl Failure {
                 match **nodes {
                     [_] => say!(
                         language,
-                        "The parent hears of machine {who}: the ring opens for it",
-                        "O pai ouve a máquina {who}: o anel se abre para ela"
+                        "The parent hears from machine {who} again: the ring opens for it",
+                        "O pai volta a receber da máquina {who}: o anel se abre para ela"
                     ),
                     _ => say!(
                         language,
-                        "The parent hears of machines {who}: the ring opens for them",
-                        "O pai ouve as máquinas {who}: o anel se abre para elas"
+                        "The parent hears from machines {who} again: the ring opens for them",
+                        "O pai volta a receber das máquinas {who}: o anel se abre para elas"
                     ),
                 }
             }
@@ -97,14 +97,14 @@ fn hung(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> Str
     if is_recovered {
         say!(
             language,
-            "Machine {name} hangs, neither traces nor answers: the parent will miss it",
-            "A máquina {name} travou, não calcula nem responde: o pai vai notar"
+            "Machine {name} hangs: it neither traces nor answers, and the parent will notice",
+            "A máquina {name} travou: não calcula nem responde, e o pai vai notar"
         )
     } else {
         say!(
             language,
-            "Machine {name} hangs with {left}: messages to it wait, offers too",
-            "A máquina {name} travou com {left}: as mensagens para ela esperam, as ofertas também"
+            "Machine {name} hangs with {left}: messages to it wait, and offers too",
+            "A máquina {name} travou com {left}: as mensagens para ela esperam, e as ofertas também"
         )
     }
 }
@@ -116,24 +116,24 @@ fn delayed(language: Language, (from, to): (Party, Party), by: Duration) -> Stri
             let (from, to) = (node_name(from), node_name(to));
             say!(
                 language,
-                "What machine {from} sends to machine {to} is held up for {by}",
-                "O que a máquina {from} manda à máquina {to} fica retido por {by}"
+                "Messages from machine {from} to machine {to} are held up for {by}",
+                "As mensagens da máquina {from} à máquina {to} ficam retidas por {by}"
             )
         }
         (Party::Node(from), Party::Parent) => {
             let from = node_name(from);
             say!(
                 language,
-                "What machine {from} sends to the parent is held up for {by}",
-                "O que a máquina {from} manda ao pai fica retido por {by}"
+                "Messages from machine {from} to the parent are held up for {by}",
+                "As mensagens da máquina {from} ao pai ficam retidas por {by}"
             )
         }
         (Party::Parent, Party::Node(to)) => {
             let to = node_name(to);
             say!(
                 language,
-                "What the parent sends to machine {to} is held up for {by}",
-                "O que o pai manda à máquina {to} fica retido por {by}"
+                "Messages from the parent to machine {to} are held up for {by}",
+                "As mensagens do pai à máquina {to} ficam retidas por {by}"
             )
         }
         (Party::Parent, Party::Parent) => String::new(),
@@ -150,13 +150,13 @@ fn handed_out_again(language: Language, to: &[NodeId], atoms: u32) -> String {
     match atoms {
         1 => say!(
             language,
-            "{what} that nobody has is given out again to {machine} {who}",
-            "{what} que ninguém tem é dado de novo {machine} {who}"
+            "{what} is missing: the parent hands it out again to {machine} {who}",
+            "Falta {what}: o pai o dá de novo {machine} {who}"
         ),
         _ => say!(
             language,
-            "{what} that nobody has are given out again to {machine} {who}",
-            "{what} que ninguém tem são dados de novo {machine} {who}"
+            "{what} are missing: the parent hands them out again to {machine} {who}",
+            "Faltam {what}: o pai os dá de novo {machine} {who}"
         ),
     }
 }
@@ -166,18 +166,18 @@ fn copies(language: Language, from: NodeId, to: &[NodeId], atoms: u32) -> String
     match (to, atoms) {
         ([_], 1) => say!(
             language,
-            "Machine {who} traces an atom again that is late at machine {late}",
-            "A máquina {who} calcula de novo um átomo que tarda na máquina {late}"
+            "Machine {who} traces a copy of an atom that is late at machine {late}",
+            "A máquina {who} calcula uma cópia de um átomo atrasado na máquina {late}"
         ),
         ([_], _) => say!(
             language,
-            "Machine {who} traces {atoms} atoms again that are late at machine {late}",
-            "A máquina {who} calcula de novo {atoms} átomos que tardam na máquina {late}"
+            "Machine {who} traces copies of {atoms} atoms that are late at machine {late}",
+            "A máquina {who} calcula cópias de {atoms} átomos atrasados na máquina {late}"
         ),
         _ => say!(
             language,
-            "Machines {who} trace {atoms} atoms again that are late at machine {late}",
-            "As máquinas {who} calculam de novo {atoms} átomos que tardam na máquina {late}"
+            "Machines {who} trace copies of {atoms} atoms that are late at machine {late}",
+            "As máquinas {who} calculam cópias de {atoms} átomos atrasados na máquina {late}"
         ),
     }
 }
@@ -200,6 +200,7 @@ fn wakes(language: Language, from: NodeId, to: &[NodeId]) -> String {
 
 fn switched_off(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> String {
     let (name, took) = (node_name(node), atoms_words(atoms, language));
+    let (them, los) = if atoms == 1 { ("it", "lo") } else { ("them", "los") };
     match atoms {
         0 => {
             say!(
@@ -210,13 +211,13 @@ fn switched_off(language: Language, node: NodeId, atoms: u32, is_recovered: bool
         }
         _ if is_recovered => say!(
             language,
-            "Machine {name} is switched off with {took}, until the parent misses them",
-            "A máquina {name} foi desligada com {took}, até que o pai dê por falta"
+            "Machine {name} is switched off with {took}: the parent will hand {them} out again",
+            "A máquina {name} foi desligada com {took}: o pai vai dá-{los} de novo"
         ),
         _ => say!(
             language,
-            "Machine {name} is switched off with {took}, which nobody has now",
-            "A máquina {name} foi desligada com {took}, que agora ninguém tem"
+            "Machine {name} is switched off with {took}, and nobody will trace {them}",
+            "A máquina {name} foi desligada com {took}, e ninguém vai calculá-{los}"
         ),
     }
 }
@@ -232,61 +233,61 @@ mod tests {
     use crate::view::state::run_state::RunState;
     use crate::view::tests::sample_runs;
 
-    /// What the list of events has told in all of a run of four machines to which this was done.
+    /// All sentences of the list of events, in a run of four machines with `script`.
     fn story(strategy: Strategy, speeds: &[f64], script: &[(f64, Command)]) -> Vec<String> {
         let mut header = sample_runs::header(speeds, 900);
         header.rules.strategy = strategy;
         let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
-        let (mut state, mut narrator, mut told) = (RunState::new(&header), Narrator::default(), Vec::new());
+        let (mut state, mut narrator, mut sentences) = (RunState::new(&header), Narrator::default(), Vec::new());
         Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
             state.apply(&record);
             narrator.apply(&record, &state);
             for (_, event) in narrator.events() {
                 let sentence = event.sentence(Language::English);
-                if !told.contains(&sentence) {
-                    told.push(sentence);
+                if !sentences.contains(&sentence) {
+                    sentences.push(sentence);
                 }
             }
         });
-        told
+        sentences
     }
 
-    fn has(told: &[String], begins: &str, ends: &str) {
+    fn has(sentences: &[String], begins: &str, ends: &str) {
         let is_it = |sentence: &String| sentence.starts_with(begins) && sentence.ends_with(ends);
-        assert!(told.iter().any(is_it), "{begins} … {ends}: {told:#?}");
+        assert!(sentences.iter().any(is_it), "{begins} … {ends}: {sentences:#?}");
     }
 
     const OFF: Command = Command::Condition { node: 2, condition: Condition::Off };
     const WELL: Command = Command::Condition { node: 2, condition: Condition::Well };
 
     #[test]
-    fn the_ring_that_adapts_tells_how_it_mends_a_loss() {
-        let told = story(Strategy::Adaptive, &[1.0; 4], &[(1.0, OFF), (2.3, WELL)]);
-        has(&told, "Machine 3 is switched off with ", ", until the parent misses them");
-        has(&told, "The parent has not heard of machine 3 for ", ": the ring closes round it");
-        has(&told, "", "that nobody has are given out again to machine 1");
-        has(&told, "Machine 3 begins anew and asks the parent to be let in", "");
-        has(&told, "The parent hears of machine 3: the ring opens for it", "");
-        let bands = told.iter().filter(|sentence| sentence.contains("band of the picture")).count();
-        assert_eq!(bands, 1, "whoever is let in gets no band: {told:#?}");
+    fn adaptive_ring_tells_how_it_recovers() {
+        let sentences = story(Strategy::Adaptive, &[1.0; 4], &[(1.0, OFF), (2.3, WELL)]);
+        has(&sentences, "Machine 3 is switched off with ", " out again");
+        has(&sentences, "The parent has not heard from machine 3 for ", ": the ring closes round it");
+        has(&sentences, "", " are missing: the parent hands them out again to machine 1");
+        has(&sentences, "Machine 3 starts again and asks the parent to let it in", "");
+        has(&sentences, "The parent hears from machine 3 again: the ring opens for it", "");
+        let bands = sentences.iter().filter(|sentence| sentence.contains("band of the picture")).count();
+        assert_eq!(bands, 1, "a machine that is let in gets no band: {sentences:#?}");
     }
 
     #[test]
-    fn the_ring_that_adapts_tells_whom_it_wakes_and_what_it_copies() {
+    fn adaptive_ring_tells_of_sleepers_and_copies() {
         let slow = Command::Speed { node: 3, speed: 0.01 };
-        let told = story(Strategy::Adaptive, &[1.0; 4], &[(2.25, slow)]);
-        has(&told, "Machine ", " traces an atom again that is late at machine 4");
-        has(&told, "", "until somebody needs it");
+        let sentences = story(Strategy::Adaptive, &[1.0; 4], &[(2.25, slow)]);
+        has(&sentences, "Machine ", " traces a copy of an atom that is late at machine 4");
+        has(&sentences, "", " sleeps until it is needed");
     }
 
     #[test]
-    fn the_articles_ring_tells_what_it_cannot_mend() {
-        let told = story(Strategy::Ring, &[1.0; 4], &[(1.0, OFF), (1.5, WELL)]);
-        has(&told, "Machine 3 is switched off with ", "which nobody has now");
-        has(&told, "Machine 3 is on again, but has forgotten all, and nobody lets it in", "");
+    fn articles_ring_tells_what_it_cannot_recover() {
+        let sentences = story(Strategy::Ring, &[1.0; 4], &[(1.0, OFF), (1.5, WELL)]);
+        has(&sentences, "Machine 3 is switched off with ", ", and nobody will trace them");
+        has(&sentences, "Machine 3 starts again, but it has forgotten everything, and nobody lets it in", "");
         let hung = Command::Condition { node: 2, condition: Condition::Hung };
-        let told = story(Strategy::Ring, &[1.0; 4], &[(1.0, hung), (1.5, WELL)]);
-        has(&told, "Machine 3 hangs with ", "messages to it wait, offers too");
-        has(&told, "Machine 3 goes on where it was", "");
+        let sentences = story(Strategy::Ring, &[1.0; 4], &[(1.0, hung), (1.5, WELL)]);
+        has(&sentences, "Machine 3 hangs with ", "messages to it wait, and offers too");
+        has(&sentences, "Machine 3 continues where it stopped", "");
     }
 }

@@ -1,4 +1,4 @@
-//! What happened in a run, with the facts that its sentence needs; the sentence itself is made where it is drawn.
+//! Events of a run, with the facts that their sentences need. The sentences are made where they are drawn.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -12,7 +12,7 @@ use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 
-/// Something that happened, in any language.
+/// An event of a run, without a language.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the comment on a variant covers its fields")]
 pub enum Happening {
@@ -29,13 +29,13 @@ pub enum Happening {
         is_whole: bool,
         sharing: Sharing,
     },
-    /// A node of a farm asked and got this many atoms.
+    /// A node of a farm asked for atoms and got this many.
     Part { to: NodeId, atoms: u32 },
     /// The parent of a farm has handed out this many parts so far.
     PartsSoFar(u32),
-    /// Messages wait at the parent, which handles each for `handling`.
+    /// Messages wait at the parent, which needs `handling` for each.
     Queue { waiting: usize, handling: Duration },
-    /// Nodes have traced their fixed bands, others have not.
+    /// Nodes have finished their fixed bands; others have not.
     BandsDone(Vec<NodeId>),
     /// Nodes retire.
     Retired { nodes: Vec<NodeId>, reason: Retirement },
@@ -43,21 +43,21 @@ pub enum Happening {
     Offer { node: NodeId, reason: OfferReason },
     /// A thread stole atoms.
     Theft { thief: NodeId, from: NodeId, atoms: u32 },
-    /// An offerer takes atoms over.
+    /// A node that made an offer takes over atoms.
     Takeover { from: NodeId, to: NodeId, atoms: u32, giver: Giver },
-    /// An offerer was given atoms; the giver's speed if it is slow.
+    /// A node that made an offer was given atoms; `slow_at` is the giver's speed if it is slow.
     Gift { from: NodeId, to: NodeId, atoms: u32, slow_at: Option<f64> },
-    /// Small transfers of one giver, taken together.
+    /// Small transfers of one giver, joined.
     SmallTransfers { from: NodeId, to: Vec<NodeId>, transfers: u32, atoms: u32, is_theft: bool },
-    /// A machine has another speed.
+    /// A machine's speed is changed.
     Speed { node: NodeId, speed: f64, effect: SpeedEffect },
-    /// A machine is paused while it has this many atoms.
+    /// A machine is paused while it has `atoms`.
     Paused { node: NodeId, atoms: u32, effect: PauseEffect },
     /// A machine's pause is over; its speed may still be 0.
     Resumed { node: NodeId, is_stopped: bool },
-    /// All links have another latency.
+    /// The latency of all links is changed.
     Latency { latency: Duration, is_hop: bool },
-    /// A machine or a link failed, or the ring recovers.
+    /// A machine or a link fails, or the ring recovers.
     Failure(Failure),
 }
 
@@ -85,59 +85,59 @@ pub enum OfferReason {
     NoAtomsLeft,
 }
 
-/// How a node is that gives atoms away.
+/// State of a node that gives atoms away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Giver {
     /// Paused.
     Paused,
     /// At speed 0.
     Stopped,
-    /// At a speed that is slow.
+    /// Slow, at this speed.
     Slow(f64),
-    /// At work.
+    /// Busy, at a usual speed.
     Busy,
 }
 
-/// What a new speed means for the run.
+/// Effect of a new speed on the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpeedEffect {
-    /// Nothing changes.
+    /// No effect.
     None,
-    /// It acts only when the machine's pause is over.
+    /// It has an effect only after the machine's pause.
     AfterPause,
-    /// Nobody takes over its band.
+    /// Nobody takes over atoms of its band.
     NobodyHelps,
-    /// Its band is done sooner.
+    /// It finishes its band sooner.
     BandSooner,
     /// It asks the parent less often.
     AsksLess,
     /// It asks the parent more often.
     AsksMore,
-    /// What it has stays with it.
+    /// It keeps its atoms.
     KeepsPart,
-    /// The other machines take over.
+    /// The other machines take over its work.
     OthersHelp,
     /// It can take more work.
     TakesMore,
 }
 
-/// What a pause means for the atoms of the machine.
+/// Effect of a pause on the atoms of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PauseEffect {
-    /// Nothing.
+    /// No effect.
     None,
-    /// They stay with it as its part of a farm.
+    /// It keeps them: they are its part of a farm.
     KeepsPart,
-    /// They wait, since nobody takes over a band.
+    /// They wait: nobody takes over atoms of a band.
     NobodyHelps,
     /// They are in its pipe and stay there.
     KeepsPipe,
-    /// The other machines take over.
+    /// The other machines take them over.
     OthersHelp,
 }
 
 impl Happening {
-    /// What a record tells by itself; `None` for messages and atoms. `state` already knows the record.
+    /// Describes a record that needs no context; `None` for messages and atoms. `state` already knows the record.
     pub(crate) fn of(record: &Record, state: &RunState) -> Option<Self> {
         Some(match &record.what {
             RecordKind::Estimating => Self::Estimating,
@@ -158,19 +158,19 @@ impl Happening {
         })
     }
 
-    /// The parent hands out bands, of which `first` is the first.
+    /// Describes the parent's bands; `first` is the first of them.
     pub(crate) fn bands(state: &RunState, first: &Range<Atom>) -> Self {
         let first = first.len() as u32;
         let machines = state.nodes().iter().filter(|node| !node.spare).count();
         Self::Bands { machines, first, is_whole: first == state.atoms(), sharing: state.sharing }
     }
 
-    /// Messages wait at the parent.
+    /// Describes `waiting` messages at the parent.
     pub(crate) fn queue(state: &RunState, waiting: usize) -> Self {
         Self::Queue { waiting, handling: state.handling }
     }
 
-    /// Nodes retire.
+    /// Describes why nodes retire.
     pub(crate) fn retired(state: &RunState, nodes: Vec<NodeId>) -> Self {
         let reason = match () {
             () if state.sharing.is_farm() => Retirement::NothingLeft,
@@ -180,7 +180,7 @@ impl Happening {
         Self::Retired { nodes, reason }
     }
 
-    /// A node offers help after it has traced `done` atoms; `whole` if these are its whole band.
+    /// Describes an offer by a node that has traced `done` atoms; `whole` if these are its whole band.
     pub(crate) fn offer(state: &RunState, node: NodeId, whole: bool, done: u32) -> Self {
         let is_early = state.has(Remedy::Early) && machine(state, node).is_some_and(|of| of.left() > 0);
         let reason = match (whole, done) {
@@ -192,7 +192,7 @@ impl Happening {
         Self::Offer { node, reason }
     }
 
-    /// Atoms go from one node to another.
+    /// Describes a transfer while it happens.
     pub(crate) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
         if state.sharing == Sharing::Stealing {
             return Self::Theft { thief: to, from, atoms };
@@ -206,7 +206,7 @@ impl Happening {
         Self::Takeover { from, to, atoms, giver }
     }
 
-    /// Atoms went from one node to another, as the list of events tells it.
+    /// Describes a transfer for the list of events.
     pub(crate) fn gift(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
         if state.sharing == Sharing::Stealing {
             return Self::Theft { thief: to, from, atoms };
@@ -215,7 +215,7 @@ impl Happening {
         Self::Gift { from, to, atoms, slow_at }
     }
 
-    /// A machine has another speed; `before` is the speed before the user began to change it.
+    /// Describes a new speed; `before` is the speed before the user began to change it.
     pub(crate) fn speed(state: &RunState, node: NodeId, before: f64, speed: f64) -> Self {
         let change = speed.total_cmp(&before);
         let effect = match change {
@@ -236,7 +236,7 @@ impl Happening {
         Self::Speed { node, speed, effect }
     }
 
-    /// A machine is paused.
+    /// Describes a pause.
     pub(crate) fn paused(state: &RunState, node: NodeId) -> Self {
         let Some(machine) = machine(state, node) else {
             return Self::Paused { node, atoms: 0, effect: PauseEffect::None };
@@ -253,18 +253,18 @@ impl Happening {
         Self::Paused { node, atoms, effect }
     }
 
-    /// A machine's pause is over.
+    /// Describes the end of a pause.
     pub(crate) fn resumed(state: &RunState, node: NodeId) -> Self {
         Self::Resumed { node, is_stopped: machine(state, node).is_some_and(|machine| machine.speed == 0.0) }
     }
 
-    /// All links have another latency.
+    /// Describes a new latency of all links.
     pub(crate) fn latency(state: &RunState, latency: Duration) -> Self {
         Self::Latency { latency, is_hop: state.sharing.is_ring() }
     }
 }
 
-/// Whether a machine is so slow that the others notice.
+/// Whether a machine is slow: slower than half of the usual speed.
 pub(crate) fn is_slow(node: &NodeState) -> bool {
     node.speed < 0.5
 }

@@ -1,4 +1,4 @@
-//! A run in sentences: events, failures, and the state of the machines.
+//! A run in sentences: its events, its failures, and its status.
 
 pub mod event_sentences;
 pub mod events;
@@ -8,3 +8,4 @@ pub mod happening;
 pub mod narrator;
 pub mod record_sentences;
 pub mod status;
+mod transfer_sentences;

@@ -1,4 +1,4 @@
-//! What a record says in a sentence, and why it came so: for whoever goes through a run event by event.
+//! Sentences for single records, with their reasons, for stepping through a run.
 
 use super::happening::Happening;
 use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy};
@@ -10,7 +10,7 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, count, duration, node_name, party_name};
 use crate::view::text::tooltips::flight_words;
 
-/// What happened, in a sentence; `state` already knows it.
+/// Puts a record into a sentence; `state` already knows the record.
 pub fn record_words(record: &Record, state: &RunState, language: Language) -> String {
     if let Some(happening) = Happening::of(record, state) {
         return happening.sentence(language);
@@ -18,7 +18,7 @@ pub fn record_words(record: &Record, state: &RunState, language: Language) -> St
     match &record.what {
         RecordKind::Sent { id, .. } => match state.flight(*id) {
             Some(flight) => sent_words(flight, state, language),
-            None => word!(language, "A message leaves", "Parte uma mensagem").into(),
+            None => word!(language, "A message is sent", "Uma mensagem é enviada").into(),
         },
         RecordKind::Received { id, by } => {
             let by = match by {
@@ -27,7 +27,7 @@ pub fn record_words(record: &Record, state: &RunState, language: Language) -> St
             };
             match state.flight(*id).map(|flight| flight_words(flight, language)) {
                 Some(what) => {
-                    say!(language, "{by} handles what has arrived: {what}", "{by} atende o que chegou: {what}")
+                    say!(language, "{by} handles a message: {what}", "{by} atende uma mensagem: {what}")
                 }
                 None => say!(language, "{by} handles a message", "{by} atende uma mensagem"),
             }
@@ -56,7 +56,11 @@ pub fn record_words(record: &Record, state: &RunState, language: Language) -> St
                     "A ligação entre {one} e {other} foi cortada"
                 )
             } else {
-                say!(language, "The link between {one} and {other} is mended", "A ligação entre {one} e {other} voltou")
+                say!(
+                    language,
+                    "The link between {one} and {other} works again",
+                    "A ligação entre {one} e {other} voltou"
+                )
             }
         }
         RecordKind::Lost { .. } => word!(language, "A message is lost", "Uma mensagem se perde").into(),
@@ -96,11 +100,11 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
             Happening::offer(state, *who, true, done).sentence(language)
         }
         (Party::Node(from), Party::Node(to), Cargo::Offer { who }) => {
-            let left = state.nodes().get(usize::from(from)).map_or(0, |node| waiting(node.left()));
+            let left = state.nodes().get(usize::from(from)).map_or(0, |node| atoms_in_queue(node.left()));
             let why = if left == 0 {
-                word!(language, "no atom waits with it", "nenhum átomo espera nela")
+                word!(language, "it has no waiting atoms", "não tem átomos à espera")
             } else {
-                word!(language, "what it could give is not worth it", "o que poderia dar não vale a pena")
+                word!(language, "its waiting atoms are not worth a transfer", "seus átomos não valem um envio")
             };
             let [from, who, to] = [from, *who, to].map(node_name);
             say!(
@@ -113,18 +117,19 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
     }
 }
 
-/// Why a transfer, the last thing that has happened, has so many atoms (§7); `None` where nobody has weighed anything.
+/// Explains the number of atoms in a transfer, the latest record of `state` (§7); `None` for work stealing, which does
+/// not compute a share.
 pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, language: Language) -> Option<String> {
     if !matches!(state.sharing(), Sharing::By(_)) {
         return None;
     }
     if state.has(Remedy::Speed) {
         return Some(
-            word!(language, "by their speeds both end together", "por suas velocidades, terminam juntas").into(),
+            word!(language, "at their speeds both finish together", "com suas velocidades, terminam juntas").into(),
         );
     }
     let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
-    let (own, offered, waits) = (owner?.done, offerer?.offered, waiting(owner?.left()) + atoms);
+    let (own, offered, waits) = (owner?.done, offerer?.offered, atoms_in_queue(owner?.left()) + atoms);
     let (from, to) = (node_name(from), node_name(to));
     let (atoms, verb) = (atoms_words(waits, language), if waits == 1 { "esperava" } else { "esperavam" });
     let waits = say!(language, "of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
@@ -132,13 +137,13 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, langu
         (0, 0) => {
             say!(
                 language,
-                "{waits}, half, since neither had traced any",
+                "{waits}, half, because neither machine had traced any",
                 "{waits}, a metade, pois nenhuma tinha calculado nada"
             )
         }
         (_, 0) => say!(
             language,
-            "{waits}, one for a trial, since machine {to} had traced none",
+            "{waits}, one as a trial, because machine {to} had traced none",
             "{waits}, um como teste, pois a máquina {to} não tinha calculado nenhum"
         ),
         _ => {
@@ -152,8 +157,8 @@ pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, langu
     })
 }
 
-/// How many of a node's atoms nobody has begun: what is in its pipe stays there.
-fn waiting(left: u32) -> u32 {
+/// Returns how many of a node's `left` atoms wait in its queue, outside its pipe.
+fn atoms_in_queue(left: u32) -> u32 {
     left.saturating_sub(PIPE_ATOMS)
 }
 
@@ -164,7 +169,7 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn every_record_is_told_and_a_share_is_what_its_reason_says() {
+    fn every_record_has_words_and_shares_match_their_reasons() {
         let language = Language::English;
         let header = sample_runs::header(&[1.0, 0.7, 0.9, 0.5, 0.1], 900);
         let mut state = RunState::new(&header);
@@ -183,7 +188,7 @@ mod tests {
                 let atoms: u32 = ranges.iter().map(|range| range.len() as u32).sum();
                 let [owner, offerer] = [*from, *to].map(|node| &state.nodes()[usize::from(node)]);
                 let (own, offered) = (f64::from(owner.done), f64::from(offerer.offered));
-                let waits = f64::from(waiting(owner.left()) + atoms);
+                let waits = f64::from(atoms_in_queue(owner.left()) + atoms);
                 assert!((waits * offered / (offered + own) - f64::from(atoms)).abs() <= 0.5, "{words}");
                 assert!(words.contains(" that waited with machine "), "{words}");
                 shares += 1;
@@ -193,16 +198,16 @@ mod tests {
     }
 
     #[test]
-    fn whoever_passes_an_offer_on_says_why() {
+    fn passed_on_offer_has_a_reason() {
         let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 300);
         let mut state = RunState::new(&header);
-        let mut told = Vec::new();
+        let mut sentences = Vec::new();
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            told.push(record_words(&record, &state, language));
+            sentences.push(record_words(&record, &state, language));
         }
-        assert!(told.iter().any(|words| words.ends_with(": no atom waits with it")), "{told:#?}");
-        assert!(told.iter().any(|words| words.starts_with("1 handles what has arrived: ")), "{told:#?}");
+        assert!(sentences.iter().any(|words| words.ends_with(": it has no waiting atoms")), "{sentences:#?}");
+        assert!(sentences.iter().any(|words| words.starts_with("1 handles a message: ")), "{sentences:#?}");
     }
 }

@@ -1,4 +1,4 @@
-//! The view's own clock: which moment of a run is shown, and how fast its time goes.
+//! The playback clock: which time of a run is shown, and how fast it goes on.
 
 use std::time::Duration;
 
@@ -6,133 +6,134 @@ use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::text::format::count;
 
-/// How fast a run's time goes before the user's eyes, in seconds of the run a second; the last is as fast as one can.
+/// Playback rates: run seconds per wall second. The last is as fast as possible.
 pub const RATES: [f64; 17] =
     [1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, f64::INFINITY];
 
-const USUAL: usize = 12;
+/// Index of rate 1 in [`RATES`].
+const REAL_TIME_INDEX: usize = 12;
 
-/// A clock that shows a run's time: it follows the run's own clock (it is *live*), or goes through what has happened.
+/// Clock of the shown time. It follows the run's own clock (*live*), or plays the recorded part.
 #[derive(Clone, Copy, Debug)]
 pub struct Playback {
-    /// In nanoseconds of the run; a fraction of one counts where time goes slowly.
+    /// The shown time in nanoseconds of the run; fractions count at slow rates.
     now: f64,
-    /// The latest that was shown.
+    /// The latest time that was shown.
     reached: f64,
-    live: bool,
-    stands: bool,
-    rate: usize,
+    is_live: bool,
+    is_paused: bool,
+    rate_index: usize,
 }
 
 impl Playback {
-    /// Shows what happens as it happens.
+    /// Starts live.
     pub fn live() -> Self {
-        Self { now: 0.0, reached: 0.0, live: true, stands: false, rate: USUAL }
+        Self { now: 0.0, reached: 0.0, is_live: true, is_paused: false, rate_index: REAL_TIME_INDEX }
     }
 
-    /// Goes through what has happened, from its beginning.
-    pub fn from_the_beginning() -> Self {
-        Self { live: false, ..Self::live() }
+    /// Starts at the beginning of the record.
+    pub fn from_start() -> Self {
+        Self { is_live: false, ..Self::live() }
     }
 
-    /// The shown time.
+    /// Returns the shown time.
     pub fn now(&self) -> Time {
         Time(self.now as u64)
     }
 
-    /// The latest time that was shown.
+    /// Returns the latest time that was shown.
     pub fn reached(&self) -> Time {
         Time(self.reached as u64)
     }
 
     /// Whether it follows the run's own clock.
     pub fn is_live(&self) -> bool {
-        self.live
+        self.is_live
     }
 
-    /// Whether it stands still, apart from following the run.
-    pub fn stands(&self) -> bool {
-        self.stands
+    /// Whether playback is paused; while live this has no effect.
+    pub fn is_paused(&self) -> bool {
+        self.is_paused
     }
 
-    /// Seconds of the run that go by in a second.
+    /// Playback rate: run seconds per wall second.
     pub fn rate(&self) -> f64 {
-        RATES[self.rate]
+        RATES[self.rate_index]
     }
 
-    /// Which of [`RATES`].
+    /// Returns the index of the rate in [`RATES`].
     pub fn rate_index(&self) -> usize {
-        self.rate
+        self.rate_index
     }
 
-    /// Sets one of [`RATES`].
+    /// Sets the rate by its index in [`RATES`].
     pub fn set_rate(&mut self, index: usize) {
-        self.rate = index.min(RATES.len() - 1);
+        self.rate_index = index.min(RATES.len() - 1);
     }
 
-    /// Faster or slower by so many of [`RATES`].
+    /// Changes the rate by this many steps of [`RATES`].
     pub fn change_rate(&mut self, by: isize) {
-        self.set_rate(self.rate.saturating_add_signed(by));
+        self.set_rate(self.rate_index.saturating_add_signed(by));
     }
 
-    /// A moment has passed, in which the run's clock has come to `head`. Where `head_keeps_pace` the run itself goes as
-    /// fast as is asked here, so that whoever follows it never falls behind.
-    pub fn advance(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
-        self.go(passed, head, head_keeps_pace);
+    /// Advances by `passed` of wall time; the run's own clock is at `head`. With `run_keeps_pace` the run itself goes
+    /// at the playback rate, so a live clock never falls behind.
+    pub fn advance(&mut self, passed: Duration, head: Time, run_keeps_pace: bool) {
+        self.go(passed, head, run_keeps_pace);
         self.reached = self.reached.max(self.now);
     }
 
-    fn go(&mut self, passed: Duration, head: Time, head_keeps_pace: bool) {
+    fn go(&mut self, passed: Duration, head: Time, run_keeps_pace: bool) {
         let head = head.0 as f64;
-        if self.live && (self.rate() >= 1.0 || head_keeps_pace) {
+        if self.is_live && (self.rate() >= 1.0 || run_keeps_pace) {
             self.now = head;
             return;
         }
-        // Slower than the run: it is left behind.
-        self.live = false;
-        if !self.stands {
+        // Slower than the run: it is not live any more.
+        self.is_live = false;
+        if !self.is_paused {
             let further = self.now + passed.as_nanos() as f64 * self.rate();
-            // Nothing times infinity is no number.
+            // 0 × ∞ is not a number.
             self.now = if further.is_nan() { self.now } else { further };
         }
         if self.now >= head {
-            (self.now, self.live) = (head, self.rate() >= 1.0 || head_keeps_pace);
+            (self.now, self.is_live) = (head, self.rate() >= 1.0 || run_keeps_pace);
         }
     }
 
-    /// Shows another moment, and whether time goes on from there.
-    pub fn seek(&mut self, time: Time, stands: bool) {
-        (self.now, self.live, self.stands) = (time.0 as f64, false, stands);
+    /// Shows another time, paused or playing from there.
+    pub fn seek(&mut self, time: Time, is_paused: bool) {
+        (self.now, self.is_live, self.is_paused) = (time.0 as f64, false, is_paused);
         self.reached = self.reached.max(self.now);
     }
 
-    /// Follows the run again.
+    /// Follows the run again, at rate 1 or faster.
     pub fn follow(&mut self) {
-        (self.live, self.stands) = (true, false);
-        self.rate = self.rate.max(USUAL);
+        (self.is_live, self.is_paused) = (true, false);
+        self.rate_index = self.rate_index.max(REAL_TIME_INDEX);
     }
 
-    /// Stands still, or goes on.
-    pub fn set_stands(&mut self, stands: bool) {
-        self.stands = stands;
+    /// Pauses or resumes playback.
+    pub fn set_paused(&mut self, is_paused: bool) {
+        self.is_paused = is_paused;
     }
 }
 
-/// A rate in words: `1 000 × slower`, `2 × faster`.
+/// Puts a playback rate into words: `1 000 × slower`, `2 × faster`.
 pub fn rate_of_time_words(rate: f64, language: Language) -> String {
     let times = count((1.0 / rate).round() as u32);
     if rate.is_infinite() {
-        word!(language, "as fast as it can", "o mais rápido possível").into()
+        word!(language, "as fast as possible", "o mais rápido possível").into()
     } else if rate < 1.0 {
         say!(language, "{times} × slower", "{times} × mais lento")
     } else if rate > 1.0 {
         say!(language, "{rate} × faster", "{rate} × mais rápido")
     } else {
-        word!(language, "in its own time", "em seu próprio tempo").into()
+        word!(language, "in real time", "em tempo real").into()
     }
 }
 
-/// The same where there is little room: `1/1 000 ×`, `2 ×`.
+/// Puts a playback rate into few letters: `1/1 000 ×`, `2 ×`.
 pub fn short_rate_words(rate: f64, language: Language) -> String {
     if rate.is_infinite() {
         word!(language, "fastest", "máximo").into()
@@ -152,8 +153,8 @@ mod tests {
     const FRAME: Duration = Duration::from_millis(40);
 
     #[test]
-    fn what_was_reached_stays_reached() {
-        let mut playback = Playback::from_the_beginning();
+    fn reached_time_never_decreases() {
+        let mut playback = Playback::from_start();
         playback.advance(Duration::from_secs(2), Time::from_secs(9.0), false);
         playback.seek(Time::from_secs(1.0), true);
         assert_eq!((playback.now(), playback.reached()), (Time::from_secs(1.0), Time::from_secs(2.0)));
@@ -162,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn it_follows_until_it_is_slower_and_catches_up_when_it_is_faster() {
+    fn slow_clock_leaves_live_and_fast_clock_catches_up() {
         let mut clock = Playback::live();
         clock.advance(FRAME, Time(5_000), false);
         assert_eq!((clock.now(), clock.is_live()), (Time(5_000), true));
@@ -176,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_keeps_pace_is_followed_at_any_rate() {
+    fn run_that_keeps_pace_is_followed_at_any_rate() {
         let mut clock = Playback::live();
         clock.set_rate(0);
         clock.advance(FRAME, Time(40), true);
@@ -184,24 +185,24 @@ mod tests {
     }
 
     #[test]
-    fn a_million_times_slower_still_goes_on() {
-        let mut clock = Playback::from_the_beginning();
+    fn slowest_rate_still_advances() {
+        let mut clock = Playback::from_start();
         clock.set_rate(0);
-        // A nanosecond a millisecond, in frames that are no whole number of nanoseconds.
+        // A nanosecond of the run per millisecond, in frames of a fraction of a nanosecond.
         (0..3_000).for_each(|_| clock.advance(Duration::from_micros(1_500), Time::from_secs(1.0), false));
         assert!(clock.now().0.abs_diff(4_500) <= 1, "{:?}", clock.now());
     }
 
     proptest! {
         #[test]
-        fn it_never_goes_back_nor_beyond_the_run(
+        fn clock_goes_neither_back_nor_beyond_the_run(
             frames in prop::collection::vec((0..100u64, 0..200_000_000u64, -2..=2isize, any::<bool>()), 1..60),
         ) {
-            let (mut clock, mut head) = (Playback::from_the_beginning(), 0);
-            for (ms, further, by, stands) in frames {
+            let (mut clock, mut head) = (Playback::from_start(), 0);
+            for (ms, further, by, is_paused) in frames {
                 head += further;
                 clock.change_rate(by);
-                clock.set_stands(stands);
+                clock.set_paused(is_paused);
                 let before = clock.now();
                 clock.advance(Duration::from_millis(ms), Time(head), false);
                 prop_assert!(before <= clock.now() && clock.now() <= Time(head));
@@ -211,11 +212,11 @@ mod tests {
     }
 
     #[test]
-    fn rates_are_told_in_words() {
+    fn rates_have_words() {
         let said = [1e-6, 0.5, 1.0, 2.0, f64::INFINITY].map(|rate| rate_of_time_words(rate, Language::English));
         let expected =
-            ["1\u{a0}000\u{a0}000 × slower", "2 × slower", "in its own time", "2 × faster", "as fast as it can"];
+            ["1\u{a0}000\u{a0}000 × slower", "2 × slower", "in real time", "2 × faster", "as fast as possible"];
         assert_eq!(said, expected);
-        assert!(RATES.is_sorted() && RATES[USUAL] == 1.0);
+        assert!(RATES.is_sorted() && RATES[REAL_TIME_INDEX] == 1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Runs beside each other: what each has come to at one time, and what it amounts to.
+//! Runs side by side: the state of each at one time, and its time budget.
 
 use std::sync::Arc;
 
@@ -12,86 +12,86 @@ use crate::view::picture::canvas::Canvas;
 use crate::view::picture::overlay::Layer;
 use crate::view::state::lanes::Lanes;
 
-/// One of several runs that are over, at the time that is shown of all of them.
+/// One of several finished runs, at the shown time.
 #[derive(Clone, Debug)]
 pub struct ComparedRun {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// All of it.
+    /// All of its records.
     pub log: Arc<RunLog>,
-    /// What it amounts to; `None` if its picture was never completed.
-    pub account: Option<TimeBudget>,
+    /// Its time budget; `None` if its picture was never complete.
+    pub budget: Option<TimeBudget>,
     /// What each machine did and when.
     pub lanes: Lanes,
     /// Its machines' colours.
     pub colours: Vec<Rgb>,
-    past: SnapshotCache,
-    moment: Snapshot,
+    cache: SnapshotCache,
+    snapshot: Snapshot,
     canvas: Canvas,
 }
 
 impl ComparedRun {
-    /// A run and its picture's pixels in scan order, before anything has happened.
+    /// Creates a run at its beginning; `pixels` is its whole picture in scan order.
     pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
         let header = &log.header;
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
         canvas.take(0..header.division.atoms(), pixels);
-        let (moment, lanes) = (Snapshot::new(header), Lanes::of(&log));
-        canvas.show_all(&moment.state);
+        let (snapshot, lanes) = (Snapshot::new(header), Lanes::of(&log));
+        canvas.show_all(&snapshot.state);
         Self {
             name,
-            account: TimeBudget::new(&log, &lanes),
+            budget: TimeBudget::new(&log, &lanes),
             log,
             lanes,
             colours,
-            past: SnapshotCache::default(),
-            moment,
+            cache: SnapshotCache::default(),
+            snapshot,
             canvas,
         }
     }
 
-    /// How long its records go on.
+    /// Returns the length of its record.
     pub fn length(&self) -> Time {
         self.log.end()
     }
 
-    /// When its picture was complete; never, perhaps.
+    /// Returns when its picture was complete; `None` if never.
     pub fn end(&self) -> Option<Time> {
-        self.account.as_ref().map(|account| Time::ZERO + account.makespan)
+        self.budget.as_ref().map(|budget| Time::ZERO + budget.makespan)
     }
 
-    /// What is known at the shown time.
-    pub fn moment(&self) -> &Snapshot {
-        &self.moment
+    /// Returns its state at the shown time.
+    pub fn snapshot(&self) -> &Snapshot {
+        &self.snapshot
     }
 
     /// Shows another time.
     pub fn show(&mut self, time: Time) {
         let records = self.log.until(time);
-        if records == self.moment.records() {
+        if records == self.snapshot.records() {
             return;
         }
-        if self.past.go(&self.log, records, &mut self.moment) {
-            for atoms in self.moment.state.take_touched() {
-                self.canvas.show(atoms, &self.moment.state);
+        if self.cache.seek(&self.log, records, &mut self.snapshot) {
+            for atoms in self.snapshot.state.take_touched() {
+                self.canvas.show(atoms, &self.snapshot.state);
             }
         } else {
-            self.moment.state.take_touched();
-            self.canvas.show_all(&self.moment.state);
+            self.snapshot.state.take_touched();
+            self.canvas.show_all(&self.snapshot.state);
         }
     }
 
-    /// Its picture: the render (0), a layer (1) or something between.
+    /// Returns its picture with a layer over it, at an opacity of 0 to 1.
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
-        self.canvas.set_look(look, ground, &self.moment.state);
+        self.canvas.set_look(look, ground, &self.snapshot.state);
         &mut self.canvas
     }
 }
 
-/// When the last of them is over.
-pub fn length_of_all(contenders: &[ComparedRun]) -> Time {
-    contenders.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
+/// Returns the length of the longest run.
+pub fn length_of_all(runs: &[ComparedRun]) -> Time {
+    runs.iter().map(ComparedRun::length).max().unwrap_or(Time::ZERO)
 }
 
 #[cfg(test)]
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
     use crate::view::tests::sample_runs;
 
-    fn contender(speeds: &[f64]) -> ComparedRun {
+    fn compared_run(speeds: &[f64]) -> ComparedRun {
         let header = sample_runs::header(speeds, 300);
         let mut log = RunLog::new(header.clone());
         log.add(sample_runs::records(&header));
@@ -110,19 +110,19 @@ mod tests {
     }
 
     #[test]
-    fn at_each_time_a_run_shows_what_it_had_come_to() {
-        let mut shown = contender(&[1.0, 0.2]);
+    fn run_shows_its_state_at_each_time() {
+        let mut shown = compared_run(&[1.0, 0.2]);
         let rows = |shown: &mut ComparedRun| -> Vec<Rgb> {
             let all: Range<u32> = 0..shown.log.header.size.height();
             shown.canvas((Layer::Owners, 0.0), [0; 3]).rows(all).to_vec()
         };
         let end = shown.length();
         shown.show(end);
-        let (complete, done) = (rows(&mut shown), shown.moment().state.done());
-        assert_eq!((done, shown.moment().state.finished().is_some()), (300, true));
+        let (complete, done) = (rows(&mut shown), shown.snapshot().state.done());
+        assert_eq!((done, shown.snapshot().state.finished().is_some()), (300, true));
         assert!(shown.end().is_some_and(|complete| complete <= end));
         shown.show(Time(end.0 / 2));
-        assert!((10..290).contains(&shown.moment().state.done()));
+        assert!((10..290).contains(&shown.snapshot().state.done()));
         assert_ne!(rows(&mut shown), complete);
         shown.show(end);
         assert_eq!(rows(&mut shown), complete);

@@ -1,4 +1,4 @@
-//! What there is to know of a machine, an atom or a message: what lights up with it, and what is said of it.
+//! Details of a machine, an atom or a message: its words and its highlight.
 
 use std::ops::Range;
 
@@ -18,68 +18,68 @@ use crate::view::text::format::{count, duration, node_name, time_words};
 use crate::view::text::tooltips::{Fact, atom_words, flight_words, node_facts};
 use crate::view::timeline::landmarks::Subject;
 
-/// What is known of it whatever moment is shown; found by looking through the run, so not for every frame.
+/// Details of a subject that do not depend on the shown time. Found by a search through the run, so not in every frame.
 #[derive(Clone, Debug)]
 pub struct Details {
-    /// What it is of.
-    pub about: Subject,
+    /// The machine, atom or message.
+    pub subject: Subject,
     /// The message itself.
     flight: Option<Flight>,
-    /// Why it carries so much.
+    /// Why the message carries this number of atoms.
     why: Option<String>,
     /// Who traced the atom, and when.
     bar: Option<(NodeId, Traced)>,
 }
 
-/// What lights up.
+/// Machines, atoms and a message that are highlighted in all views.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Highlight {
     /// Machines.
     pub nodes: Vec<NodeId>,
     /// Atoms.
     pub atoms: Vec<Range<Atom>>,
-    /// A message, by its name in the run.
+    /// A message, by its id in the run.
     pub message: Option<u64>,
     /// The bar of an atom.
     pub bar: Option<(NodeId, Traced)>,
 }
 
 impl Details {
-    /// Looks through the run for what is known of `about`.
-    pub fn of(about: Subject, log: &RunLog, lanes: &Lanes, past: &mut SnapshotCache, language: Language) -> Self {
-        let mut dossier = Self { about, flight: None, why: None, bar: None };
-        match about {
+    /// Searches the run for the details of `subject`.
+    pub fn of(subject: Subject, log: &RunLog, lanes: &Lanes, cache: &mut SnapshotCache, language: Language) -> Self {
+        let mut details = Self { subject, flight: None, why: None, bar: None };
+        match subject {
             Subject::Node(_) => {}
-            Subject::Atom(atom) => dossier.bar = lanes.bar_of(atom),
+            Subject::Atom(atom) => details.bar = lanes.bar_of(atom),
             Subject::Message(id) => {
                 let is_it = |what: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
-                let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return dossier };
+                let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return details };
                 let record = &log.records()[index];
-                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return dossier };
+                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return details };
                 let flight = Flight::new(id, (*from, *to), message, record.at, *arrives);
                 if let (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) = (*from, *to, &flight.cargo) {
-                    let mut moment = Snapshot::new(&log.header);
-                    past.go(log, index + 1, &mut moment);
-                    dossier.why = share_words(&moment.state, from, to, flight.cargo.atoms(), language);
+                    let mut snapshot = Snapshot::new(&log.header);
+                    cache.seek(log, index + 1, &mut snapshot);
+                    details.why = share_words(&snapshot.state, from, to, flight.cargo.atoms(), language);
                 }
-                dossier.flight = Some(flight);
+                details.flight = Some(flight);
             }
         }
-        dossier
+        details
     }
 
     /// Whether nothing more can become known of it.
     pub fn is_complete(&self) -> bool {
-        match self.about {
+        match self.subject {
             Subject::Node(_) => true,
             Subject::Atom(_) => self.bar.is_some(),
             Subject::Message(_) => self.flight.is_some(),
         }
     }
 
-    /// What lights up with it, where `state` is shown.
-    pub fn lit(&self, state: &RunState) -> Highlight {
-        match self.about {
+    /// Returns the highlight of the subject while `state` is shown.
+    pub fn highlight(&self, state: &RunState) -> Highlight {
+        match self.subject {
             Subject::Node(node) => {
                 let mut atoms = Vec::new();
                 for (atom, place) in (0..).zip(state.places()) {
@@ -106,10 +106,9 @@ impl Details {
         }
     }
 
-    /// What is said of it at `now`: a title, and a line of what else there is. Times are told as exactly as
-    /// [`time_words`] does at the rate `grain`.
+    /// Returns a title and a line of details at `now`. Times have the precision of [`time_words`] at the rate `grain`.
     pub fn words(&self, state: &RunState, now: Time, grain: f64, language: Language) -> (String, String) {
-        match self.about {
+        match self.subject {
             Subject::Node(node) => {
                 let facts = node_facts(state, node, now, language);
                 let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
@@ -142,15 +141,15 @@ impl Details {
                 let traced = self.bar.map(|(node, bar)| {
                     let (name, took) = (node_name(node), duration(bar.to.since(bar.from), language));
                     let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01, language));
-                    let is = if bar.to <= now {
-                        word!(language, "was", "o calculou")
+                    let traces = if bar.to <= now {
+                        word!(language, "traced", "o calculou")
                     } else {
-                        word!(language, "will be", "o calculará")
+                        word!(language, "will trace", "o calculará")
                     };
                     say!(
                         language,
-                        " · machine {name} {is} at it from {from} to {to}, for {took} at its speed",
-                        " · a máquina {name} {is} de {from} a {to}, {took} à sua velocidade"
+                        " · machine {name} {traces} it from {from} to {to}: {took} at its speed",
+                        " · a máquina {name} {traces} de {from} a {to}: {took} à sua velocidade"
                     )
                 });
                 (atom_words(state, atom, now, language), format!("{place}{}", traced.unwrap_or_default()))
@@ -158,7 +157,7 @@ impl Details {
             Subject::Message(_) => match &self.flight {
                 None => {
                     let title =
-                        word!(language, "A message that is not known any more", "Uma mensagem que não se conhece mais");
+                        word!(language, "This message is no longer known", "Esta mensagem não é mais conhecida");
                     (title.into(), String::new())
                 }
                 Some(flight) => {
@@ -173,8 +172,8 @@ impl Details {
                     };
                     let more = say!(
                         language,
-                        "{why}left at {sent}, {arrived} at {arrives}, {took} later",
-                        "{why}saiu em {sent}, {arrived} em {arrives}, {took} depois"
+                        "{why}sent at {sent}, {arrived} at {arrives}, {took} later",
+                        "{why}enviada em {sent}, {arrived} em {arrives}, {took} depois"
                     );
                     (flight_words(flight, language), more)
                 }
@@ -191,35 +190,38 @@ mod tests {
     use crate::view::timeline::landmarks::landmarks;
 
     #[test]
-    fn the_biggest_transfer_says_why_it_is_that_big_and_which_atoms_it_has() {
+    fn biggest_transfer_has_a_reason_and_its_atoms() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 1.0, 0.1], 900);
-        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
+        let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);
         let found = landmarks(&log, language);
         let biggest = found.iter().find(|mark| mark.words.starts_with("The biggest")).unwrap();
-        let mut past = SnapshotCache::default();
-        let dossier = Details::of(biggest.about, &log, &lanes, &mut past, language);
-        let lit = dossier.lit(&moment.state);
-        let (title, more) = dossier.words(&moment.state, moment.state.head(), 1.0, language);
-        let atoms: usize = lit.atoms.iter().map(Range::len).sum();
-        assert!(lit.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
+        let mut cache = SnapshotCache::default();
+        let details = Details::of(biggest.subject, &log, &lanes, &mut cache, language);
+        let highlight = details.highlight(&snapshot.state);
+        let (title, more) = details.words(&snapshot.state, snapshot.state.head(), 1.0, language);
+        let atoms: usize = highlight.atoms.iter().map(Range::len).sum();
+        assert!(highlight.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(
-            more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("left at "),
+            more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("sent at "),
             "{more}"
         );
     }
 
     #[test]
-    fn an_atom_lights_up_its_bar_and_its_machine() {
+    fn atom_highlights_its_bar_and_its_machine() {
         let language = Language::English;
         let log = sample_runs::log(&[1.0, 0.5], 40);
-        let RunView { latest: moment, lanes, .. } = RunView::of(&log);
-        let dossier = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default(), language);
-        let lit = dossier.lit(&moment.state);
-        assert_eq!((lit.atoms.len(), lit.bar.map(|(node, _)| vec![node])), (1, Some(lit.nodes.clone())));
-        let whole =
-            Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default(), language).lit(&moment.state);
+        let RunView { latest: snapshot, lanes, .. } = RunView::of(&log);
+        let details = Details::of(Subject::Atom(7), &log, &lanes, &mut SnapshotCache::default(), language);
+        let highlight = details.highlight(&snapshot.state);
+        assert_eq!(
+            (highlight.atoms.len(), highlight.bar.map(|(node, _)| vec![node])),
+            (1, Some(highlight.nodes.clone()))
+        );
+        let whole = Details::of(Subject::Node(0), &log, &lanes, &mut SnapshotCache::default(), language)
+            .highlight(&snapshot.state);
         let atoms: usize = whole.atoms.iter().map(Range::len).sum();
-        assert_eq!(atoms as u32, moment.state.nodes()[0].done);
+        assert_eq!(atoms as u32, snapshot.state.nodes()[0].done);
     }
 }

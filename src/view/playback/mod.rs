@@ -1,4 +1,4 @@
-//! The shown time of a run, and what is known at it.
+//! The shown time of a run, and its state at that time.
 
 pub mod clock;
 pub mod compared_run;

@@ -1,4 +1,4 @@
-//! Everything that is known of a run by now, whatever moment is shown.
+//! The latest state of a run and its history, independent of the shown time.
 
 use super::snapshots::Snapshot;
 use crate::record::Record;
@@ -6,34 +6,34 @@ use crate::runlog::{Header, RunLog};
 use crate::view::state::lanes::Lanes;
 use crate::view::timeline::markers::Markers;
 
-/// What is known of a run, as a fold over its records.
+/// The latest state, the markers and the lanes of a run, as a fold over its records.
 #[derive(Clone, Debug)]
 pub struct RunView {
-    /// Its last moment.
+    /// Its latest state.
     pub latest: Snapshot,
-    /// What stands out in its time.
-    pub signs: Markers,
-    /// What each machine did and when.
+    /// Its markers on the time line.
+    pub markers: Markers,
+    /// What each machine did, and when.
     pub lanes: Lanes,
 }
 
 impl RunView {
-    /// Before anything has happened.
+    /// Starts before the first record.
     pub fn new(header: &Header) -> Self {
-        Self { latest: Snapshot::new(header), signs: Markers::default(), lanes: Lanes::new(header) }
+        Self { latest: Snapshot::new(header), markers: Markers::default(), lanes: Lanes::new(header) }
     }
 
-    /// All of a recorded run.
+    /// Folds all records of a run.
     pub fn of(log: &RunLog) -> Self {
-        let mut known = Self::new(&log.header);
-        log.records().iter().for_each(|record| known.apply(record));
-        known
+        let mut view = Self::new(&log.header);
+        log.records().iter().for_each(|record| view.apply(record));
+        view
     }
 
-    /// Takes in what happened next.
+    /// Takes in the next record.
     pub fn apply(&mut self, record: &Record) {
         self.latest.apply(record);
-        self.signs.apply(record, &self.latest.state);
+        self.markers.apply(record, &self.latest.state);
         self.lanes.apply(record);
     }
 }

@@ -1,4 +1,4 @@
-//! A sign at a machine's upper right that says without colour how it is.
+//! Badge at a machine's upper right that shows its condition without colour.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
@@ -6,23 +6,23 @@ use super::layout::RingLayout;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::node_state::Activity;
 
-/// What a badge says.
+/// A badge, by the condition that it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Badge {
-    /// Two bars: it is paused.
+    /// Two bars: paused.
     Paused,
-    /// A letter: it sleeps.
+    /// The letter z: asleep.
     Asleep,
-    /// An hourglass: it hangs.
+    /// An hourglass: hung.
     Hung,
-    /// A wire that is cut.
+    /// A cut wire: cut off.
     CutOff,
-    /// A switch: it is off.
+    /// A power switch: off.
     Off,
 }
 
 impl Badge {
-    /// The badge of a machine that is seen so.
+    /// Chooses the badge of a machine; `None` for a machine that works as usual.
     pub(crate) fn of(activity: Activity, paused: bool) -> Option<Self> {
         match activity {
             Activity::Hung => Some(Self::Hung),
@@ -35,17 +35,17 @@ impl Badge {
         }
     }
 
-    /// Draws it at the machine that sits at `seat`.
-    pub(crate) fn draw(self, plan: &RingLayout, [x, y]: Point, marks: &mut Vec<Mark>) {
-        let radius = 0.34 * plan.node;
-        let away = plan.reach() - radius;
+    /// Draws the badge of the machine whose centre is at `x`, `y`.
+    pub(crate) fn draw(self, layout: &RingLayout, [x, y]: Point, marks: &mut Vec<Mark>) {
+        let radius = 0.34 * layout.node_radius;
+        let away = layout.node_reach() - radius;
         let centre = [x + away * FRAC_PI_4.cos(), y - away * FRAC_PI_4.sin()];
         marks.push(Mark::Disc { centre, radius, ink: Hue::Ground.full() });
         marks.push(Mark::Disc { centre, radius: 0.87 * radius, ink: Hue::Text.full() });
         self.glyph(centre, radius, marks);
     }
 
-    /// What is on it, within a radius.
+    /// Draws the symbol within `radius` of the badge's centre.
     fn glyph(self, [x, y]: Point, radius: f32, marks: &mut Vec<Mark>) {
         let ink = Hue::Ground.full();
         let at = |[u, v]: Point| [x + u * radius, y + v * radius];

@@ -1,7 +1,7 @@
-//! What moves between the nodes of a farm and their parent, each on its own side of the spoke: requests, and the parts
-//! that answer them; and what has arrived at the parent and waits there.
+//! Messages of a farm: requests and the parts that answer them, on two sides of a spoke, and the queue at the parent.
 
 use super::angles::ease;
+use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
@@ -10,27 +10,33 @@ use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::count;
 
-/// Draws requests, parts, and the line at the parent.
-pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+/// Draws requests, parts, and the queue at the parent.
+pub(crate) fn draw(layout: &RingLayout, state: &RunState, now: Time, marks: &mut RingMarks) {
     if state.presence(now) == 0.0 {
         return;
     }
-    line(plan, state, now, marks);
-    for token in tokens(plan, state, now) {
-        token.draw(plan, marks);
+    let marks = marks.layer(RingLayer::FarmMessages);
+    queue(layout, state, now, marks);
+    for disc in discs(layout, state, now) {
+        disc.draw(layout, marks);
     }
 }
 
-/// The request or the part that is drawn at `point`.
-pub(crate) fn token_at<'a>(plan: &RingLayout, state: &'a RunState, now: Time, [x, y]: Point) -> Option<&'a Flight> {
-    let covers = |token: &FarmDisc<'_>| {
-        let [u, v] = token.centre;
-        token.flight.shown().contains(&now) && (x - u).abs() <= token.half[0] && (y - v).abs() <= token.half[1]
+/// Finds the request or the part that is drawn at `point`, and its layer.
+pub(crate) fn message_at<'a>(
+    layout: &RingLayout,
+    state: &'a RunState,
+    now: Time,
+    [x, y]: Point,
+) -> Option<(RingLayer, &'a Flight)> {
+    let covers = |disc: &FarmDisc<'_>| {
+        let [u, v] = disc.centre;
+        disc.flight.shown().contains(&now) && (x - u).abs() <= disc.half[0] && (y - v).abs() <= disc.half[1]
     };
-    tokens(plan, state, now).into_iter().rev().find(covers).map(|token| token.flight)
+    discs(layout, state, now).into_iter().rev().find(covers).map(|disc| (RingLayer::FarmMessages, disc.flight))
 }
 
-/// What lies on a spoke of the parent: a request, or its answer.
+/// A request or its answer beside a spoke.
 struct FarmDisc<'a> {
     flight: &'a Flight,
     node: NodeId,
@@ -42,11 +48,11 @@ struct FarmDisc<'a> {
     alpha: f32,
 }
 
-/// In so large a farm tokens would hide each other if they bore words.
-const WORDED: usize = 12;
+/// In a larger farm, discs with text would cover each other.
+const MAX_NODES_WITH_TEXT: usize = 12;
 
-fn tokens<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc<'a>> {
-    let token = |flight: &'a Flight| {
+fn discs<'a>(layout: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc<'a>> {
+    let disc = |flight: &'a Flight| {
         let alpha = flight.presence(now) * state.presence(now);
         if flight.sent > now || !flight.shown().contains(&now) || alpha == 0.0 {
             return None;
@@ -54,30 +60,30 @@ fn tokens<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc
         let here = ease(flight.progress(now));
         let (node, text, hue, way, side) = match (flight.from, flight.to, &flight.cargo) {
             (Party::Node(node), _, Cargo::Request) => (node, "?".into(), Hue::Node(node), 1.0 - here, 1.0),
-            // An empty one says that there are no more.
+            // An empty part says that the parent has no more atoms.
             (_, Party::Node(node), Cargo::Part(part)) => {
                 let hue = if part.is_empty() { Hue::Quiet } else { Hue::Node(node) };
                 (node, format!("×{}", count(flight.cargo.atoms())), hue, here, -1.0)
             }
             _ => return None,
         };
-        let is_worded = plan.nodes <= WORDED;
+        let has_text = layout.nodes <= MAX_NODES_WITH_TEXT;
         let letters = text.chars().count();
-        let size = part(plan);
+        let size = part_text_size(layout);
         let half = match &flight.cargo {
-            Cargo::Request => [request(plan); 2],
-            _ if is_worded => [size.width(letters) / 2.0 + 3.0, size.line() / 2.0],
-            _ => [0.16 * plan.node; 2],
+            Cargo::Request => [request_radius(layout); 2],
+            _ if has_text => [size.width(letters) / 2.0 + 3.0, size.line() / 2.0],
+            _ => [0.16 * layout.node_radius; 2],
         };
-        let centre = beside(plan, node, way, half, side);
-        let text = if is_worded { text } else { String::new() };
+        let centre = beside_spoke(layout, node, way, half, side);
+        let text = if has_text { text } else { String::new() };
         Some(FarmDisc { flight, node, centre, half, text, hue, alpha })
     };
-    state.flights().iter().filter_map(token).collect()
+    state.flights().iter().filter_map(disc).collect()
 }
 
 impl FarmDisc<'_> {
-    fn draw(&self, plan: &RingLayout, marks: &mut Vec<Mark>) {
+    fn draw(&self, layout: &RingLayout, marks: &mut Vec<Mark>) {
         let (centre, alpha, [width, height]) = (self.centre, self.alpha, self.half);
         let is_request = self.flight.cargo == Cargo::Request;
         let round = if is_request { width } else { 4.0 };
@@ -86,57 +92,58 @@ impl FarmDisc<'_> {
         marks.push(Mark::Box { centre, half: self.half, round, ink: self.hue.faint(alpha) });
         let hue = if self.hue == Hue::Quiet { Hue::Ground } else { Hue::OnNode(self.node) };
         if !self.text.is_empty() {
-            let size = if is_request { TextSize::Fit(1.5 * width) } else { part(plan) };
+            let size = if is_request { TextSize::Fit(1.5 * width) } else { part_text_size(layout) };
             let text = self.text.clone();
             marks.push(Mark::Label { at: centre, anchor: Anchor::Centre, text, size, ink: hue.faint(alpha) });
         }
     }
 }
 
-/// What waits at the parent stands in line before it, each message on its sender's spoke.
-fn line(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    /// More than that would reach the node.
-    const MOST: usize = 6;
-    let mut lengths = vec![0; plan.nodes];
+/// Draws the messages that wait at the parent as dots, each on its sender's spoke.
+fn queue(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+    /// More dots would reach the node.
+    const MAX_DOTS: usize = 6;
+    let mut lengths = vec![0; layout.nodes];
     for flight in state.in_line(now) {
         let Party::Node(node) = flight.from else { continue };
         let Some(before) = lengths.get_mut(usize::from(node)) else { continue };
-        if *before == MOST {
+        if *before == MAX_DOTS {
             continue;
         }
-        let (dot, large) = (dot(plan), request(plan));
-        let radius = plan.parent + large + *before as f32 * 2.4 * dot;
-        let (centre, ink) = (plan.at(plan.angle(node), radius), Hue::Node(node).full());
+        let (dot, large) = (dot_radius(layout), request_radius(layout));
+        let radius = layout.parent_radius + large + *before as f32 * 2.4 * dot;
+        let (centre, ink) = (layout.at(layout.angle(node), radius), Hue::Node(node).full());
         marks.push(Mark::Disc { centre, radius: dot + 1.0, ink: Hue::Ground.full() });
         marks.push(Mark::Disc { centre, radius: dot, ink });
         *before += 1;
     }
 }
 
-/// Radius of a message in line.
-fn dot(plan: &RingLayout) -> f32 {
-    (plan.rail * 0.016).clamp(1.5, 4.0)
+/// Returns the radius of a message in the queue.
+fn dot_radius(layout: &RingLayout) -> f32 {
+    (layout.rail_radius * 0.016).clamp(1.5, 4.0)
 }
 
-/// The text of a part: that of labels, unless it would hide the nodes of a small ring.
-fn part(plan: &RingLayout) -> TextSize {
-    TextSize::Fit((TextSize::SMALL * plan.labels.text).min(0.6 * plan.node))
+/// Returns the text size of a part: as labels, but smaller where it would cover the nodes of a small ring.
+fn part_text_size(layout: &RingLayout) -> TextSize {
+    TextSize::Fit((TextSize::SMALL * layout.labels.text_scale).min(0.6 * layout.node_radius))
 }
 
-/// Radius of a request.
-fn request(plan: &RingLayout) -> f32 {
-    (plan.node * 0.3).clamp(2.5, 9.0)
+/// Returns the radius of a request.
+fn request_radius(layout: &RingLayout) -> f32 {
+    (layout.node_radius * 0.3).clamp(2.5, 9.0)
 }
 
-/// The middle of a box beside the spoke of `node`, `way` of the way from the parent to it; `side` says on which side.
-fn beside(plan: &RingLayout, node: NodeId, way: f32, [width, height]: Point, side: f32) -> Point {
-    let angle = plan.angle(node);
+/// Returns the centre of a box beside the spoke of `node`: `way` is 0 at the parent and 1 at the node, `side` is 1 or
+/// -1.
+fn beside_spoke(layout: &RingLayout, node: NodeId, way: f32, [width, height]: Point, side: f32) -> Point {
+    let angle = layout.angle(node);
     let (cos, sin) = (angle.cos().abs(), angle.sin().abs());
     let along = width * cos + height * sin;
-    let (start, end) = (plan.parent + along, plan.seats - plan.reach() - along);
-    // Results run on the spoke itself.
-    let apart = (dot(plan) + 2.0 + width * sin + height * cos) * side;
-    let [x, y] = plan.at(angle, start + (end - start) * way);
+    let (start, end) = (layout.parent_radius + along, layout.seat_radius - layout.node_reach() - along);
+    // Results move on the spoke itself.
+    let apart = (dot_radius(layout) + 2.0 + width * sin + height * cos) * side;
+    let [x, y] = layout.at(angle, start + (end - start) * way);
     [x - apart * angle.sin(), y + apart * angle.cos()]
 }
 
@@ -146,7 +153,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::time::Duration;
 
-    use super::super::{RingOverlay, message_at, ring};
+    use super::super::{RingOverlay, message_at as topmost_at, ring};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::runlog::Header;
@@ -156,15 +163,15 @@ mod tests {
 
     const SIZE: Point = [520.0, 480.0];
 
-    /// A run by this strategy whose parent takes so many milliseconds for a message.
+    /// A run by `strategy` whose parent needs `handling` milliseconds for a message.
     fn header(strategy: Strategy, speeds: &[f64], handling: u64) -> Header {
         let plain = sample_runs::header(speeds, 240);
         let rules = Rules { strategy, part: strategy.usual_part(plain.division, speeds.len()).max(3), ..plain.rules };
         Header { rules, handling: Duration::from_millis(handling), ..plain }
     }
 
-    /// Every state of a run at the times of its records.
-    fn moments(header: &Header, mut see: impl FnMut(&RunState, Time)) {
+    /// Calls `see` with the state of a run after each record.
+    fn for_each_record(header: &Header, mut see: impl FnMut(&RunState, Time)) {
         let mut state = RunState::new(header);
         for record in sample_runs::records(header) {
             state.apply(&record);
@@ -173,7 +180,8 @@ mod tests {
     }
 
     fn texts(state: &RunState, now: Time, size: Point, language: Language) -> Vec<String> {
-        let marks = ring(state, &RingOverlay::default(), now, size, language);
+        let layout = RingLayout::new(state.nodes().len(), size, language);
+        let marks = ring(&layout, state, &RingOverlay::default(), now, language);
         marks
             .into_iter()
             .filter_map(|mark| if let Mark::Label { text, .. } = mark { Some(text) } else { None })
@@ -181,11 +189,11 @@ mod tests {
     }
 
     #[test]
-    fn requests_parts_and_their_end_are_drawn_in_a_farm_and_nowhere_else() {
+    fn only_farms_draw_requests_and_parts() {
         let language = Language::English;
         for (strategy, is_farm) in [(Strategy::Farm, true), (Strategy::Static, false), (Strategy::Ring, false)] {
             let mut seen = BTreeSet::new();
-            moments(&header(strategy, &[1.0, 1.0, 0.2], 0), |state, now| {
+            for_each_record(&header(strategy, &[1.0, 1.0, 0.2], 0), |state, now| {
                 seen.extend(texts(state, now, SIZE, language))
             });
             for text in ["?", "×5", "×0"] {
@@ -195,29 +203,28 @@ mod tests {
     }
 
     #[test]
-    fn what_is_pointed_at_is_told() {
+    fn message_under_pointer_has_words() {
         let language = Language::English;
-        let mut told = BTreeSet::new();
-        moments(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
-            let plan = RingLayout::new(3, SIZE, language);
-            for token in tokens(&plan, state, now) {
-                told.extend(
-                    message_at(state, now, SIZE, token.centre, language).map(|flight| flight_words(flight, language)),
-                );
+        let mut words_seen = BTreeSet::new();
+        for_each_record(&header(Strategy::Farm, &[1.0, 1.0, 0.2], 0), |state, now| {
+            let layout = RingLayout::new(3, SIZE, language);
+            for disc in discs(&layout, state, now) {
+                words_seen
+                    .extend(topmost_at(&layout, state, now, disc.centre).map(|flight| flight_words(flight, language)));
             }
         });
         for words in
             ["1 asks the parent for atoms", "5 atoms for 2, which asked for them", "the parent has no more atoms for 1"]
         {
-            assert!(told.contains(words), "{words} {told:?}");
+            assert!(words_seen.contains(words), "{words} {words_seen:?}");
         }
     }
 
     #[test]
-    fn what_waits_at_a_slow_parent_is_counted_and_drawn() {
+    fn queue_at_slow_parent_is_counted_and_drawn() {
         let language = Language::English;
         let (mut most, mut said, mut activities) = (0, BTreeSet::new(), BTreeSet::new());
-        moments(&header(Strategy::Farm, &[1.0; 8], 20), |state, now| {
+        for_each_record(&header(Strategy::Farm, &[1.0; 8], 20), |state, now| {
             let waiting = state.waiting(now);
             most = most.max(waiting);
             let drawn = texts(state, now, [640.0, 490.0], language);
@@ -230,18 +237,18 @@ mod tests {
         for activity in [Activity::Asking, Activity::InLine, Activity::Receiving, Activity::NoMore] {
             assert!(activities.contains(&format!("{activity:?}")), "{activity:?} {activities:?}");
         }
-        // A parent that takes no time has no line.
-        moments(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.waiting(now), 0));
+        // A parent that needs no time has no queue.
+        for_each_record(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.waiting(now), 0));
     }
 
     #[test]
-    fn everything_stays_inside_whatever_the_size() {
+    fn discs_stay_inside_at_every_size() {
         let language = Language::English;
         for (nodes, size) in [(1, [240.0, 240.0]), (8, SIZE), (8, [380.0, 260.0]), (32, [640.0, 400.0])] {
-            moments(&header(Strategy::FarmBySpeed, &vec![1.0; nodes], 5), |state, now| {
-                let (plan, inside) =
+            for_each_record(&header(Strategy::FarmBySpeed, &vec![1.0; nodes], 5), |state, now| {
+                let (layout, inside) =
                     (RingLayout::new(nodes, size, language), |at: f32, most: f32| (0.0..=most).contains(&at));
-                for FarmDisc { centre: [x, y], half: [w, h], .. } in tokens(&plan, state, now) {
+                for FarmDisc { centre: [x, y], half: [w, h], .. } in discs(&layout, state, now) {
                     assert!(inside(x - w, size[0]) && inside(x + w, size[0]), "{x} {w}");
                     assert!(inside(y - h, size[1]) && inside(y + h, size[1]), "{y} {h}");
                 }
@@ -250,10 +257,10 @@ mod tests {
     }
 
     #[test]
-    fn a_parent_that_estimates_says_so() {
+    fn estimating_parent_has_caption() {
         let language = Language::English;
         let mut said = Vec::new();
-        moments(&header(Strategy::StaticEstimate, &[1.0; 3], 0), |state, now| {
+        for_each_record(&header(Strategy::StaticEstimate, &[1.0; 3], 0), |state, now| {
             said.push(texts(state, now, SIZE, language).contains(&"estimating".to_owned()));
         });
         said.dedup();

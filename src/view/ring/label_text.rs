@@ -1,6 +1,6 @@
-//! What the labels beside the nodes say.
+//! Texts of the labels beside the nodes.
 
-use super::labels::{Form, LABELLED, SECOND};
+use super::labels::{LabelForm, MAX_LABELLED_NODES, SECOND_LINE_LETTERS};
 use super::layout::RingLayout;
 use crate::balance::NodeId;
 use crate::language::{Language, say};
@@ -10,9 +10,9 @@ use crate::view::state::node_state::{Activity, NodeState};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{activity_word, count, fraction, percent, rate_words};
 
-/// Puts the words on a node beside the rail.
-pub(crate) fn label(
-    plan: &RingLayout,
+/// Draws the label of a node beside the rail.
+pub(crate) fn draw(
+    layout: &RingLayout,
     state: &RunState,
     (node, of): (NodeId, &NodeState),
     activity: Activity,
@@ -20,16 +20,16 @@ pub(crate) fn label(
     marks: &mut Vec<Mark>,
     language: Language,
 ) {
-    let labels = &plan.labels;
-    let ([dx, dy], anchor) = labels.place(plan.angle(node), plan.rail, language);
-    let [x, y] = [plan.centre[0] + dx, plan.centre[1] + dy];
+    let labels = &layout.labels;
+    let ([dx, dy], anchor) = labels.place(layout.angle(node), layout.rail_radius, language);
+    let [x, y] = [layout.centre[0] + dx, layout.centre[1] + dy];
     let ink = if activity.is_out() { Hue::Quiet } else { Hue::Text }.full();
-    let (size, small) = (labels.size(), TextSize::Small(labels.text));
+    let (size, small) = (labels.size(), TextSize::Small(labels.text_scale));
     let [first, second] = match labels.form {
-        Form::Nothing => return,
-        Form::Number => [number(state, of, activity), String::new()],
-        Form::OneLine => [words(state, of, activity, now, language)[0].clone(), String::new()],
-        Form::TwoLines => words(state, of, activity, now, language),
+        LabelForm::Nothing => return,
+        LabelForm::Number => [number(state, of, activity), String::new()],
+        LabelForm::OneLine => [lines(state, of, activity, now, language)[0].clone(), String::new()],
+        LabelForm::TwoLines => lines(state, of, activity, now, language),
     };
     let top = if second.is_empty() { y } else { y - small.line() / 2.0 };
     marks.push(Mark::Label { at: [x, top], anchor, text: first, size, ink });
@@ -39,16 +39,16 @@ pub(crate) fn label(
     }
 }
 
-/// Whether a node has a label.
-pub(crate) fn is_labelled(plan: &RingLayout, is_selected: bool) -> bool {
-    plan.nodes <= LABELLED || is_selected
+/// Whether a node has a label: in a large ring only the selected one does.
+pub(crate) fn is_labelled(layout: &RingLayout, is_selected: bool) -> bool {
+    layout.nodes <= MAX_LABELLED_NODES || is_selected
 }
 
-/// What is said of a node: what it still has to do, and what matters most of how it does it; at the end, what it has
-/// done.
-fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time, language: Language) -> [String; 2] {
+/// Returns the two lines of a label: the atoms left, and the activity or the rate. After the run or for a machine that
+/// is out: the atoms done.
+fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, language: Language) -> [String; 2] {
     let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
-    let [left, done] = [of.left(), of.done].map(short);
+    let [left, done] = [of.left(), of.done].map(short_count);
     let (left, done) = (say!(language, "{left} left", "{rest} {left}"), say!(language, "{done} done", "{done} {made}"));
     match activity {
         _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
@@ -57,20 +57,20 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time, langua
         Activity::Computing => {
             let rate = rate_words(of.rate(now), language);
             let both = format!("{} · {rate}", fraction(of.speed));
-            [left, if of.speed < 0.995 && both.chars().count() <= SECOND { both } else { rate }]
+            [left, if of.speed < 0.995 && both.chars().count() <= SECOND_LINE_LETTERS { both } else { rate }]
         }
         _ => [left, activity_word(activity, language).into()],
     }
 }
 
-/// The same in a number.
+/// Returns the label of one number: atoms left, or atoms done.
 fn number(state: &RunState, of: &NodeState, activity: Activity) -> String {
     let done = state.finished().is_some() || activity.is_out();
-    short(if done { of.done } else { of.left() })
+    short_count(if done { of.done } else { of.left() })
 }
 
-/// A count in at most five letters.
-fn short(number: u32) -> String {
+/// Formats a count in at most five letters.
+fn short_count(number: u32) -> String {
     match number {
         0..10_000 => count(number),
         10_000..1_000_000 => format!("{}k", number / 1000),
@@ -82,7 +82,7 @@ fn short(number: u32) -> String {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::labels::{NUMBER, longest};
+    use super::super::labels::{NUMBER_LETTERS, first_line_letters};
     use super::*;
     use crate::balance::{Message, Party};
     use crate::record::{Record, RecordKind};
@@ -90,8 +90,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn labels_are_no_longer_than_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
-        let language = Language::English;
+        fn labels_fit_their_room(left in 0..1_000_000_000u32, done in 0..1_000_000_000u32, speed in 0.0..1.0f64) {
+            let language = Language::English;
             let mut state = RunState::new(&sample_runs::header(&[1.0], 9));
             for ms in 0..done % 3000 {
                 state.nodes[0].atom_done(true, Time(u64::from(ms) * 1_000_000));
@@ -99,15 +99,15 @@ mod tests {
             let mut of = state.nodes[0].clone();
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
             for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
-                let [first, second] = words(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
-                prop_assert!(first <= longest(language) && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO, language));
-                prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER);
+                let [first, second] = lines(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
+                prop_assert!(first <= first_line_letters(language) && second <= SECOND_LINE_LETTERS, "{:?}", lines(&state, &of, activity, Time::ZERO, language));
+                prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER_LETTERS);
             }
         }
     }
 
     #[test]
-    fn the_second_line_says_what_matters() {
+    fn second_line_has_rate_or_activity() {
         let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.1], 300));
         let mut apply = |ms: u64, what| state.apply(&Record { at: Time(ms * 1_000_000), what });
@@ -125,7 +125,7 @@ mod tests {
         }
         let said = |state: &RunState, node: NodeId| {
             let now = Time::from_secs(1.0);
-            words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
+            lines(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
         assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
         state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });

@@ -1,4 +1,4 @@
-//! Where everything in the ring is.
+//! Positions in the ring's drawing.
 
 use std::f32::consts::{PI, TAU};
 
@@ -8,97 +8,100 @@ use crate::balance::{NodeId, Party};
 use crate::language::Language;
 use crate::view::draw::display_list::Point;
 
-/// Where everything is, for a number of nodes and a size.
-pub(crate) struct RingLayout {
-    /// How many nodes there are.
+/// Positions and radii of the ring's parts, for a number of nodes and a size. Computed once a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct RingLayout {
+    /// Number of nodes.
     pub(crate) nodes: usize,
-    /// Where the parent is.
+    /// Centre of the ring: the parent.
     pub(crate) centre: Point,
-    /// Radius of the rail on which offers run.
-    pub(crate) rail: f32,
-    /// Radius of the circle on which the nodes sit.
-    pub(crate) seats: f32,
+    /// Radius of the rail on which offers move.
+    pub(crate) rail_radius: f32,
+    /// Radius of the circle on which the nodes are.
+    pub(crate) seat_radius: f32,
     /// Radius of a node at full speed.
-    pub(crate) node: f32,
+    pub(crate) node_radius: f32,
     /// Radius of the parent.
-    pub(crate) parent: f32,
-    /// How labels look.
+    pub(crate) parent_radius: f32,
+    /// Form of the labels.
     pub(crate) labels: Labels,
 }
 
 impl RingLayout {
-    /// Radius of a node's progress arc, in radii of a node.
-    pub(crate) const TRACK: f32 = 1.2;
+    /// Radius of a node's progress arc, as a multiple of `node_radius`.
+    pub(crate) const TRACK_RADIUS: f32 = 1.2;
 
-    /// The plan for an area whose corner is at 0, 0; the text sizes are taken to be in its units.
-    pub(crate) fn new(nodes: usize, [width, height]: Point, language: Language) -> Self {
-        let (labels, rail) = Labels::fit(nodes, [width, height], language);
-        let rail = rail.max(40.0);
-        let apart = (PI / nodes.max(2) as f32).sin();
+    /// Lays out a ring of `nodes` in an area with its corner at 0, 0, in the units of the text sizes.
+    pub fn new(nodes: usize, [width, height]: Point, language: Language) -> Self {
+        let (labels, rail_radius) = Labels::fit(nodes, [width, height], language);
+        let rail_radius = rail_radius.max(40.0);
+        let half_chord = (PI / nodes.max(2) as f32).sin();
         // Two neighbours with their progress arcs fill at most three quarters of the chord between them.
-        let node = (rail * 0.155).min(0.66 * rail * apart / (1.0 + apart));
-        let seats = rail - node * 1.3 - 8.0;
-        Self { nodes, centre: [width / 2.0, height / 2.0], rail, seats, node, parent: rail * 0.24, labels }
+        let node_radius = (rail_radius * 0.155).min(0.66 * rail_radius * half_chord / (1.0 + half_chord));
+        let seat_radius = rail_radius - node_radius * 1.3 - 8.0;
+        let centre = [width / 2.0, height / 2.0];
+        let parent_radius = rail_radius * 0.24;
+        Self { nodes, centre, rail_radius, seat_radius, node_radius, parent_radius, labels }
     }
 
-    /// The angle of an offer's way along the rail, against the clock: to the left neighbour, or further.
-    pub(crate) fn way(&self, from: NodeId, to: Party) -> f32 {
-        let Party::Node(to) = to else { return self.step() };
+    /// Returns the angle of an offer's path along the rail, anticlockwise: to the left neighbour, or further.
+    pub(crate) fn offer_sweep(&self, from: NodeId, to: Party) -> f32 {
+        let Party::Node(to) = to else { return self.node_step() };
         let nodes = self.nodes.max(1);
         let steps = (usize::from(from) + nodes - usize::from(to) % nodes) % nodes;
-        self.step() * if steps == 0 { nodes } else { steps } as f32
+        self.node_step() * if steps == 0 { nodes } else { steps } as f32
     }
 
-    /// How broad a node's progress arc is.
+    /// Returns the width of a node's progress arc.
     pub(crate) fn track_width(&self) -> f32 {
-        (self.node * 0.13).max(2.0)
+        (self.node_radius * 0.13).max(2.0)
     }
 
-    /// Radius of a node with its progress arc and the ground round it.
-    pub(crate) fn reach(&self) -> f32 {
-        self.node * Self::TRACK + self.track_width()
+    /// Returns the radius of a node with its progress arc and the margin round it.
+    pub(crate) fn node_reach(&self) -> f32 {
+        self.node_radius * Self::TRACK_RADIUS + self.track_width()
     }
 
-    /// The ends of the way between two nodes, or from the parent to a node: at their rims, so that nothing hides a
-    /// number.
-    pub(crate) fn between(&self, from: Point, to: Point) -> (Point, Point) {
+    /// Returns the ends of the path between two nodes, or from the parent to a node. They are at the rims, so no
+    /// message covers a number.
+    pub(crate) fn path_ends(&self, from: Point, to: Point) -> (Point, Point) {
         let bend = self.bend(from, to);
         let towards = |start: Point, by: f32| {
             let way = [bend[0] - start[0], bend[1] - start[1]];
             let length = way[0].hypot(way[1]).max(1.0);
             [start[0] + way[0] * by / length, start[1] + way[1] * by / length]
         };
-        let start = if from == self.centre { self.parent } else { self.reach() };
-        (towards(from, start), towards(to, self.reach()))
+        let start = if from == self.centre { self.parent_radius } else { self.node_reach() };
+        (towards(from, start), towards(to, self.node_reach()))
     }
 
-    /// Radius of the room within the nodes.
-    pub(crate) fn interior(&self) -> f32 {
-        self.seats - self.reach()
+    /// Returns the radius of the free area inside the nodes.
+    pub(crate) fn interior_radius(&self) -> f32 {
+        self.seat_radius - self.node_reach()
     }
 
-    /// A node's direction seen from the centre, clockwise from the right.
+    /// Returns a node's angle round the centre, in radians, clockwise from the right.
     pub(crate) fn angle(&self, node: NodeId) -> f32 {
         direction(usize::from(node), self.nodes)
     }
 
-    /// A place by its direction and its distance from the centre.
+    /// Returns the point at an angle and a distance from the centre.
     pub(crate) fn at(&self, angle: f32, radius: f32) -> Point {
         [self.centre[0] + radius * angle.cos(), self.centre[1] + radius * angle.sin()]
     }
 
-    /// Where a node sits.
+    /// Returns the centre of a node.
     pub(crate) fn seat(&self, node: NodeId) -> Point {
-        self.at(self.angle(node), self.seats)
+        self.at(self.angle(node), self.seat_radius)
     }
 
-    /// The angle between neighbours.
-    pub(crate) fn step(&self) -> f32 {
+    /// Returns the angle between neighbours.
+    pub(crate) fn node_step(&self) -> f32 {
         TAU / self.nodes.max(1) as f32
     }
 
-    /// The control point of the curve between two places on the circle: towards the centre, but to the side of the
-    /// parent the more the straight way would lead through it. From the centre itself the way is straight.
+    /// Returns the control point of the curve between two points on the circle. It lies towards the centre, and the
+    /// further to the side, the nearer the straight path comes to the parent. From the centre the path is straight.
     pub(crate) fn bend(&self, from: Point, to: Point) -> Point {
         let centre = self.centre;
         let middle = [(from[0] + to[0]) / 2.0 - centre[0], (from[1] + to[1]) / 2.0 - centre[1]];
@@ -124,13 +127,13 @@ mod tests {
     const SIZE: Point = [520.0, 480.0];
 
     #[test]
-    fn an_offer_runs_anticlockwise_to_the_left_neighbour() {
+    fn offer_moves_anticlockwise_to_left_neighbour() {
         let language = Language::English;
-        let plan = RingLayout::new(8, SIZE, language);
-        let top = plan.at(plan.angle(0) - plan.step() / 2.0, plan.rail);
-        assert!(top[0] < plan.centre[0] && top[1] < plan.centre[1]);
-        let arrived = plan.at(plan.angle(0) - plan.step(), plan.rail);
-        let neighbour = plan.at(plan.angle(7), plan.rail);
+        let layout = RingLayout::new(8, SIZE, language);
+        let top = layout.at(layout.angle(0) - layout.node_step() / 2.0, layout.rail_radius);
+        assert!(top[0] < layout.centre[0] && top[1] < layout.centre[1]);
+        let arrived = layout.at(layout.angle(0) - layout.node_step(), layout.rail_radius);
+        let neighbour = layout.at(layout.angle(7), layout.rail_radius);
         assert!((arrived[0] - neighbour[0]).hypot(arrived[1] - neighbour[1]) < 0.01);
     }
 
@@ -138,23 +141,23 @@ mod tests {
     fn nodes_do_not_touch() {
         let language = Language::English;
         for nodes in 2..=48 {
-            let plan = RingLayout::new(nodes, SIZE, language);
-            let ([x, y], [u, v]) = (plan.seat(0), plan.seat(1));
-            assert!((x - u).hypot(y - v) > 2.6 * plan.node, "{nodes}");
+            let layout = RingLayout::new(nodes, SIZE, language);
+            let ([x, y], [u, v]) = (layout.seat(0), layout.seat(1));
+            assert!((x - u).hypot(y - v) > 2.6 * layout.node_radius, "{nodes}");
         }
     }
 
     #[test]
-    fn parcels_go_round_the_parent() {
+    fn parcels_avoid_the_parent() {
         let language = Language::English;
-        let plan = RingLayout::new(8, SIZE, language);
+        let layout = RingLayout::new(8, SIZE, language);
         for to in 1..8 {
-            let (from, to) = (plan.seat(0), plan.seat(to));
-            let bend = plan.bend(from, to);
+            let (from, to) = (layout.seat(0), layout.seat(to));
+            let bend = layout.bend(from, to);
             for i in 0..=20 {
                 let [x, y] = curve(from, bend, to, i as f32 / 20.0);
-                let apart = (x - plan.centre[0]).hypot(y - plan.centre[1]);
-                assert!(apart > plan.parent, "{apart}");
+                let apart = (x - layout.centre[0]).hypot(y - layout.centre[1]);
+                assert!(apart > layout.parent_radius, "{apart}");
             }
         }
     }

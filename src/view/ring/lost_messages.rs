@@ -1,41 +1,48 @@
-//! What is small and quick in the ring that adapts: sparks that wake sleepers, and crosses where messages are lost.
+//! Small marks of the adaptive ring: sparks for messages that wake a node, and crosses where messages were lost.
 
 use super::angles::{curve, ease};
+use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
-use super::messages::seen_at;
+use super::messages::visibility;
 use crate::balance::Party;
 use crate::time::Time;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
 
-/// Sparks fly straight from machine to machine.
-pub(crate) fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+/// Draws wake messages and the crosses of lost messages.
+pub(crate) fn draw(layout: &RingLayout, state: &RunState, now: Time, marks: &mut RingMarks) {
+    wakes(layout, state, now, marks.layer(RingLayer::Wakes));
+    losses(layout, state, now, marks.layer(RingLayer::Losses));
+}
+
+/// Draws each wake message as a spark on the straight path from node to node.
+fn wakes(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights().iter().filter(|flight| flight.cargo == Cargo::Wake && flight.sent <= now) {
-        let (Party::Node(from), alpha) = (flight.from, seen_at(state, flight, now)) else { continue };
+        let (Party::Node(from), alpha) = (flight.from, visibility(state, flight, now)) else { continue };
         if alpha == 0.0 {
             continue;
         }
-        let ([start, end], here) = (ends(plan, flight), flight.progress(now));
+        let ([start, end], here) = (path_ends(layout, flight), flight.progress(now));
         let at = |way: f32| [start[0] + (end[0] - start[0]) * way, start[1] + (end[1] - start[1]) * way];
         let (hue, points) = (Hue::Node(from), vec![at((here - 0.35).max(0.0)), at(here)]);
         marks.push(Mark::Trail { points, width: 4.0, ink: hue.faint(0.8 * alpha) });
         if flight.shown().contains(&now) {
-            let radius = (plan.node * 0.14).clamp(2.5, 5.0);
+            let radius = (layout.node_radius * 0.14).clamp(2.5, 5.0);
             marks.push(Mark::Disc { centre: at(here), radius: radius + 1.5, ink: Hue::Ground.faint(alpha) });
             marks.push(Mark::Disc { centre: at(here), radius, ink: hue.faint(alpha) });
         }
     }
 }
 
-/// A small cross stands where a message is lost.
-pub(crate) fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
+/// Draws a small cross where a message was lost.
+fn losses(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights() {
         let alpha = flight.cross(now) * state.presence(now);
         if alpha == 0.0 {
             continue;
         }
-        let ([x, y], arm) = (place(plan, flight, now), (plan.node * 0.2).clamp(3.5, 6.0));
+        let ([x, y], arm) = (position(layout, flight, now), (layout.node_radius * 0.2).clamp(3.5, 6.0));
         for (width, ink) in [(5.0, Hue::Ground.faint(alpha)), (2.5, Hue::Text.faint(alpha))] {
             for side in [-arm, arm] {
                 marks.push(Mark::Line { points: vec![[x - arm, y - side], [x + arm, y + side]], width, ink });
@@ -44,27 +51,27 @@ pub(crate) fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mu
     }
 }
 
-/// Where a message is drawn.
-fn place(plan: &RingLayout, flight: &Flight, now: Time) -> Point {
+/// Returns the point at which a message is drawn.
+fn position(layout: &RingLayout, flight: &Flight, now: Time) -> Point {
     let here = flight.progress(now);
     if let (Party::Node(from), Cargo::Offer { .. }) = (flight.from, &flight.cargo) {
-        return plan.at(plan.angle(from) - plan.way(from, flight.to) * here, plan.rail);
+        return layout.at(layout.angle(from) - layout.offer_sweep(from, flight.to) * here, layout.rail_radius);
     }
-    let [start, end] = ends(plan, flight);
+    let [start, end] = path_ends(layout, flight);
     let bend = match flight.cargo {
-        Cargo::Transfer(_) | Cargo::Again(_) | Cargo::Band(_) => plan.bend(start, end),
+        Cargo::Transfer(_) | Cargo::Again(_) | Cargo::Band(_) => layout.bend(start, end),
         _ => [(start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0],
     };
     curve(start, bend, end, ease(here))
 }
 
-/// Where it begins and where it would end.
-fn ends(plan: &RingLayout, flight: &Flight) -> [Point; 2] {
+/// Returns the start and the end of a message's path.
+fn path_ends(layout: &RingLayout, flight: &Flight) -> [Point; 2] {
     let seat = |party| match party {
-        Party::Parent => plan.centre,
-        Party::Node(node) => plan.seat(node),
+        Party::Parent => layout.centre,
+        Party::Node(node) => layout.seat(node),
     };
-    let (start, end) = plan.between(seat(flight.from), seat(flight.to));
+    let (start, end) = layout.path_ends(seat(flight.from), seat(flight.to));
     [start, end]
 }
 
@@ -78,7 +85,7 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn what_is_lost_and_who_is_woken_is_seen() {
+    fn lost_messages_and_wakes_are_drawn() {
         let language = Language::English;
         let mut header = sample_runs::header(&[1.0; 4], 900);
         header.rules.strategy = Strategy::Adaptive;
@@ -90,14 +97,14 @@ mod tests {
         let (mut crossed, mut sparked, mut copied) = (0, 0, 0);
         Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
             state.apply(&record);
-            let plan = RingLayout::new(4, [520.0, 480.0], language);
+            let layout = RingLayout::new(4, [520.0, 480.0], language);
             let drawn = |draw: fn(&RingLayout, &RunState, Time, &mut Vec<Mark>)| {
                 let mut marks = Vec::new();
-                draw(&plan, &state, record.at, &mut marks);
+                draw(&layout, &state, record.at, &mut marks);
                 marks.len()
             };
-            crossed += drawn(crosses);
-            sparked += drawn(sparks);
+            crossed += drawn(losses);
+            sparked += drawn(wakes);
             let is_copy = |flight: &&Flight| matches!(flight.cargo, Cargo::Again(_));
             copied += state.flights().iter().filter(is_copy).count();
         });

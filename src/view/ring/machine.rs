@@ -1,4 +1,4 @@
-//! One machine of the ring: as large as its speed, with its number, its pipe, and what it does.
+//! One machine of the ring: a disc whose size shows the speed, with number, pipe, progress and badge.
 
 use std::f32::consts::{PI, TAU};
 
@@ -10,30 +10,30 @@ use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::node_state::{Activity, NodeState, Slot};
 use crate::view::text::format::node_name;
 
-/// From this radius on a machine's number can be read.
-const NUMBER_SEEN: f32 = 4.0;
-/// Below this radius of a node what its pipe holds could not be told.
-const PIPE_SEEN: f32 = 20.0;
+/// Least radius of a node whose number can be read.
+const MIN_NUMBER_RADIUS_PX: f32 = 4.0;
+/// Least radius of a node whose pipe can be seen.
+const MIN_PIPE_RADIUS_PX: f32 = 20.0;
 
-/// Draws a machine; its arc says how much of its work is done.
-pub(crate) fn machine(
-    plan: &RingLayout,
-    (node, of): (NodeId, &NodeState),
+/// Draws a machine; the arc round it shows the share of its atoms that is traced.
+pub(crate) fn draw(
+    layout: &RingLayout,
+    (node, state): (NodeId, &NodeState),
     activity: Activity,
     is_selected: bool,
     marks: &mut Vec<Mark>,
 ) {
-    let centre = plan.seat(node);
+    let centre = layout.seat(node);
     if activity == Activity::Spare {
-        return empty_seat(plan, node, is_selected, marks);
+        return empty_seat(layout, node, is_selected, marks);
     }
-    progress(plan, centre, (node, of), activity, marks);
-    let radius = plan.node * (0.5 + 0.5 * of.speed.clamp(0.0, 1.0).sqrt() as f32);
+    progress(layout, centre, (node, state), activity, marks);
+    let radius = layout.node_radius * (0.5 + 0.5 * state.speed.clamp(0.0, 1.0).sqrt() as f32);
     let colour = Hue::Node(node);
     let (fill, hue) = match activity {
         Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
-        Activity::CutOff if of.computes() => (1.0, Hue::OnNode(node)),
+        Activity::CutOff if state.computes() => (1.0, Hue::OnNode(node)),
         Activity::Paused | Activity::Stopped | Activity::Hung => (0.3, Hue::Text),
         Activity::Waiting | Activity::Offering | Activity::Asking | Activity::InLine | Activity::Idle => {
             (0.18, Hue::Text)
@@ -55,55 +55,55 @@ pub(crate) fn machine(
         }
         _ => {}
     }
-    let has_pipe = plan.node >= PIPE_SEEN && !activity.is_out() && activity != Activity::Done;
+    let has_pipe = layout.node_radius >= MIN_PIPE_RADIUS_PX && !activity.is_out() && activity != Activity::Done;
     let raised = if has_pipe { 0.2 * radius } else { 0.0 };
-    number(plan, node, [centre[0], centre[1] - raised], radius, hue, marks);
+    number(layout, node, [centre[0], centre[1] - raised], radius, hue, marks);
     if has_pipe {
-        pipe(plan, [centre[0], centre[1] + 0.55 * radius], of, hue, marks);
+        pipe(layout, [centre[0], centre[1] + 0.55 * radius], state, hue, marks);
     }
-    if let Some(badge) = Badge::of(activity, of.paused) {
-        badge.draw(plan, centre, marks);
+    if let Some(badge) = Badge::of(activity, state.paused) {
+        badge.draw(layout, centre, marks);
     }
     if is_selected {
-        selection(plan, centre, marks);
+        selection(layout, centre, marks);
     }
 }
 
-/// Where a machine may join: only its number within a broken outline.
-fn empty_seat(plan: &RingLayout, node: NodeId, is_selected: bool, marks: &mut Vec<Mark>) {
-    let centre = plan.seat(node);
-    marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
-    dashes(centre, plan.node, marks);
-    number(plan, node, centre, 0.8 * plan.node, Hue::Quiet, marks);
+/// Draws the seat of a spare machine: its number within a dashed outline.
+fn empty_seat(layout: &RingLayout, node: NodeId, is_selected: bool, marks: &mut Vec<Mark>) {
+    let centre = layout.seat(node);
+    marks.push(Mark::Disc { centre, radius: layout.node_reach(), ink: Hue::Ground.full() });
+    dashes(centre, layout.node_radius, marks);
+    number(layout, node, centre, 0.8 * layout.node_radius, Hue::Quiet, marks);
     if is_selected {
-        selection(plan, centre, marks);
+        selection(layout, centre, marks);
     }
 }
 
-fn number(plan: &RingLayout, node: NodeId, at: Point, radius: f32, hue: Hue, marks: &mut Vec<Mark>) {
-    if plan.node >= NUMBER_SEEN {
-        let (text, size) = (node_name(node).to_string(), TextSize::Fit((0.86 * plan.node).min(1.05 * radius)));
+fn number(layout: &RingLayout, node: NodeId, at: Point, radius: f32, hue: Hue, marks: &mut Vec<Mark>) {
+    if layout.node_radius >= MIN_NUMBER_RADIUS_PX {
+        let (text, size) = (node_name(node).to_string(), TextSize::Fit((0.86 * layout.node_radius).min(1.05 * radius)));
         marks.push(Mark::Label { at, anchor: Anchor::Centre, text, size, ink: hue.full() });
     }
 }
 
-fn selection(plan: &RingLayout, centre: Point, marks: &mut Vec<Mark>) {
-    let points = arc(centre, plan.reach() + 1.5, 0.0, TAU);
+fn selection(layout: &RingLayout, centre: Point, marks: &mut Vec<Mark>) {
+    let points = arc(centre, layout.node_reach() + 1.5, 0.0, TAU);
     marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
 }
 
-/// What of its work is done, round the machine.
+/// Draws the progress arc round a machine: traced atoms as a share of traced and left ones.
 fn progress(
-    plan: &RingLayout,
+    layout: &RingLayout,
     centre: Point,
-    (node, of): (NodeId, &NodeState),
+    (node, state): (NodeId, &NodeState),
     activity: Activity,
     marks: &mut Vec<Mark>,
 ) {
-    let (track, width, colour) = (plan.node * RingLayout::TRACK, plan.track_width(), Hue::Node(node));
-    let work = of.done + of.left();
-    let done = if work == 0 { 0.0 } else { of.done as f32 / work as f32 };
-    marks.push(Mark::Disc { centre, radius: plan.reach(), ink: Hue::Ground.full() });
+    let (track, width, colour) = (layout.node_radius * RingLayout::TRACK_RADIUS, layout.track_width(), Hue::Node(node));
+    let work = state.done + state.left();
+    let done = if work == 0 { 0.0 } else { state.done as f32 / work as f32 };
+    marks.push(Mark::Disc { centre, radius: layout.node_reach(), ink: Hue::Ground.full() });
     marks.push(Mark::Line { points: arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
     if done > 0.0 {
         let strength = if activity.is_out() { 0.4 } else { 1.0 };
@@ -112,7 +112,7 @@ fn progress(
     }
 }
 
-/// A broken outline: whoever has retired is no longer needed.
+/// Draws a dashed outline, the sign of a machine that is not needed.
 fn dashes(centre: Point, radius: f32, marks: &mut Vec<Mark>) {
     let count = (radius * 0.5).round().clamp(5.0, 12.0);
     let step = TAU / count;
@@ -122,10 +122,10 @@ fn dashes(centre: Point, radius: f32, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The two places of the pipe, the atom that is traced on the left.
-fn pipe(plan: &RingLayout, [x, y]: Point, of: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
-    let half = 0.12 * plan.node;
-    for (slot, side) in of.pipe().into_iter().zip([-1.0, 1.0]) {
+/// Draws the two slots of the pipe; the atom that is being traced is on the left.
+fn pipe(layout: &RingLayout, [x, y]: Point, state: &NodeState, hue: Hue, marks: &mut Vec<Mark>) {
+    let half = 0.12 * layout.node_radius;
+    for (slot, side) in state.pipe().into_iter().zip([-1.0, 1.0]) {
         let ink = hue.faint(match slot {
             Slot::Traced => 1.0,
             Slot::Filled => 0.65,

@@ -1,4 +1,4 @@
-//! Tests of the views together, and the runs that all tests of views share.
+//! Tests of several views together, and sample runs for all tests of views.
 
 mod portuguese;
 pub mod sample_runs;

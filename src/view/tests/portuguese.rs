@@ -1,4 +1,4 @@
-//! Tests of what is said in Portuguese: whole runs are told in both languages, and compared sentence by sentence.
+//! Tests of the Portuguese texts: all texts of whole runs are compared with the English ones, sentence by sentence.
 
 use std::time::Duration;
 
@@ -18,13 +18,14 @@ use crate::view::charts::tradeoff::Tradeoff;
 use crate::view::draw::display_list::Mark;
 use crate::view::inspect::Inspected;
 use crate::view::narration::record_sentences::record_words;
-use crate::view::narration::status::standing;
+use crate::view::narration::status::status_sentence;
 use crate::view::picture::overlay::Layer;
 use crate::view::playback::clock::{RATES, rate_of_time_words, short_rate_words};
 use crate::view::playback::details::Details;
 use crate::view::playback::run_view::RunView;
 use crate::view::playback::snapshots::{Snapshot, SnapshotCache};
 use crate::view::ring::labels;
+use crate::view::ring::layout::RingLayout;
 use crate::view::ring::{RingOverlay, ring};
 use crate::view::state::node_state::Activity;
 use crate::view::state::scheduler::Sharing;
@@ -34,18 +35,18 @@ use crate::view::text::scene_stats::{needs_lines, needs_warnings};
 use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
 use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
-/// How much room there is for what is said.
+/// Room for a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Room {
-    /// For a sentence that is heard while the run goes on.
+    /// A sentence that is read while the run goes on.
     Heard,
-    /// About as much as in English.
+    /// About as much as for the English text.
     Same,
     /// A line that may become two.
     Some,
 }
 
-/// What was said, and how much room there is for it.
+/// Texts, and the room for each.
 type Said = Vec<(Room, String)>;
 
 /// English words that no Portuguese sentence has.
@@ -92,7 +93,7 @@ const ENGLISH: [&str; 40] = [
     "stopped",
 ];
 
-/// Says the same in both languages, and compares.
+/// Makes the texts in both languages, and compares them.
 fn compare(say: impl Fn(Language) -> Said) {
     let [english, portuguese] = [Language::English, Language::Portuguese].map(say);
     assert_eq!(english.len(), portuguese.len());
@@ -122,7 +123,7 @@ fn compare(say: impl Fn(Language) -> Said) {
     assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Whole runs of all strategies, in which somebody takes a hand.
+/// Whole runs of all strategies, with changes by the user.
 fn runs() -> Vec<RunLog> {
     let ways = Strategy::ALL.into_iter().map(|strategy| (strategy, Driver::Sim));
     let ways = ways.chain([(Strategy::Ring, Driver::WorkStealing)]);
@@ -189,28 +190,28 @@ fn runs() -> Vec<RunLog> {
     logs
 }
 
-/// What is said of a run while it goes on.
-fn told(log: &RunLog, language: Language) -> Said {
+/// Sentences of a run while it goes on.
+fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
-    let mut moment = Snapshot::new(&log.header);
-    said.push((Room::Heard, moment.narrator.sentence(&moment.state, Time::ZERO, language)));
+    let mut snapshot = Snapshot::new(&log.header);
+    said.push((Room::Heard, snapshot.narrator.sentence(&snapshot.state, Time::ZERO, language)));
     for (index, record) in log.records().iter().enumerate() {
-        moment.apply(record);
-        let (state, narrator, now) = (&moment.state, &moment.narrator, record.at);
+        snapshot.apply(record);
+        let (state, narrator, now) = (&snapshot.state, &snapshot.narrator, record.at);
         said.push((Room::Some, record_words(record, state, language)));
         said.push((Room::Heard, narrator.sentence(state, now, language)));
         if !matches!(record.what, RecordKind::AtomStarted { .. }) {
-            said.push((Room::Heard, standing(state, language)));
+            said.push((Room::Heard, status_sentence(state, language)));
             said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.sentence(language))));
         }
         if index % 37 == 0 {
-            said.extend(hovered(&moment, now, language));
+            said.extend(pointed_words(&snapshot, now, language));
         }
     }
     said
 }
 
-/// The words of a drawing.
+/// Labels of a drawing.
 fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
     marks.into_iter().filter_map(|mark| match mark {
         Mark::Label { text, .. } => Some(text),
@@ -218,17 +219,18 @@ fn labels_of(marks: Vec<Mark>) -> impl Iterator<Item = String> {
     })
 }
 
-/// What is said of what somebody points at, and what stands in the drawing.
-fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
-    let (state, mut said) = (&moment.state, Vec::new());
+/// Texts under the pointer, and labels of the ring.
+fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
+    let (state, mut said) = (&snapshot.state, Vec::new());
     let nodes = 0..state.nodes().len() as NodeId;
     for (what, words) in
         nodes.flat_map(|node| node_words(state, node, now, language)).chain(parent_words(state, now, language))
     {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
-    // Offers are drawn where they are: as many in both languages.
-    let drawn = ring(state, &RingOverlay::default(), now, [1200.0, 1200.0], language);
+    // The ring has as many labels in both languages.
+    let layout = RingLayout::new(state.nodes().len(), [1200.0, 1200.0], language);
+    let drawn = ring(&layout, state, &RingOverlay::default(), now, language);
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));
@@ -236,38 +238,39 @@ fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
     said
 }
 
-/// What is said of a run when it is over.
-fn summed_up(log: &RunLog, language: Language) -> Said {
+/// Sentences of a run after its end.
+fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
-    let RunView { latest: moment, signs, lanes, .. } = RunView::of(log);
-    let (state, mut past) = (&moment.state, SnapshotCache::default());
-    said.extend(signs.all().iter().map(|sign| (Room::Same, sign.happening.sentence(language))));
+    let RunView { latest: snapshot, markers, lanes, .. } = RunView::of(log);
+    let (state, mut cache) = (&snapshot.state, SnapshotCache::default());
+    said.extend(markers.all().iter().map(|marker| (Room::Same, marker.happening.sentence(language))));
     let found = landmarks(log, language);
-    let abouts =
-        found.iter().map(|mark| mark.about).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
-    for about in abouts.collect::<Vec<_>>() {
+    let subjects =
+        found.iter().map(|mark| mark.subject).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
+    for subject in subjects.collect::<Vec<_>>() {
         let (title, more) =
-            Details::of(about, log, &lanes, &mut past, language).words(state, state.head(), 1.0, language);
+            Details::of(subject, log, &lanes, &mut cache, language).words(state, state.head(), 1.0, language);
         said.extend([(Room::Some, title), (Room::Some, more)]);
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
-    let tally = Metrics::of(log);
-    if let (Some(makespan), Some(ideal), Some(efficiency)) = (tally.makespan(), tally.ideal(), tally.efficiency()) {
-        let outcome = Summary { makespan, ideal, efficiency, spread: tally.finish_spread() };
-        said.push((Room::Same, result_words(state, &outcome, language)));
+    let metrics = Metrics::of(log);
+    if let (Some(makespan), Some(ideal), Some(efficiency)) = (metrics.makespan(), metrics.ideal(), metrics.efficiency())
+    {
+        let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() };
+        said.push((Room::Same, result_words(state, &summary, language)));
         said.extend(
-            figures(&outcome, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+            figures(&summary, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
         );
     }
     said
 }
 
 #[test]
-fn runs_are_told_in_portuguese() {
+fn sentences_of_runs_are_portuguese() {
     let runs = runs();
     assert!(runs.iter().filter(|log| Metrics::of(log).makespan().is_some()).count() > 30);
-    compare(|language| runs.iter().flat_map(|log| told(log, language)).collect());
-    compare(|language| runs.iter().flat_map(|log| summed_up(log, language)).collect());
+    compare(|language| runs.iter().flat_map(|log| sentences_while_it_runs(log, language)).collect());
+    compare(|language| runs.iter().flat_map(|log| sentences_after_it(log, language)).collect());
 }
 
 #[test]
@@ -333,12 +336,12 @@ fn states_fit_below_a_machine() {
         Activity::Done,
     ];
     compare(|language| all.map(|activity| (Room::Same, activity_word(activity, language).to_owned())).to_vec());
-    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND;
+    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND_LINE_LETTERS;
     assert!(all.iter().all(|activity| short(*activity)));
 }
 
 #[test]
-fn scenes_and_pixels_are_told_in_portuguese() {
+fn texts_of_scenes_and_pixels_are_portuguese() {
     let size = Size::new(24, 18).expect("a small picture");
     compare(|language| {
         let mut said = Vec::new();
@@ -363,7 +366,7 @@ fn scenes_and_pixels_are_told_in_portuguese() {
                 said.extend(labels_of(marks.collect()));
             }
         }
-        // What a material is called is the scene's own.
+        // Names of materials come from the scene.
         said.into_iter().map(|words| (Room::Some, words.replace("section of", "section"))).collect()
     });
 }

@@ -1,4 +1,4 @@
-//! Runs for tests, in virtual time, every atom as dear as the others.
+//! Sample runs for tests, in virtual time; all atoms have the same cost.
 
 use std::time::Duration;
 
@@ -8,10 +8,10 @@ use crate::record::Record;
 use crate::runlog::{Driver, Header, LinkSettings, RunLog};
 use crate::sim::Sim;
 
-/// What an atom costs on this computer; a node of speed 1 at pace 0.1 needs ten times as long.
+/// Cost of an atom on this computer; a node of speed 1 at pace 0.1 needs ten times as long.
 pub const COST: Duration = Duration::from_millis(1);
 
-/// What a run with these speeds on a picture of `atoms` atoms was asked to do.
+/// Header of a run with these speeds on a picture of `atoms` atoms.
 pub fn header(speeds: &[f64], atoms: u32) -> Header {
     let size = Size::new(50, atoms).expect("a small picture");
     let plain = Header::plain(size, 50, Strategy::Ring, speeds.to_vec());
@@ -19,7 +19,7 @@ pub fn header(speeds: &[f64], atoms: u32) -> Header {
     Header { scene: "sample".into(), driver: Driver::Sim, pace: 0.1, link, cores: 2, ..plain }
 }
 
-/// The records of a whole run, in the order of their times.
+/// Records of a whole run, in the order of their times.
 pub fn records(header: &Header) -> Vec<Record> {
     let mut records = Vec::new();
     Sim::new(header, &[], |_| COST).run(&mut |record| records.push(record));

@@ -1,34 +1,37 @@
-//! When a machine hung, was cut off or off, in its lane: what tells it lies over the lane, and a sign stands where it began.
+//! Conditions of a machine in its lane: a pattern over the time for which it was hung, cut off or off, and a symbol at
+//! the beginning.
 
+use super::layout::TimelineLayout;
+use super::quads::{Quad, Timeline};
 use super::time_window::TimeWindow;
-use super::{Quad, Timeline, TimelineLayout};
 use crate::balance::{Condition, NodeId};
 use crate::time::Time;
 use crate::view::draw::display_list::Hue;
 use crate::view::state::lane::Lane;
 
-/// How long a dash is, and the gap after it.
-const DASH: [f32; 2] = [6.0, 4.0];
-/// More dashes than this are one line.
-const MOST: usize = 400;
+/// Length of a dash, and of the gap after it.
+const DASH_AND_GAP_PX: [f32; 2] = [6.0, 4.0];
+/// Maximum number of dashes: a longer line has longer dashes.
+const MAX_DASHES: usize = 400;
 
-/// Draws them: an empty lane with a cross for one that was off, a broken line for one that hung, a wire that is cut for one that was cut off.
-pub(crate) fn troubles(
+/// Draws the conditions of a machine: an empty lane with a cross while it is off, a dashed line while it hangs, two
+/// dashed lines with a cut wire while it is cut off.
+pub(crate) fn draw_conditions(
     lane: &Lane,
     node: NodeId,
     window: &TimeWindow,
-    plan: &TimelineLayout,
+    layout: &TimelineLayout,
     head: Time,
     drawn: &mut Timeline,
 ) {
     let conditions = lane.conditions();
     for (i, &(from, condition)) in conditions.iter().enumerate() {
         let to = conditions.get(i + 1).map_or(head, |(next, _)| *next);
-        let [left, right] = plan.span(window, from, to);
+        let [left, right] = layout.span(window, from, to);
         if condition == Condition::Well || right <= left {
             continue;
         }
-        let (middle, [top, bottom]) = (plan.middle(node), plan.lane(node));
+        let (middle, [top, bottom]) = (layout.middle(node), layout.lane(node));
         match condition {
             Condition::Off => {
                 let place = [left, top, right, bottom];
@@ -42,9 +45,9 @@ pub(crate) fn troubles(
             }
             Condition::Well => {}
         }
-        let (x, reach) = (plan.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
-        if (0.0..=plan.width).contains(&x) && reach > 2.0 {
-            let [x, y] = [(x + reach + 2.0).min(plan.width - reach), middle];
+        let (x, reach) = (layout.x(window, from), ((bottom - top) / 2.0 - 1.0).min(6.0));
+        if (0.0..=layout.width).contains(&x) && reach > 2.0 {
+            let [x, y] = [(x + reach + 2.0).min(layout.width - reach), middle];
             let at = |[u, v]: [f32; 2]| [x + u * reach, y + v * reach];
             let strokes = condition_strokes(condition).iter();
             drawn.lines.extend(strokes.map(|&[from, to]| (at(from), at(to), Hue::Text.full())));
@@ -54,19 +57,19 @@ pub(crate) fn troubles(
 
 fn dashes([left, right]: [f32; 2], [top, bottom]: [f32; 2], quads: &mut Vec<Quad>) {
     let ink = Hue::Text.faint(0.9);
-    let step = (DASH[0] + DASH[1]).max((right - left) / MOST as f32);
+    let step = (DASH_AND_GAP_PX[0] + DASH_AND_GAP_PX[1]).max((right - left) / MAX_DASHES as f32);
     let count = ((right - left) / step).ceil() as usize;
-    for i in 0..count.min(MOST) {
+    for i in 0..count.min(MAX_DASHES) {
         let start = left + i as f32 * step;
-        let end = (start + DASH[0] * step / (DASH[0] + DASH[1])).min(right);
+        let end = (start + DASH_AND_GAP_PX[0] * step / (DASH_AND_GAP_PX[0] + DASH_AND_GAP_PX[1])).min(right);
         if end > start {
             quads.push(Quad { place: [start, top, end, bottom], ink });
         }
     }
 }
 
-/// The strokes of a condition's sign, within 1.3 of its middle: the same as at the machine in the ring, but for a cross in the place
-/// of a switch, and a tick for one that is well.
+/// Returns the strokes of a condition's symbol, within 1.3 of its centre. They are those of the badge in the ring,
+/// except for a cross instead of the switch, and a tick for a machine that is well.
 pub fn condition_strokes(condition: Condition) -> &'static [[[f32; 2]; 2]] {
     match condition {
         Condition::Well => &[[[-1.0, -0.1], [-0.3, 0.7]], [[-0.3, 0.7], [1.1, -1.1]]],
@@ -89,8 +92,8 @@ mod tests {
     use crate::view::state::lanes::Lanes;
     use crate::view::tests::sample_runs;
 
-    /// What is drawn more of three machines' lanes if this becomes of the second at 1 s: quads and lines.
-    fn more(condition: Condition) -> (usize, usize) {
+    /// How many quads and lines are added to three lanes if the second machine gets this condition at 1 s.
+    fn marks_added(condition: Condition) -> (usize, usize) {
         let header = sample_runs::header(&[1.0; 3], 300);
         let draw = |whats: &[RecordKind]| {
             let mut lanes = Lanes::new(&header);
@@ -106,15 +109,16 @@ mod tests {
     }
 
     #[test]
-    fn each_trouble_has_a_sign_of_its_own() {
-        let [well, off, hung, cut] = [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(more);
+    fn each_condition_has_its_own_symbol() {
+        let [well, off, hung, cut] =
+            [Condition::Well, Condition::Off, Condition::Hung, Condition::CutOff].map(marks_added);
         assert_eq!(well, (0, 0));
         assert_eq!([off.1, hung.1, cut.1], [2, 4, 3], "strokes");
         assert!(hung.0 > 20 && cut.0 > 2 * hung.0 - 20, "dashes {hung:?} {cut:?}");
     }
 
     #[test]
-    fn a_spare_is_off_from_the_beginning() {
+    fn spare_machine_is_off_from_the_beginning() {
         let header = crate::runlog::Header { spares: 1, ..sample_runs::header(&[1.0; 3], 300) };
         let lanes = Lanes::new(&header);
         let off: Vec<_> = lanes.lanes().iter().map(|lane| lane.conditions().len()).collect();

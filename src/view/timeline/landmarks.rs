@@ -1,4 +1,4 @@
-//! Steps through a run's records, and what is worth jumping to.
+//! Steps through a run's records, and landmarks to jump to.
 
 use crate::balance::{Message, NodeId, Party};
 use crate::language::{Language, say, word};
@@ -8,22 +8,23 @@ use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::text::format::{atoms_words, count, duration, node_name};
 
-/// By what one steps.
+/// Unit of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepUnit {
-    /// A message leaves or is handled (apart from traced atoms, which are many), a machine retires, somebody takes a hand.
+    /// A message is sent or handled, a machine retires, or the user changes something. Results are left out: they are
+    /// many.
     Event,
     /// An atom is traced.
     Atom,
-    /// A machine sends an offer of its own: from there it runs round the ring.
+    /// A machine sends its own offer, which then goes round the ring.
     Lap,
 }
 
 impl StepUnit {
-    /// Every step, the smallest last.
+    /// All units, the smallest last.
     pub const ALL: [Self; 3] = [Self::Lap, Self::Event, Self::Atom];
 
-    /// What one steps by, in a word or two.
+    /// Returns its name, in a word or two.
     pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::Event => word!(language, "event", "evento"),
@@ -32,7 +33,8 @@ impl StepUnit {
         }
     }
 
-    fn ends_at(self, what: &RecordKind) -> bool {
+    /// Whether a step of this unit ends at a record of kind `what`.
+    fn matches(self, what: &RecordKind) -> bool {
         match (self, what) {
             (Self::Atom, RecordKind::AtomDone { .. }) => true,
             (Self::Lap, RecordKind::Sent { from: Party::Node(from), message, .. }) => {
@@ -49,10 +51,10 @@ impl StepUnit {
     }
 }
 
-/// Whoever has seen the first `records` records of `log` and makes a step has then seen so many; `None` if there is no
-/// such step. The first step back from the first event is the beginning.
+/// Returns how many records lie before the end of a step that starts after the first `records` records of `log`; `None`
+/// if there is no step. A step back from the first event leads to the beginning.
 pub fn step(log: &RunLog, records: usize, by: StepUnit, forward: bool) -> Option<usize> {
-    let is_end = |record: &Record| by.ends_at(&record.what);
+    let is_end = |record: &Record| by.matches(&record.what);
     let (before, after) = log.records().split_at(records.min(log.records().len()));
     if forward {
         return after.iter().position(is_end).map(|further| before.len() + further + 1);
@@ -61,37 +63,37 @@ pub fn step(log: &RunLog, records: usize, by: StepUnit, forward: bool) -> Option
     Some(before.iter().rposition(is_end).map_or(0, |last| last + 1))
 }
 
-/// Something that is worth jumping to.
+/// An event to jump to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Landmark {
-    /// What it is, and what is to be said of it.
+    /// Its name and its facts.
     pub words: String,
-    /// How many records lie before it, its own included.
+    /// Number of records up to it, its own included.
     pub records: usize,
-    /// When it is.
+    /// Its time.
     pub at: Time,
-    /// What it is about.
-    pub about: Subject,
+    /// Its machine, atom or message.
+    pub subject: Subject,
 }
 
-/// What something is about.
+/// A machine, an atom or a message that can be selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A machine.
     Node(NodeId),
     /// An atom.
     Atom(Atom),
-    /// A message, by its name in the run.
+    /// A message, by its id in the run.
     Message(u64),
 }
 
-/// What of a run is worth jumping to, in the order in which one would ask.
+/// Finds the landmarks of a run, in the order in which they are of interest.
 pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
     let (mut offer, mut transfer, mut biggest, mut retired, mut dearest) = (None, None, None, None, None);
-    let mut hand = None;
-    let records = seen(log);
+    let mut user_change = None;
+    let records = until_finished(log);
     for (index, record) in records.iter().enumerate() {
-        let mark = |words: String, about| Landmark { words, records: index + 1, at: record.at, about };
+        let mark = |words: String, subject| Landmark { words, records: index + 1, at: record.at, subject };
         match &record.what {
             RecordKind::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. }
                 if from == who =>
@@ -138,34 +140,40 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
             }
             RecordKind::Retired { node } => {
                 let name = node_name(*node);
-                let words = || say!(language, "The first to retire: {name}", "A primeira dispensada: {name}");
+                let words =
+                    || say!(language, "The first machine to retire: {name}", "A primeira máquina dispensada: {name}");
                 retired.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } | RecordKind::Condition { node, .. } => {
                 let name = node_name(*node);
-                let words =
-                    || say!(language, "The first hand on a machine: {name}", "A primeira intervenção: máquina {name}");
-                hand.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
+                let words = || {
+                    say!(
+                        language,
+                        "The first change by the user: machine {name}",
+                        "A primeira intervenção: máquina {name}"
+                    )
+                };
+                user_change.get_or_insert_with(|| mark(words(), Subject::Node(*node)));
             }
             _ => {}
         }
     }
-    // Said once, if they are the same.
+    // Listed once if they are the same.
     let transfer =
-        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.about != first.about));
+        transfer.filter(|first: &Landmark| biggest.as_ref().is_none_or(|(_, mark)| mark.subject != first.subject));
     let slowest = slowest(records, log.header.speeds.len(), language);
     let [biggest, dearest] = [biggest.map(|(_, mark)| mark), dearest.map(|(_, mark)| mark)];
-    [offer, transfer, biggest, retired, slowest, dearest, hand].into_iter().flatten().collect()
+    [offer, transfer, biggest, retired, slowest, dearest, user_change].into_iter().flatten().collect()
 }
 
-/// The records that one sees happen: once the picture is complete, time stands still.
-fn seen(log: &RunLog) -> &[Record] {
+/// Returns the records until the picture is complete: the shown time ends there.
+fn until_finished(log: &RunLog) -> &[Record] {
     let records = log.records();
     let end = records.iter().position(|record| record.what == RecordKind::Finished);
     &records[..end.map_or(records.len(), |end| end + 1)]
 }
 
-/// The machine that traced the fewest atoms in the time in which it had any; its place is the end, where that is seen.
+/// Finds the machine with the lowest rate while it traced. Its landmark is the end of the run, where its rate is known.
 fn slowest(records: &[Record], nodes: usize, language: Language) -> Option<Landmark> {
     let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
     for record in records {
@@ -187,7 +195,7 @@ fn slowest(records: &[Record], nodes: usize, language: Language) -> Option<Landm
     let (name, traced) = (node_name(node), atoms_words(atoms[slowest], language));
     let words = say!(language, "The slowest machine: {name}, {traced}", "A máquina mais lenta: {name}, {traced}");
     let (records, at) = (records.len(), records.last()?.at);
-    (nodes > 1).then_some(Landmark { words, records, at, about: Subject::Node(node) })
+    (nodes > 1).then_some(Landmark { words, records, at, subject: Subject::Node(node) })
 }
 
 #[cfg(test)]
@@ -204,7 +212,7 @@ mod tests {
             for by in StepUnit::ALL {
                 let mut places = vec![0];
                 while let Some(next) = step(&log, places[places.len() - 1], by, true) {
-                    prop_assert!(by.ends_at(&log.records()[next - 1].what));
+                    prop_assert!(by.matches(&log.records()[next - 1].what));
                     places.push(next);
                 }
                 let mut back = vec![places[places.len() - 1]];
@@ -220,29 +228,29 @@ mod tests {
     #[test]
     fn every_atom_is_a_step() {
         let log = sample_runs::log(&[1.0, 0.3], 57);
-        let ends = |by: StepUnit| log.records().iter().filter(|record| by.ends_at(&record.what)).count();
+        let ends = |by: StepUnit| log.records().iter().filter(|record| by.matches(&record.what)).count();
         assert_eq!(ends(StepUnit::Atom), 57);
         assert!(ends(StepUnit::Lap) >= 2 && ends(StepUnit::Event) > ends(StepUnit::Lap));
     }
 
     #[test]
-    fn what_one_asks_for_is_found() {
+    fn landmarks_of_a_run_are_found() {
         let language = Language::English;
         let mut log = sample_runs::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
-        // There the last atoms keep everybody busy.
+        // Without these records nobody retires: the last atoms keep all machines busy.
         let retires = |secs, node| Record { at: Time::from_secs(secs), what: RecordKind::Retired { node } };
         log.add(vec![retires(0.001, 0)]);
         let end = log.end();
         log.add(vec![retires(9e3, 1)]);
         let found = landmarks(&log, language);
-        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.about);
+        let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.subject);
         assert!(matches!(says("The first offer: "), Some(Subject::Message(_))));
         assert!(matches!(says("The biggest transfer: "), Some(Subject::Message(_))));
-        assert!(matches!(says("The first to retire: "), Some(Subject::Node(0))));
+        assert!(matches!(says("The first machine to retire: "), Some(Subject::Node(0))));
         assert_eq!(says("The slowest machine: 5, "), Some(Subject::Node(4)));
         assert!(matches!(says("The costliest atom: "), Some(Subject::Atom(_))));
         assert!(found.iter().all(|mark| log.records()[mark.records - 1].at == mark.at));
-        assert!(found.iter().all(|mark| mark.at <= end), "after the end nothing is seen any more: {found:?}");
+        assert!(found.iter().all(|mark| mark.at <= end), "no landmark is after the end: {found:?}");
         assert_eq!(landmarks(&RunLog::new(log.header), language), []);
     }
 }

@@ -1,4 +1,4 @@
-//! What stands out in a run's time: where somebody took a hand in it, who retired, and its end.
+//! Markers on the time line: changes by the user, retired machines, and the end.
 
 use crate::balance::{Condition, NodeId};
 use crate::record::{Record, RecordKind};
@@ -6,27 +6,27 @@ use crate::time::Time;
 use crate::view::narration::happening::Happening;
 use crate::view::state::run_state::RunState;
 
-/// Something that stands out.
+/// A marker on the time line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
-    /// When it is.
+    /// Its time.
     pub at: Time,
-    /// What it is.
+    /// Its kind.
     pub kind: MarkerKind,
-    /// The same with the facts for its sentence.
+    /// Its event, for a sentence.
     pub happening: Happening,
 }
 
-/// What stands out.
+/// Kind of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkerKind {
     /// A machine's speed was changed.
     Speed(NodeId),
-    /// A machine was paused, or goes on.
+    /// A machine was paused, or continues.
     Pause(NodeId),
     /// A machine failed, or is well again.
     Condition(NodeId, Condition),
-    /// Messages take another time.
+    /// The latency was changed.
     Latency,
     /// A machine retired.
     Retired(NodeId),
@@ -34,12 +34,12 @@ pub enum MarkerKind {
     Complete,
 }
 
-/// The signs of a run, by time.
+/// The markers of a run, in the order of time.
 #[derive(Clone, Debug, Default)]
 pub struct Markers(Vec<Marker>);
 
 impl Markers {
-    /// Takes in a record; `state` already knows it. Those of different parties may come interleaved.
+    /// Takes in a record; `state` already knows it. Records of different parties may come a little out of order.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
         let kind = match &record.what {
             RecordKind::SpeedSet { node, .. } => MarkerKind::Speed(*node),
@@ -51,34 +51,34 @@ impl Markers {
             _ => return,
         };
         let Some(happening) = Happening::of(record, state) else { return };
-        let sign = Marker { at: record.at, kind, happening };
-        // A slider that is dragged says many speeds, of which the last stays.
+        let marker = Marker { at: record.at, kind, happening };
+        // A dragged slider makes many records: only the last has a marker.
         let drags = |last: &Marker| last.kind == kind && matches!(kind, MarkerKind::Speed(_) | MarkerKind::Latency);
         match self.0.last_mut() {
-            Some(last) if drags(last) && sign.at.since(last.at) < DRAGGED => *last = sign,
+            Some(last) if drags(last) && marker.at.since(last.at) < DRAG_TIME => *last = marker,
             _ => {
-                let place = self.0.partition_point(|other| other.at <= sign.at);
-                self.0.insert(place, sign);
+                let place = self.0.partition_point(|other| other.at <= marker.at);
+                self.0.insert(place, marker);
             }
         }
     }
 
-    /// All, by time.
+    /// Returns all markers, in the order of time.
     pub fn all(&self) -> &[Marker] {
         &self.0
     }
 
-    /// The ones no further from `time` than `reach`, the nearest first.
+    /// Returns the markers within `reach` of `time`, the nearest first.
     pub fn near(&self, time: Time, reach: std::time::Duration) -> Vec<&Marker> {
-        let away = |sign: &Marker| sign.at.since(time).max(time.since(sign.at));
-        let mut near: Vec<_> = self.0.iter().filter(|sign| away(sign) <= reach).collect();
-        near.sort_by_key(|sign| away(sign));
+        let away = |marker: &Marker| marker.at.since(time).max(time.since(marker.at));
+        let mut near: Vec<_> = self.0.iter().filter(|marker| away(marker) <= reach).collect();
+        near.sort_by_key(|marker| away(marker));
         near
     }
 }
 
-/// Speeds that follow each other sooner than this are one.
-const DRAGGED: std::time::Duration = std::time::Duration::from_secs(1);
+/// Changes by one slider within this time share a marker.
+const DRAG_TIME: std::time::Duration = std::time::Duration::from_secs(1);
 
 #[cfg(test)]
 mod tests {
@@ -87,9 +87,9 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn a_dragged_slider_is_one_sign_and_every_retirement_its_own() {
+    fn dragged_slider_is_one_marker_and_every_retirement_its_own() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
-        let (mut state, mut signs) = (RunState::new(&header), Markers::default());
+        let (mut state, mut markers) = (RunState::new(&header), Markers::default());
         let mut records = sample_runs::records(&header);
         let half = records.len() / 2;
         let at = records[half].at;
@@ -99,17 +99,17 @@ mod tests {
         }
         for record in &records {
             state.apply(record);
-            signs.apply(record, &state);
+            markers.apply(record, &state);
         }
-        let speeds: Vec<_> = signs.all().iter().filter(|sign| sign.kind == MarkerKind::Speed(1)).collect();
+        let speeds: Vec<_> = markers.all().iter().filter(|marker| marker.kind == MarkerKind::Speed(1)).collect();
         assert_eq!((speeds.len(), speeds[0].at), (1, Time(at.0 + 2)));
         let sentence = speeds[0].happening.sentence(Language::English);
         assert!(sentence.starts_with("Machine 2 now runs at 20 %"), "{sentence}");
-        let retired = signs.all().iter().filter(|sign| matches!(sign.kind, MarkerKind::Retired(_))).count();
+        let retired = markers.all().iter().filter(|marker| matches!(marker.kind, MarkerKind::Retired(_))).count();
         assert_eq!(retired, state.nodes().iter().filter(|node| node.retired).count());
-        assert_eq!(signs.all().last().map(|sign| sign.kind), Some(MarkerKind::Complete));
-        assert!(signs.all().is_sorted_by_key(|sign| sign.at));
-        let near = signs.near(Time(at.0 + 5), std::time::Duration::from_nanos(10));
-        assert!(near.first().is_some_and(|sign| sign.kind == MarkerKind::Speed(1)));
+        assert_eq!(markers.all().last().map(|marker| marker.kind), Some(MarkerKind::Complete));
+        assert!(markers.all().is_sorted_by_key(|marker| marker.at));
+        let near = markers.near(Time(at.0 + 5), std::time::Duration::from_nanos(10));
+        assert!(near.first().is_some_and(|marker| marker.kind == MarkerKind::Speed(1)));
     }
 }

@@ -1,71 +1,71 @@
-//! Which stretch of a run's time is seen.
+//! The stretch of a run's time that is shown.
 
 use crate::time::Time;
 
-/// A stretch of a run's time, seen in some width.
+/// A stretch of a run's time that is shown across some width.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeWindow {
     /// Its beginning, in nanoseconds.
     from: f64,
     /// Its length, in nanoseconds; never 0.
     length: f64,
-    /// It grows with the run, of which it shows all.
-    all: bool,
+    /// Whether it shows all of the run, and grows with it.
+    shows_all: bool,
 }
 
-/// Nothing shorter is shown: a hundredth of the shortest atom.
-const SHORTEST: f64 = 100.0;
+/// Least length: a hundredth of the shortest atom.
+const MIN_LENGTH_NS: f64 = 100.0;
 
 impl Default for TimeWindow {
     fn default() -> Self {
-        Self { from: 0.0, length: 1.0, all: true }
+        Self { from: 0.0, length: 1.0, shows_all: true }
     }
 }
 
 impl TimeWindow {
-    /// Its beginning.
+    /// Returns its beginning.
     pub fn from(&self) -> Time {
         Time(self.from as u64)
     }
 
-    /// Its end.
+    /// Returns its end.
     pub fn to(&self) -> Time {
         Time((self.from + self.length).ceil() as u64)
     }
 
     /// Whether it shows all of the run.
     pub fn shows_all(&self) -> bool {
-        self.all
+        self.shows_all
     }
 
     /// Shows all of the run.
     pub fn show_all(&mut self) {
-        self.all = true;
+        self.shows_all = true;
     }
 
-    /// The run is so long by now.
+    /// Adapts to the present length of the run: stays inside it, or shows all of it.
     pub fn fit(&mut self, length: Time) {
-        let whole = (length.0 as f64).max(SHORTEST);
-        if self.all || self.length >= whole {
-            *self = Self { from: 0.0, length: whole, all: true };
+        let whole = (length.0 as f64).max(MIN_LENGTH_NS);
+        if self.shows_all || self.length >= whole {
+            *self = Self { from: 0.0, length: whole, shows_all: true };
         }
         self.from = self.from.clamp(0.0, whole - self.length);
     }
 
-    /// Shows `factor` times as much time (less than 1: nearer), so that what is at `share` of the width, 0 to 1, stays.
+    /// Shows `factor` times as much time (less than 1: nearer). The time at `share` of the width, 0 to 1, stays there.
     pub fn zoom(&mut self, share: f64, factor: f64) {
         let (at, before) = (self.from + share * self.length, self.length);
-        self.length = (self.length * factor).max(SHORTEST);
+        self.length = (self.length * factor).max(MIN_LENGTH_NS);
         self.from = (at - share * self.length).max(0.0);
-        self.all &= self.length >= before;
+        self.shows_all &= self.length >= before;
     }
 
-    /// Moves by a share of its length; to the right shows what is later.
+    /// Moves by a share of its length; positive shows later times.
     pub fn pan(&mut self, share: f64) {
         self.from = (self.from + share * self.length).max(0.0);
     }
 
-    /// Shows `time`, at its middle if it is not seen.
+    /// Moves `time` to the middle if it is not in the window.
     pub fn show(&mut self, time: Time) {
         let time = time.0 as f64;
         if time < self.from || time > self.from + self.length {
@@ -73,12 +73,12 @@ impl TimeWindow {
         }
     }
 
-    /// Where a time is, as a share of the width; beyond 0 and 1 it is not seen.
+    /// Returns the position of a time as a share of the width; outside 0 to 1 it is not visible.
     pub fn share(&self, time: Time) -> f64 {
         (time.0 as f64 - self.from) / self.length
     }
 
-    /// The time at a share of the width.
+    /// Returns the time at a share of the width.
     pub fn at(&self, share: f64) -> Time {
         Time((self.from + share * self.length).max(0.0) as u64)
     }
@@ -92,7 +92,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_under_the_pointer_stays_there(share in 0.0..1.0f64, factor in 0.1..1.0f64, length in 1_000_000..u64::MAX / 4096) {
+        fn time_under_the_pointer_stays_there(share in 0.0..1.0f64, factor in 0.1..1.0f64, length in 1_000_000..u64::MAX / 4096) {
             let mut window = TimeWindow::default();
             window.fit(Time(length));
             let before = window.at(share);
@@ -103,7 +103,7 @@ mod tests {
         }
 
         #[test]
-        fn it_never_leaves_the_run(moves in prop::collection::vec((0.0..1.0f64, 0.2..4.0f64, -2.0..2.0f64), 1..30)) {
+        fn window_never_leaves_the_run(moves in prop::collection::vec((0.0..1.0f64, 0.2..4.0f64, -2.0..2.0f64), 1..30)) {
             let (mut window, length) = (TimeWindow::default(), Time::from_secs(20.0));
             window.fit(length);
             for (share, factor, by) in moves {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn it_grows_with_the_run_until_somebody_looks_nearer() {
+    fn window_grows_with_the_run_until_zoomed() {
         let mut window = TimeWindow::default();
         window.fit(Time(5_000));
         window.fit(Time(9_000));

@@ -14,9 +14,10 @@ use anel::sim::Sim;
 use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
-    Details, Layer, Narrator, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary, TimeWindow,
-    TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words, picture_pixels,
-    record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline, timeline_at,
+    Details, Layer, Narrator, RingLayout, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary,
+    TimeWindow, TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words,
+    picture_pixels, record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline,
+    timeline_at,
 };
 
 use super::assert_sentence;
@@ -83,7 +84,7 @@ fn go_through(log: &RunLog, language: Language) {
     let records = log.records().len();
     let mut said = String::new();
     for there in [records / 2, records, records / 3, 0] {
-        past.go(log, there, &mut moment);
+        past.seek(log, there, &mut moment);
         assert_eq!(moment.records(), there);
         for by in StepUnit::ALL {
             for forward in [true, false] {
@@ -96,8 +97,12 @@ fn go_through(log: &RunLog, language: Language) {
         }
     }
     for mark in landmarks(log, language) {
-        let dossier = Details::of(mark.about, log, &known.lanes, &mut past, language);
-        said += &format!("{:?}{:?}", dossier.words(&moment.state, mark.at, 0.1, language), dossier.lit(&moment.state));
+        let dossier = Details::of(mark.subject, log, &known.lanes, &mut past, language);
+        said += &format!(
+            "{:?}{:?}",
+            dossier.words(&moment.state, mark.at, 0.1, language),
+            dossier.highlight(&moment.state)
+        );
     }
     let end = log.records().last().map_or(Time::ZERO, |last| last.at);
     said += &format!("{:?}", known.lanes.usage(end));
@@ -119,13 +124,9 @@ fn go_through(log: &RunLog, language: Language) {
 }
 
 fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Time, language: Language) {
-    let marks = ring(
-        state,
-        &RingOverlay { outcome, selected: Some(0), ..RingOverlay::default() },
-        now,
-        [400.0, 300.0],
-        language,
-    );
+    let layout = RingLayout::new(state.nodes().len(), [400.0, 300.0], language);
+    let overlay = RingOverlay { summary: outcome, selected: Some(0), ..RingOverlay::default() };
+    let marks = ring(&layout, state, &overlay, now, language);
     let mut said = format!("{marks:?}");
     for node in 0..state.nodes().len().min(40) as NodeId {
         said += &format!("{:?}", node_words(state, node, now, language));

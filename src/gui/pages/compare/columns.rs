@@ -171,7 +171,7 @@ fn picture(
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture, fitted, whole, Color32::WHITE);
         }
-        let (done, all) = (run.moment().state.done(), run.moment().state.atoms());
+        let (done, all) = (run.snapshot().state.done(), run.snapshot().state.atoms());
         response.widget_info(|| {
             let name = &run.name;
             let share = percent(done, all);
@@ -202,15 +202,15 @@ fn progress(ui: &Ui, rect: Rect, run: Option<&ComparedRun>, now: Time, length: T
     painter.rect_filled(rail.with_max_x(x(now.min(until))), 3.0, look.accent);
     let base = pos2(rail.left(), rail.bottom() + 0.5 * GRID);
     let (large, small) = (theme::strong(theme::BODY), theme::regular(theme::SMALL));
-    let state = &run.moment().state;
+    let state = &run.snapshot().state;
     let is_over = end.is_some_and(|end| now >= end);
-    let (first, colour) = match &run.account {
+    let (first, colour) = match &run.budget {
         Some(budget) if is_over => (duration(budget.makespan, language), look.text),
         None if now >= length => (word!(language, "never ends", "nunca termina").to_owned(), look.trouble),
         _ => (percent(state.done(), state.atoms()), look.quiet),
     };
     painter.text(base, egui::Align2::LEFT_TOP, first, large, colour);
-    if let Some(budget) = run.account.as_ref().filter(|_| is_over) {
+    if let Some(budget) = run.budget.as_ref().filter(|_| is_over) {
         let efficiency = fraction(budget.efficiency());
         let text = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
         painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, text, small, look.quiet);

@@ -108,14 +108,14 @@ impl Findings {
         ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
-            let text = match (&one.account, &other.account) {
+            let text = match (&one.budget, &other.budget) {
                 (Some(first), Some(second)) => contrast(
                     NamedBudget { name: &one.name, account: first },
                     NamedBudget { name: &other.name, account: second },
                     language,
                 ),
                 _ => {
-                    let name = if one.account.is_none() { &one.name } else { &other.name };
+                    let name = if one.budget.is_none() { &one.name } else { &other.name };
                     say!(
                         language,
                         "{name} never ends: a stopped machine keeps its atoms.",
@@ -125,7 +125,7 @@ impl Findings {
             };
             ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
             ui.add_space(GRID);
-            figures(ui, [(a, one.account.as_ref()), (b, other.account.as_ref())], look, language);
+            figures(ui, [(a, one.budget.as_ref()), (b, other.budget.as_ref())], look, language);
         });
     }
 }
@@ -223,7 +223,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
 fn where_time_went(ui: &mut Ui, columns: &[CompareColumn], look: Look, language: Language) {
     let names: Vec<String> =
         (0..columns.len()).map(|index| format!("{}  {}", letter(index), columns[index].name(language))).collect();
-    let budgets = columns.iter().map(|column| column.run.as_ref()?.account.as_ref());
+    let budgets = columns.iter().map(|column| column.run.as_ref()?.budget.as_ref());
     let runs: Vec<(&str, &TimeBudget)> =
         names.iter().zip(budgets).filter_map(|(name, budget)| Some((name.as_str(), budget?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {

@@ -107,7 +107,7 @@ fn dots_beside_curves(growth: &Growth, columns: &[CompareColumn], measure: Measu
     /// Greatest relative difference from the curve of a run that is on it.
     const TOLERANCE: f64 = 0.005;
     let dot = |(index, column): (usize, &CompareColumn)| {
-        let budget: &TimeBudget = column.run.as_ref()?.account.as_ref()?;
+        let budget: &TimeBudget = column.run.as_ref()?.budget.as_ref()?;
         let header = &column.trial.header;
         let (machines, speedup) = (header.speeds.len(), growth.alone.div_duration_f64(budget.makespan));
         let curve = growth.curves.iter().find(|(strategy, _)| *strategy == header.rules.strategy);
@@ -139,7 +139,7 @@ fn note(has_article: bool, has_dots: bool, columns: &[CompareColumn], language: 
     if has_dots {
         sentences.push(word!(language, "Letters: the runs above.", "Letras: as execuções acima.").to_owned());
     }
-    let is_endless = |column: &CompareColumn| column.run.as_ref().is_some_and(|run| run.account.is_none());
+    let is_endless = |column: &CompareColumn| column.run.as_ref().is_some_and(|run| run.budget.is_none());
     for (index, _) in columns.iter().enumerate().filter(|(_, column)| is_endless(column)) {
         let letter = letter(index);
         sentences.push(say!(

@@ -87,7 +87,7 @@ impl Compare {
     /// Shows the buttons of the playback and the shown time.
     fn play(&mut self, ui: &mut Ui, look: Look, language: Language) {
         let is_over = self.time.now() >= self.length();
-        let (icon, name) = match self.time.stands() {
+        let (icon, name) = match self.time.is_paused() {
             _ if is_over => (Icon::Restart, word!(language, "Play again", "Repetir")),
             true => (Icon::Play, word!(language, "Resume", "Continuar")),
             false => (Icon::Pause, word!(language, "Pause", "Pausar")),

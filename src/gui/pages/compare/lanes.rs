@@ -73,7 +73,8 @@ fn run_lanes(
     let run = column.run.as_ref()?;
     let lanes = run.lanes.lanes().len();
     let lane = strip.height() / lanes.max(1) as f32;
-    let layout = TimelineLayout { width: strip.width(), head: 0.0, foot: 0.0, lane, lanes };
+    let layout =
+        TimelineLayout { width: strip.width(), header_height: 0.0, axis_height: 0.0, lane_height: lane, lanes };
     let key = (strip.size(), window.to());
     if column.lanes.as_ref().is_none_or(|(size, end, _)| (*size, *end) != key) {
         let drawing = timeline(&run.lanes, window, &layout, run.length());
@@ -108,7 +109,7 @@ fn run_lanes(
 
 /// Paints the machines' numbers, every nth if lanes are low.
 fn numbers(painter: &Painter, strip: Rect, layout: &TimelineLayout, look: Look) {
-    let every = (theme::SMALL / layout.lane).ceil().max(1.0) as usize;
+    let every = (theme::SMALL / layout.lane_height).ceil().max(1.0) as usize;
     for node in (0..layout.lanes as NodeId).step_by(every) {
         let [top, bottom] = layout.lane(node);
         let at = pos2(strip.left() - 0.5 * GRID, strip.top() + (top + bottom) / 2.0);
@@ -130,7 +131,7 @@ fn time_axis(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, lang
 
 /// Describes the time budget of a run for screen readers.
 fn budget_text(run: &ComparedRun, language: Language) -> String {
-    run.account.as_ref().map_or_else(String::new, |budget| spent_words(&[(&run.name, budget)], language))
+    run.budget.as_ref().map_or_else(String::new, |budget| spent_words(&[(&run.name, budget)], language))
 }
 
 /// Returns the legend; it explains changes only if there are any.

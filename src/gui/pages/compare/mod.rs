@@ -79,7 +79,7 @@ impl Default for Compare {
             job: None,
             growth: None,
             trouble: None,
-            time: Playback::from_the_beginning(),
+            time: Playback::from_start(),
             is_paced: false,
             findings: Findings::default(),
             holds_run: false,
@@ -137,7 +137,7 @@ impl Compare {
     /// Returns names and makespans of the finished runs, for tests.
     pub fn runs(&self) -> Vec<(String, Option<Duration>)> {
         let runs = self.columns.iter().filter_map(|column| column.run.as_ref());
-        runs.map(|run| (run.name.clone(), run.account.as_ref().map(|budget| budget.makespan))).collect()
+        runs.map(|run| (run.name.clone(), run.budget.as_ref().map(|budget| budget.makespan))).collect()
     }
 
     /// Returns the finished runs for an export; `None` until there is one.
@@ -146,7 +146,7 @@ impl Compare {
         let entry = |column: &CompareColumn| {
             let header = &column.trial.header;
             let (strategy, machines) = (header.rules.strategy, header.speeds.len());
-            let account = column.run.as_ref()?.account.clone();
+            let account = column.run.as_ref()?.budget.clone();
             Some(ComparisonEntry { strategy, changes: column.changes.clone(), machines, account })
         };
         let (title, size) = (header.title().to_owned(), header.size);
@@ -182,7 +182,7 @@ impl Compare {
     pub fn handle_command(&mut self, command: UserCommand) -> bool {
         match command {
             UserCommand::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
-            UserCommand::Pause => self.time.set_stands(!self.time.stands()),
+            UserCommand::Pause => self.time.set_paused(!self.time.is_paused()),
             UserCommand::Rate(faster) => self.time.change_rate(if faster { 1 } else { -1 }),
             UserCommand::SetRate(index) => self.time.set_rate(index),
             UserCommand::Beginning => self.time.seek(Time::ZERO, true),
@@ -198,7 +198,7 @@ impl Compare {
         let look = Look::of(ui.ctx());
         self.update_subject(session);
         let length = self.length();
-        if !self.time.stands() && length > Time::ZERO && self.time.now() < length {
+        if !self.time.is_paused() && length > Time::ZERO && self.time.now() < length {
             let passed = Duration::from_secs_f32(ui.input(|input| input.stable_dt).min(0.1));
             self.time.advance(passed, length, false);
             ui.ctx().request_repaint_after(Duration::from_millis(33));
@@ -262,7 +262,7 @@ impl Compare {
             self.add(changes);
         }
         self.findings.pair = [0, self.columns.len() - 1];
-        (self.time, self.is_paced) = (Playback::from_the_beginning(), false);
+        (self.time, self.is_paced) = (Playback::from_start(), false);
         self.run(session);
     }
 

@@ -124,7 +124,7 @@ impl LessonProgress {
         if let Some(records) = self.until {
             let stage = session.stage_mut();
             // The user has stopped the time, so the lesson leaves it alone.
-            if stage.time.stands() {
+            if stage.time.is_paused() {
                 self.until = None;
             } else if stage.records_shown() >= records {
                 stage.show_after(records);

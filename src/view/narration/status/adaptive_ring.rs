@@ -1,8 +1,10 @@
-//! How things stand in the ring that adapts: who computes, who sleeps, who is not there.
+//! Status of the adaptive ring: who computes, who sleeps, who has failed.
 
-use super::deadlock::hangs;
-use super::stopped::{all_still, why};
-use super::{Machine, computing, only, under_way};
+use super::deadlock::deadlock_words;
+use super::phrases::{
+    Machine, atoms_on_their_way, computing, last_computing, machines_wait_for_parent, single_machine,
+};
+use super::stopped::{all_stand_still, stop_reason};
 use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::Happening;
@@ -11,24 +13,24 @@ use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, names, node_name};
 
-/// How things stand.
-pub(crate) fn standing_adaptive(state: &RunState, language: Language) -> String {
+/// Describes the status of the adaptive ring.
+pub(crate) fn adaptive_ring_status(state: &RunState, language: Language) -> String {
     let there: Vec<Machine<'_>> = (0..).zip(state.nodes()).filter(|(_, node)| !node.spare).collect();
     let busy: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.computes()).collect();
-    let told = match *busy {
+    let compute = match *busy {
         [] => return nobody_computes(state, &there, language),
-        [last] if there.len() == 1 => super::only_one(last.1, language),
-        [last] => only(last, language),
+        [last] if there.len() == 1 => single_machine(last.1, language),
+        [last] => last_computing(last, language),
         _ => computing(busy.len(), there.len(), word!(language, "machines", "máquinas"), language),
     };
-    match besides(state, &there, language) {
-        Some(more) => format!("{told}; {more}"),
-        None => told,
+    match others(state, &there, language) {
+        Some(more) => format!("{compute}; {more}"),
+        None => compute,
     }
 }
 
-/// What there is to say of those that do not compute: what is amiss first.
-fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Option<String> {
+/// Describes the machines that do not compute: failures first, then machines that stand still, then sleepers.
+fn others(state: &RunState, there: &[Machine<'_>], language: Language) -> Option<String> {
     let those = |is_so: &dyn Fn(&NodeState) -> bool| -> Vec<NodeId> {
         there.iter().filter(|(_, node)| is_so(node)).map(|(node, _)| *node).collect()
     };
@@ -47,18 +49,18 @@ fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Optio
         }
         ([], [], asleep) => Happening::retired(state, asleep.to_vec()).sentence(language),
         ([], [node, ..], _) => {
-            let (name, why) = (node_name(*node), why(&state.nodes()[usize::from(*node)], language));
+            let (name, why) = (node_name(*node), stop_reason(&state.nodes()[usize::from(*node)], language));
             if state.has(Remedy::Copies) {
                 say!(
                     language,
-                    "{name} {why}: others take its atoms, and copy the last",
-                    "{name} {why}: outras assumem seus átomos e copiam o último"
+                    "{name} {why}: the others take over its atoms and copy the last ones",
+                    "{name} {why}: as outras assumem seus átomos e copiam os últimos"
                 )
             } else {
                 say!(
                     language,
-                    "{name} {why}: others take what waits with it, but not what is in its pipe",
-                    "{name} {why}: outras assumem o que espera nela, mas não o que está no pipe"
+                    "{name} {why}: the others take over the atoms in its queue, but not in its pipe",
+                    "{name} {why}: as outras assumem os átomos em sua fila, mas não em seu pipe"
                 )
             }
         }
@@ -69,7 +71,7 @@ fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Optio
             } else if is_known {
                 say!(language, "the ring has closed round {name}", "o anel se fechou sem {name}")
             } else {
-                say!(language, "{name} has failed, and nobody knows it yet", "{name} falhou, e ninguém sabe ainda")
+                say!(language, "{name} has failed, and nobody has noticed yet", "{name} falhou, e ninguém notou ainda")
             }
         }
         (many, ..) => {
@@ -81,7 +83,7 @@ fn besides(state: &RunState, there: &[Machine<'_>], language: Language) -> Optio
 
 /// Nobody computes, and the picture is not complete.
 fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) -> String {
-    if let Some(words) = hangs(state, language) {
+    if let Some(words) = deadlock_words(state, language) {
         return words;
     }
     let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
@@ -89,27 +91,35 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
     let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
     if lost + kept > 0 && state.has(Remedy::Leases) {
         let atoms = atoms_words(lost + kept, language);
-        return say!(
-            language,
-            "{atoms} are with nobody who answers: the parent gives them out again",
-            "{atoms} não estão com quem responda: o pai os dará de novo"
-        );
+        return match lost + kept {
+            1 => say!(
+                language,
+                "{atoms} is on an unreachable machine; the parent will hand it out again",
+                "{atoms} está numa máquina inacessível; o pai vai dá-lo de novo"
+            ),
+            _ => say!(
+                language,
+                "{atoms} are on unreachable machines; the parent will hand them out again",
+                "{atoms} estão em máquinas inacessíveis; o pai vai dá-los de novo"
+            ),
+        };
     }
     let still: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.left() > 0).collect();
     match *still {
-        [] if state.has_atoms_under_way() => under_way(language),
-        [] => super::waiting_for_the_parent(language),
-        [..] if still.len() == there.len() => all_still(&still, language),
+        [] if state.has_atoms_under_way() => atoms_on_their_way(language),
+        [] => machines_wait_for_parent(language),
+        [..] if still.len() == there.len() => all_stand_still(&still, language),
         [(node, machine), ..] if !state.has(Remedy::Wake) => {
-            let (name, why, left) = (node_name(node), why(machine, language), atoms_words(machine.left(), language));
+            let (name, why, left) =
+                (node_name(node), stop_reason(machine, language), atoms_words(machine.left(), language));
             say!(language, "{name} {why}, with {left}", "{name} {why}, com {left}")
         }
         [(node, machine), ..] => {
-            let (name, why) = (node_name(node), why(machine, language));
+            let (name, why) = (node_name(node), stop_reason(machine, language));
             say!(
                 language,
                 "{name} {why}: it wakes others for its atoms",
-                "{name} {why}: acorda outras para seus átomos"
+                "{name} {why}: ela acorda outras para seus átomos"
             )
         }
     }
@@ -117,19 +127,18 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::standing;
     use super::*;
     use crate::balance::{Message, Party, Remedies, Strategy};
     use crate::record::{Record, RecordKind};
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
-    /// How things stand where machines have so many atoms left, of which some sleep or are in some condition.
-    fn stands(left: &[u32], asleep: &[NodeId], conditions: &[(NodeId, Condition)], language: Language) -> String {
-        stands_with(Remedies::ALL, left, asleep, conditions, language)
+    /// The status of a run in which machines have these atoms left, and some sleep or have some condition.
+    fn status(left: &[u32], asleep: &[NodeId], conditions: &[(NodeId, Condition)], language: Language) -> String {
+        status_with(Remedies::ALL, left, asleep, conditions, language)
     }
 
-    fn stands_with(
+    fn status_with(
         remedies: Remedies,
         left: &[u32],
         asleep: &[NodeId],
@@ -147,51 +156,48 @@ mod tests {
         }
         asleep.iter().for_each(|&node| apply(RecordKind::Retired { node }));
         conditions.iter().for_each(|&(node, condition)| apply(RecordKind::Condition { node, condition }));
-        standing(&state, language)
+        adaptive_ring_status(&state, language)
     }
 
     #[test]
-    fn sleepers_and_failures_are_told() {
+    fn sleepers_and_failures_are_told_of() {
         let language = Language::English;
-        assert_eq!(stands(&[9, 9, 9], &[], &[], language), "All 3 machines compute");
+        assert_eq!(status(&[9, 9, 9], &[], &[], language), "All 3 machines compute");
+        assert_eq!(status(&[0, 9, 9], &[0], &[], language), "2 of 3 machines compute; 1 sleeps until it is needed");
         assert_eq!(
-            stands(&[0, 9, 9], &[0], &[], language),
-            "2 of 3 machines compute; 1 sleeps until somebody needs it"
+            status(&[0, 0, 9], &[0, 1], &[], language),
+            "Only 3 still computes: 9 atoms left; 1 and 2 sleep until they are needed"
         );
         assert_eq!(
-            stands(&[0, 0, 9], &[0, 1], &[], language),
-            "Only 3 still computes: 9 atoms left; 1 and 2 sleep until somebody needs them"
+            status(&[9, 9, 9], &[], &[(1, Condition::Hung)], language),
+            "2 of 3 machines compute; 2 has failed, and nobody has noticed yet"
         );
         assert_eq!(
-            stands(&[9, 9, 9], &[], &[(1, Condition::Hung)], language),
-            "2 of 3 machines compute; 2 has failed, and nobody knows it yet"
+            status(&[0, 7, 0], &[0, 2], &[(1, Condition::Off)], language),
+            "7 atoms are on unreachable machines; the parent will hand them out again"
         );
         assert_eq!(
-            stands(&[0, 7, 0], &[0, 2], &[(1, Condition::Off)], language),
-            "7 atoms are with nobody who answers: the parent gives them out again"
-        );
-        assert_eq!(
-            stands(&[5, 5], &[], &[(0, Condition::Off), (1, Condition::Hung)], language),
-            "1 and 2 have failed: nobody is left; make one well again"
+            status(&[5, 5], &[], &[(0, Condition::Off), (1, Condition::Hung)], language),
+            "1 and 2 have failed: no machine is left; repair one of them"
         );
     }
 
     #[test]
-    fn nothing_is_told_of_remedies_that_are_left_out() {
+    fn remedies_that_are_switched_off_are_not_mentioned() {
         let language = Language::English;
         let without = |remedy| Remedies::ALL.without(remedy);
         assert_eq!(
-            stands_with(without(Remedy::Wake), &[0, 9, 9], &[0], &[], language),
+            status_with(without(Remedy::Wake), &[0, 9, 9], &[0], &[], language),
             "2 of 3 machines compute; 1 has retired"
         );
         let off = (1, Condition::Off);
         assert_eq!(
-            stands_with(without(Remedy::Leases), &[9, 9, 9], &[], &[off], language),
+            status_with(without(Remedy::Leases), &[9, 9, 9], &[], &[off], language),
             "2 of 3 machines compute; 2 has failed, and nobody will notice"
         );
         assert_eq!(
-            stands_with(without(Remedy::Leases), &[0, 9, 0], &[0, 2], &[off], language),
-            "The run hangs, since 2 is off: without leases this ring has no remedy"
+            status_with(without(Remedy::Leases), &[0, 9, 0], &[0, 2], &[off], language),
+            "The run hangs because 2 is off: without leases this ring cannot recover"
         );
     }
 }

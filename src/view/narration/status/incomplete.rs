@@ -1,14 +1,14 @@
-//! Why a run that is over has no complete picture.
+//! Sentence for a record that ends before the picture is complete.
 
-use super::deadlock::hung;
-use super::stopped::in_queues;
-use super::{Machine, waiting};
+use super::deadlock::incomplete_reason;
+use super::phrases::Machine;
+use super::stopped::{atoms_in_queues, machines_stand_still};
 use crate::language::{Language, say};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::percent;
 
-/// That a record ends before the picture is complete; and who keeps what is missing, if it lies in the pipes of machines
-/// that stand still.
+/// Says that a record ends before the picture is complete, and why: a failure, or missing atoms that lie in the pipes
+/// of machines that stand still.
 pub fn unfinished_words(state: &RunState, language: Language) -> String {
     let done = percent(state.done(), state.atoms());
     let ends = say!(
@@ -21,11 +21,11 @@ pub fn unfinished_words(state: &RunState, language: Language) -> String {
     let is_kept = !keepers.is_empty()
         && state.done() + missing == state.atoms()
         && keepers.iter().all(|(_, node)| !node.runs())
-        && in_queues(&keepers) == 0;
-    if let Some(why) = hung(state, language) {
+        && atoms_in_queues(&keepers) == 0;
+    if let Some(why) = incomplete_reason(state, language) {
         return format!("{ends}: {why}");
     }
-    if is_kept { format!("{ends}: {}", waiting(&keepers, language)) } else { ends }
+    if is_kept { format!("{ends}: {}", machines_stand_still(&keepers, language)) } else { ends }
 }
 
 #[cfg(test)]
@@ -36,7 +36,7 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn who_stands_still_with_the_last_atoms_is_named() {
+    fn machine_that_keeps_the_last_atoms_is_named() {
         let language = Language::English;
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 900);
         let mut state = RunState::new(&header);
@@ -50,7 +50,7 @@ mod tests {
         );
         let at = Time::from_secs(9e3);
         (0..3).for_each(|node| state.apply(&Record { at, what: RecordKind::Paused { node } }));
-        let told = unfinished_words(&state, language);
-        assert!(told.ends_with(" is paused and keeps the atom in its pipe"), "{told}");
+        let words = unfinished_words(&state, language);
+        assert!(words.ends_with(" is paused and keeps the atom in its pipe"), "{words}");
     }
 }

@@ -1,7 +1,9 @@
-//! How things stand where no offers go round: with fixed bands, in a farm, and where threads steal from each other.
+//! Status of a run without offers: fixed bands, a farm, or threads that steal.
 
-use super::stopped::{all_left, all_still, remedy, why};
-use super::{Machine, computing, has_most, only, only_one, under_way};
+use super::phrases::{
+    Machine, atoms_on_their_way, computing, has_most_atoms, last_computing, machines_wait_for_parent, single_machine,
+};
+use super::stopped::{all_stand_still, atoms_left, restart_words, stop_reason};
 use crate::balance::NodeId;
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::{Happening, is_slow};
@@ -9,35 +11,35 @@ use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, fraction, left_words, names, node_name};
 
-/// How things stand.
-pub(crate) fn without_ring(state: &RunState, language: Language) -> String {
+/// Describes the status of a run without offers.
+pub(crate) fn status_without_ring(state: &RunState, language: Language) -> String {
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     let machines = state.nodes().len();
     let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
     match (&*busy, &*still) {
         _ if state.is_estimating => Happening::Estimating.sentence(language),
-        ([], []) if !asking.is_empty() => waiting_for_the_parent(&asking, machines, language),
-        ([], []) if state.has_atoms_under_way() => under_way(language),
-        ([], []) => super::waiting_for_the_parent(language),
-        ([], still) if still.len() == machines => all_still(still, language),
+        ([], []) if !asking.is_empty() => requests_wait(&asking, machines, language),
+        ([], []) if state.has_atoms_under_way() => atoms_on_their_way(language),
+        ([], []) => machines_wait_for_parent(language),
+        ([], still) if still.len() == machines => all_stand_still(still, language),
         ([], still) => nobody_computes(still, language),
-        ([only], []) if machines == 1 => only_one(only.1, language),
+        ([only], []) if machines == 1 => single_machine(only.1, language),
         ([last], []) if asking.is_empty() && all_is_given_away(state) => all_wait_for(state, *last, language),
         (busy, still) => several(state, busy, still, &asking, language),
     }
 }
 
-/// Nobody can get any more than they have.
+/// Whether no machine can get more atoms.
 fn all_is_given_away(state: &RunState) -> bool {
     !state.sharing.is_farm() || state.nodes().iter().any(|node| node.retired)
 }
 
-/// One machine has all atoms that are left.
+/// One machine has all atoms that are left; the others wait.
 fn all_wait_for(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
     let (name, left, speed) = (node_name(node), left_words(last.left(), language), fraction(last.speed));
     if state.sharing == Sharing::Stealing {
-        return only((node, last), language);
+        return last_computing((node, last), language);
     }
     if last.done + last.left() == state.atoms() {
         return say!(
@@ -54,7 +56,7 @@ fn all_wait_for(state: &RunState, (node, last): Machine<'_>, language: Language)
     say!(language, "All wait for {name}: {left}", "Todas esperam por {name}: {left}")
 }
 
-/// Some machines compute.
+/// Some machines compute; `still` stand still with atoms, `asking` have asked for atoms.
 fn several(
     state: &RunState,
     busy: &[Machine<'_>],
@@ -67,11 +69,11 @@ fn several(
     let compute = computing(busy.len(), machines, what, language);
     if let [(_, machine), ..] = still {
         let (is, they) = match still.len() {
-            1 => (why(machine, language), "its"),
+            1 => (stop_reason(machine, language), "its"),
             _ => (word!(language, "stand still", "estão paradas"), "their"),
         };
         let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>(), language);
-        let left = atoms_words(all_left(still), language);
+        let left = atoms_words(atoms_left(still), language);
         return match state.sharing {
             Sharing::Stealing => say!(
                 language,
@@ -85,7 +87,7 @@ fn several(
             ),
         };
     }
-    // Of equals the first is named.
+    // Among equals, the first.
     let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
     let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
     let (left, speed) = (atoms_words(last.left(), language), fraction(last.speed));
@@ -93,13 +95,13 @@ fn several(
         Sharing::Stealing if busy.len() == machines => {
             say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
         }
-        Sharing::Stealing => has_most(&compute, name, language),
+        Sharing::Stealing => has_most_atoms(&compute, name, language),
         sharing if sharing.is_farm() => match asking {
             [] if !all_is_given_away(state) => {
                 say!(
                     language,
-                    "{compute}; whoever is done asks the parent for more",
-                    "{compute}; quem termina pede mais ao pai"
+                    "{compute}; a machine that has finished asks the parent for more",
+                    "{compute}; a máquina que termina pede mais ao pai"
                 )
             }
             [] => say!(
@@ -111,28 +113,29 @@ fn several(
         },
         _ if is_slow(last) => say!(
             language,
-            "{compute}; {name} is slow ({speed}) and has most left: {left}, which nobody takes over",
+            "{compute}; {name} is slow ({speed}) and has the most left: {left}, which nobody takes over",
             "{compute}; {name} é lenta ({speed}) e é a que mais tem: {left}, que ninguém assume"
         ),
         _ if busy.len() == machines => say!(
             language,
-            "{compute} their own bands, whatever these cost",
-            "{compute} suas próprias faixas, custem o que custarem"
+            "{compute} their own bands; a costly band takes longer",
+            "{compute} suas próprias faixas; uma faixa cara demora mais"
         ),
         _ => say!(
             language,
-            "{compute}; the others are done, and nobody shares with them",
+            "{compute}; the others have finished, and nobody shares with them",
             "{compute}; as outras terminaram, e ninguém divide com elas"
         ),
     }
 }
 
-/// Nobody computes, and the atoms that are left are with machines that stand still.
+/// Nobody computes; machines that stand still have all atoms that are left.
 fn nobody_computes(still: &[Machine<'_>], language: Language) -> String {
-    let (left, remedy, machines) = (atoms_words(all_left(still), language), remedy(still, language), still.len());
+    let (left, remedy, machines) =
+        (atoms_words(atoms_left(still), language), restart_words(still, language), still.len());
     match still {
         [(node, machine)] => {
-            let (name, why) = (node_name(*node), why(machine, language));
+            let (name, why) = (node_name(*node), stop_reason(machine, language));
             say!(
                 language,
                 "All wait for {name}, which {why} with {left}: {remedy}",
@@ -147,8 +150,8 @@ fn nobody_computes(still: &[Machine<'_>], language: Language) -> String {
     }
 }
 
-/// Nobody has atoms, and some have asked for them.
-fn waiting_for_the_parent(asking: &[NodeId], machines: usize, language: Language) -> String {
+/// Nobody has atoms; some machines have asked for them.
+fn requests_wait(asking: &[NodeId], machines: usize, language: Language) -> String {
     match asking {
         _ if machines == 1 => {
             word!(language, "The only machine waits for the parent", "A única máquina espera pelo pai").into()
@@ -164,7 +167,7 @@ fn waiting_for_the_parent(asking: &[NodeId], machines: usize, language: Language
     }
 }
 
-/// These have asked for atoms, and have not got any yet.
+/// Says that `some` wait for atoms that they have asked for.
 fn some_wait(some: &[NodeId], language: Language) -> String {
     let who = names(some, language);
     match some {
@@ -185,8 +188,8 @@ mod tests {
     const STATIC: Sharing = Sharing::By(Strategy::Static);
     const FARM: Sharing = Sharing::By(Strategy::Farm);
 
-    /// How things stand where machines have so many atoms left at these speeds, and some have asked or are not needed.
-    fn stands(
+    /// The status of a run in which machines have these atoms left at these speeds; some have asked or have retired.
+    fn status(
         sharing: Sharing,
         machines: &[(u32, f64)],
         asking: &[NodeId],
@@ -212,66 +215,66 @@ mod tests {
             apply(RecordKind::SpeedSet { node, speed });
         }
         retired.iter().for_each(|&node| apply(RecordKind::Retired { node }));
-        without_ring(&state, language)
+        status_without_ring(&state, language)
     }
 
     #[test]
-    fn bands_stay_where_they_are() {
+    fn nobody_takes_over_atoms_of_a_fixed_band() {
         let language = Language::English;
-        let stands = |machines: &[(u32, f64)]| stands(STATIC, machines, &[], &[], language);
-        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 machines compute their own bands, whatever these cost");
+        let status = |machines: &[(u32, f64)]| status(STATIC, machines, &[], &[], language);
+        assert_eq!(status(&[(5, 1.0), (5, 1.0)]), "All 2 machines compute their own bands; a costly band takes longer");
         assert_eq!(
-            stands(&[(0, 1.0), (9, 1.0), (64, 0.1)]),
-            "2 of 3 machines compute; 3 is slow (10 %) and has most left: 64 atoms, which nobody takes over"
+            status(&[(0, 1.0), (9, 1.0), (64, 0.1)]),
+            "2 of 3 machines compute; 3 is slow (10 %) and has the most left: 64 atoms, which nobody takes over"
         );
         assert_eq!(
-            stands(&[(0, 1.0), (9, 1.0), (9, 1.0)]),
-            "2 of 3 machines compute; the others are done, and nobody shares with them"
+            status(&[(0, 1.0), (9, 1.0), (9, 1.0)]),
+            "2 of 3 machines compute; the others have finished, and nobody shares with them"
         );
-        assert_eq!(stands(&[(0, 1.0), (64, 0.1)]), "All wait for 2, which is slow (10 %): 64 atoms left");
-        assert_eq!(stands(&[(0, 1.0), (64, 1.0)]), "All wait for 2: 64 atoms left");
+        assert_eq!(status(&[(0, 1.0), (64, 0.1)]), "All wait for 2, which is slow (10 %): 64 atoms left");
+        assert_eq!(status(&[(0, 1.0), (64, 1.0)]), "All wait for 2: 64 atoms left");
         assert_eq!(
-            stands(&[(0, 1.0), (64, 0.0)]),
-            "All wait for 2, which stands still at 0 % with 64 atoms: raise its speed"
+            status(&[(0, 1.0), (64, 0.0)]),
+            "All wait for 2, which is stopped (0 %) with 64 atoms: raise its speed"
         );
         assert_eq!(
-            stands(&[(9, 1.0), (64, 0.0)]),
-            "1 of 2 machines computes; 2 stands still at 0 %, and nobody takes over its 64 atoms"
+            status(&[(9, 1.0), (64, 0.0)]),
+            "1 of 2 machines computes; 2 is stopped (0 %), and nobody takes over its 64 atoms"
         );
-        assert!(stands(&[(9, 0.0), (9, 0.0)]).starts_with("All machines stand still at 0 %"));
+        assert!(status(&[(9, 0.0), (9, 0.0)]).starts_with("All machines are stopped (0 %)"));
     }
 
     #[test]
-    fn in_a_farm_all_depends_on_the_parent() {
+    fn in_a_farm_machines_ask_the_parent() {
         let language = Language::English;
         let busy = [(5, 1.0), (5, 1.0), (5, 1.0)];
         assert_eq!(
-            stands(FARM, &busy, &[], &[], language),
-            "All 3 machines compute; whoever is done asks the parent for more"
+            status(FARM, &busy, &[], &[], language),
+            "All 3 machines compute; a machine that has finished asks the parent for more"
         );
         let one = [(5, 1.0), (5, 1.0), (0, 1.0)];
-        assert_eq!(stands(FARM, &one, &[2], &[], language), "2 of 3 machines compute; 3 waits for the parent");
+        assert_eq!(status(FARM, &one, &[2], &[], language), "2 of 3 machines compute; 3 waits for the parent");
         assert_eq!(
-            stands(FARM, &one, &[], &[2], language),
+            status(FARM, &one, &[], &[2], language),
             "2 of 3 machines compute the last atoms; the parent has no more"
         );
         let none = [(0, 1.0), (0, 1.0), (0, 1.0)];
-        assert_eq!(stands(FARM, &none, &[0, 1, 2], &[], language), "All 3 machines wait for the parent");
+        assert_eq!(status(FARM, &none, &[0, 1, 2], &[], language), "All 3 machines wait for the parent");
         assert_eq!(
-            stands(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1], language),
+            status(FARM, &[(0, 1.0), (0, 1.0), (7, 0.1)], &[], &[0, 1], language),
             "All wait for 3, which is slow (10 %): 7 atoms left"
         );
     }
 
     #[test]
-    fn threads_steal_from_whoever_stands_still_too() {
+    fn threads_steal_from_stopped_threads_too() {
         let language = Language::English;
-        let stands = |machines: &[(u32, f64)]| stands(Sharing::Stealing, machines, &[], &[], language);
-        assert_eq!(stands(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
-        assert_eq!(stands(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
+        let status = |machines: &[(u32, f64)]| status(Sharing::Stealing, machines, &[], &[], language);
+        assert_eq!(status(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
+        assert_eq!(status(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
         assert_eq!(
-            stands(&[(5, 1.0), (5, 0.0)]),
-            "1 of 2 threads computes; 2 stands still at 0 %: its 5 atoms can be stolen"
+            status(&[(5, 1.0), (5, 0.0)]),
+            "1 of 2 threads computes; 2 is stopped (0 %): its 5 atoms can be stolen"
         );
     }
 }
