@@ -385,6 +385,7 @@ impl Session {
         before
     }
 
+    /// Starts a live run of a compiled scene.
     fn begin(&mut self, prepared: Prepared) {
         if self.stage.phase == Phase::Running {
             self.write_log();
@@ -396,6 +397,7 @@ impl Session {
         self.set_stage(Stage::new(RunSource::Live(run), header, self.ground), prepared.preview.clone());
     }
 
+    /// Replaces the run on the stage.
     fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
         self.stop_run();
         self.runs_begun += 1;

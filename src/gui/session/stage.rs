@@ -318,6 +318,7 @@ impl Stage {
         matches!(self.source, RunSource::Live(_)) && self.log.header.driver == Driver::Sim
     }
 
+    /// Adds records to the log in order of time, and drops the snapshots after the first of them.
     fn sort_in(&mut self, records: Vec<Record>) {
         if records.is_empty() {
             return;
