@@ -94,7 +94,7 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
     type_number(&mut window, "Seconds of the run", "2");
     type_number(&mut window, "Parent's milliseconds for a message", "10");
     until(&mut window, "a line at the parent", |window| {
-        session(window).stage().state().waiting(session(window).now()) > 2
+        session(window).stage().state().line_length(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
     let given = |what: &RecordKind| match what {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::time_budget::TimeBudget;
 use crate::language::{Language, decimal, say, word};
+use crate::time::Time;
 use crate::view::text::format::{atoms_words, count, duration, fraction, node_name};
 
 /// A run that came to its end, and what it is called.
@@ -70,7 +71,7 @@ fn same(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language) -> Str
 /// The machines themselves are not the same.
 fn power(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> Option<String> {
     // As long as both go on: what is set later in one of them explains nothing.
-    let [of_quick, of_slow] = [quick, slow].map(|run| run.power(quick.makespan));
+    let [of_quick, of_slow] = [quick, slow].map(|run| run.power(Time::ZERO + quick.makespan));
     let times = of_quick / of_slow.max(f64::MIN_POSITIVE);
     let ratio = decimal(language, times, 2);
     (times > SAME).then(|| {
@@ -93,7 +94,7 @@ fn cause(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> Option<St
         (|account| account.spent.waiting, waiting),
         (|account| account.spent.asking, asking),
         (|account| account.spent.starting, starting),
-        (|account| account.spent.standing, standing),
+        (|account| account.spent.stopped, stopped),
     ];
     let (most, tell) = parts.into_iter().map(|(part, tell)| (excess(part), tell)).max_by(|a, b| a.0.total_cmp(&b.0))?;
     let lost = slow.makespan.as_secs_f64() - quick.makespan.as_secs_f64();
@@ -191,9 +192,9 @@ fn starting(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     }
 }
 
-/// Workers were made to stand still.
-fn standing(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
-    let share = fraction(share(slow, slow.spent.standing));
+/// Machines with atoms were stopped.
+fn stopped(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
+    let share = fraction(share(slow, slow.spent.stopped));
     say!(
         language,
         "There machines that were stopped hold atoms for {share} of the time.",

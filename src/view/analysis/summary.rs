@@ -6,7 +6,6 @@ use std::time::Duration;
 use crate::balance::{NodeId, Strategy};
 use crate::language::{Language, decimal, say, word};
 use crate::runlog::{Metrics, RunLog};
-use crate::time::Time;
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
@@ -105,10 +104,11 @@ pub fn parts_words(state: &RunState, language: Language) -> Option<String> {
 /// The machine that all others waited for, if they waited long.
 fn waited_for(state: &RunState, language: Language) -> Option<String> {
     let end = state.finished()?.secs();
-    let ends = last_atoms(state);
+    // A machine that traced nothing does not count.
+    let ends = || (0..).zip(state.nodes()).filter_map(|(node, of)| Some((node, of.last_atom?)));
     // Of equals the first is named.
-    let (last, &latest) = (0..).zip(&ends).min_by_key(|&(_, &at)| Reverse(at))?;
-    let (first, &earliest) = (0..).zip(&ends).filter(|&(_, &at)| at > Time::ZERO).min_by_key(|&(_, &at)| at)?;
+    let (last, latest) = ends().min_by_key(|&(_, at)| Reverse(at))?;
+    let (first, earliest) = ends().min_by_key(|&(_, at)| at)?;
     let waited = latest.since(earliest);
     let worth_a_word = waited.as_secs_f64() > 0.05 * end;
     let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node, language)).unwrap_or_default();
@@ -120,19 +120,6 @@ fn waited_for(state: &RunState, language: Language) -> Option<String> {
             "Todas esperaram por {last}, {slow}: {first} terminou {waited} antes dela, e ninguém dividiu"
         )
     })
-}
-
-/// By node: when it was done with its last atom.
-fn last_atoms(state: &RunState) -> Vec<Time> {
-    let mut last = vec![Time::ZERO; state.nodes().len()];
-    for place in state.places() {
-        if let AtomState::Traced { by, at, .. } = *place
-            && let Some(last) = last.get_mut(usize::from(by))
-        {
-            *last = at.max(*last);
-        }
-    }
-    last
 }
 
 /// The nodes that did most and least of the work, of those that were there.
@@ -192,6 +179,7 @@ mod tests {
     use crate::balance::Rules;
     use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
+    use crate::time::Time;
     use crate::view::tests::sample_runs;
 
     const OUTCOME: Summary = Summary {
@@ -263,6 +251,21 @@ mod tests {
         let farm = shared(Strategy::Farm, language);
         assert!(farm.starts_with(&format!("{three}. 1 traced most: ")), "{farm}");
         assert!(farm.ends_with(" at 10 %. The parent was asked for 27 parts"), "{farm}");
+    }
+
+    #[test]
+    fn state_and_metrics_agree_on_last_atoms() {
+        for strategy in Strategy::ALL {
+            let mut header = sample_runs::header(&[1.0, 0.5, 0.1], 300);
+            header.rules = Rules { strategy, part: 10, ..header.rules };
+            let (mut state, mut metrics) = (RunState::new(&header), Metrics::new(&header));
+            for record in sample_runs::records(&header) {
+                state.apply(&record);
+                metrics.add(&record);
+            }
+            let ends: Vec<_> = state.nodes().iter().map(|node| node.last_atom).collect();
+            assert_eq!(ends, metrics.last_atoms(), "{strategy:?}");
+        }
     }
 
     #[test]

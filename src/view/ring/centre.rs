@@ -15,7 +15,7 @@ use crate::view::text::format::{duration, fraction, percent};
 
 /// The parent, how far the picture is, and whether it is busy.
 pub(crate) fn parent(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>, language: Language) {
-    let waiting = state.waiting(now);
+    let waiting = state.line_length(now);
     if waiting > 0 || state.is_estimating {
         marks.push(Mark::Disc { centre: plan.centre, radius: plan.parent, ink: Hue::Hairline.faint(0.6) });
     }

@@ -218,7 +218,7 @@ mod tests {
         let language = Language::English;
         let (mut most, mut said, mut activities) = (0, BTreeSet::new(), BTreeSet::new());
         moments(&header(Strategy::Farm, &[1.0; 8], 20), |state, now| {
-            let waiting = state.waiting(now);
+            let waiting = state.line_length(now);
             most = most.max(waiting);
             let drawn = texts(state, now, [640.0, 490.0], language);
             assert_eq!(drawn.iter().any(|text| *text == format!("{waiting} waiting")), waiting > 1, "{drawn:?}");
@@ -231,7 +231,7 @@ mod tests {
             assert!(activities.contains(&format!("{activity:?}")), "{activity:?} {activities:?}");
         }
         // A parent that takes no time has no line.
-        moments(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.waiting(now), 0));
+        moments(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.line_length(now), 0));
     }
 
     #[test]

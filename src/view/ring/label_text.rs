@@ -52,9 +52,9 @@ fn words(state: &RunState, of: &NodeState, activity: Activity, now: Time, langua
     let (left, done) = (say!(language, "{left} left", "{rest} {left}"), say!(language, "{done} done", "{done} {made}"));
     match activity {
         _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
-        Activity::Waiting | Activity::Spare => [activity_word(activity, language).into(), String::new()],
+        Activity::NoBand | Activity::Spare => [activity_word(activity, language).into(), String::new()],
         _ if activity.is_out() => [done, activity_word(activity, language).into()],
-        Activity::Computing => {
+        Activity::Tracing => {
             let rate = rate_words(of.rate(now), language);
             let both = format!("{} · {rate}", fraction(of.speed));
             [left, if of.speed < 0.995 && both.chars().count() <= SECOND { both } else { rate }]
@@ -98,7 +98,7 @@ mod tests {
             }
             let mut of = state.nodes[0].clone();
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
-            for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
+            for activity in [Activity::Tracing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::NoBand] {
                 let [first, second] = words(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
                 prop_assert!(first <= longest(language) && second <= SECOND, "{:?}", words(&state, &of, activity, Time::ZERO, language));
                 prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER);

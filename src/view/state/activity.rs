@@ -27,14 +27,14 @@ impl RunState {
         1.0 - (after.as_secs_f64() / (FADE.as_secs_f64() * self.rate())).min(1.0) as f32
     }
 
-    /// How many messages have arrived at the parent that it has not handled yet at `now`.
-    pub fn waiting(&self, now: Time) -> usize {
+    /// The number of messages that have arrived at the parent and that it has not handled yet at `now`.
+    pub fn line_length(&self, now: Time) -> usize {
         self.in_line(now).count()
     }
 
     /// Whether messages wait for a parent that takes its time.
     fn is_in_line(&self, now: Time) -> bool {
-        !self.handling.is_zero() && self.waiting(now) > 0
+        !self.handling.is_zero() && self.line_length(now) > 0
     }
 
     /// The messages that have arrived at the parent and that it has not handled yet at `now`, in the order in which they
@@ -108,13 +108,13 @@ impl RunState {
                 _ => Activity::Retired,
             }
         } else if state.band_at.is_none() {
-            Activity::Waiting
+            Activity::NoBand
         } else if state.paused && state.left() > 0 {
             Activity::Paused
         } else if self.receives(node, now) {
             Activity::Receiving
         } else if state.left() > 0 {
-            if state.speed > 0.0 { Activity::Computing } else { Activity::Stopped }
+            if state.speed > 0.0 { Activity::Tracing } else { Activity::SpeedZero }
         } else if self.sharing.is_farm() && state.offer_out {
             self.asks(node, now)
         } else if state.offer_out || offers {
@@ -169,7 +169,7 @@ mod tests {
                 seen.insert((node, format!("{activity:?}")));
             }
         }
-        for what in ["Waiting", "Computing", "Offering", "Receiving", "Done"] {
+        for what in ["NoBand", "Tracing", "Offering", "Receiving", "Done"] {
             assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
         }
         assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
@@ -191,11 +191,11 @@ mod tests {
                 state.apply(&Record { at: record.at, what: RecordKind::Paused { node: 1 } });
             }
             let activity = state.activity(1, record.at);
-            assert!(activity != Activity::Computing, "{record:?}");
+            assert!(activity != Activity::Tracing, "{record:?}");
             assert!((activity == Activity::Paused) <= (state.nodes[1].left() > 0));
             seen.push(activity);
         }
-        for activity in [Activity::Waiting, Activity::Paused, Activity::Offering, Activity::Receiving] {
+        for activity in [Activity::NoBand, Activity::Paused, Activity::Offering, Activity::Receiving] {
             assert!(seen.contains(&activity), "{activity:?} {seen:?}");
         }
     }

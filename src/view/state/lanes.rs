@@ -2,7 +2,7 @@
 
 use super::flight::{Cargo, Flight};
 use super::lane::{Lane, LanePhase, Traced};
-use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::balance::{NodeId, Party, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::runlog::{Header, RunLog};
@@ -59,10 +59,7 @@ pub enum Load {
 impl Lanes {
     /// Before anything has happened.
     pub fn new(header: &Header) -> Self {
-        let lane = |(node, _)| Lane {
-            conditions: if header.is_spare(node) { vec![(Time::ZERO, Condition::Off)] } else { Vec::new() },
-            ..Lane::default()
-        };
+        let lane = |(node, speed): (NodeId, &f64)| Lane::new(*speed, header.is_spare(node));
         Self {
             lanes: (0..).zip(&header.speeds).map(lane).collect(),
             trips: Vec::new(),
@@ -89,7 +86,7 @@ impl Lanes {
             }
             RecordKind::Condition { node, condition } => {
                 if let Some(lane) = self.lane(*node) {
-                    lane.condition(at, *condition);
+                    lane.set_condition(at, *condition);
                 }
             }
             RecordKind::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
@@ -104,7 +101,7 @@ impl Lanes {
             RecordKind::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.open = Some((*atom, at));
-                    lane.stay(at, LanePhase::Works);
+                    lane.begin_phase(at, LanePhase::HasAtoms);
                 }
             }
             RecordKind::AtomDone { node, atom, .. } => {
@@ -116,18 +113,18 @@ impl Lanes {
             }
             RecordKind::SpeedSet { node, speed } => {
                 if let Some(lane) = self.lane(*node) {
-                    lane.stands(at, *speed == 0.0);
+                    lane.set_speed(at, *speed);
                 }
             }
-            RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
-            RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
+            RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, true)),
+            RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, false)),
             RecordKind::Retired { node } => {
-                let stay = if self.wakes { LanePhase::Asleep } else { LanePhase::Retired };
+                let phase = if self.wakes { LanePhase::Asleep } else { LanePhase::Retired };
                 if let Some(lane) = self.lane(*node) {
-                    lane.stay(at, stay);
+                    lane.begin_phase(at, phase);
                 }
             }
-            RecordKind::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, LanePhase::Retired)),
+            RecordKind::Finished => self.lanes.iter_mut().for_each(|lane| lane.begin_phase(at, LanePhase::Retired)),
         }
     }
 
@@ -159,18 +156,18 @@ impl Lanes {
 
     /// How the machines' time until `now` was used.
     pub fn usage(&self, now: Time) -> Usage {
-        let busy: Vec<f64> = self.lanes.iter().map(|lane| lane.busy(Time::ZERO, now)).collect();
-        let sum: f64 = busy.iter().sum();
-        let most = busy.iter().copied().fold(0.0, f64::max);
-        let all = now.secs() * busy.len() as f64;
-        let asking: f64 = self.lanes.iter().map(|lane| lane.asking(now)).sum();
-        // Nearly in order: a few that left a little later may be told before others.
+        let tracing: Vec<f64> = self.lanes.iter().map(|lane| lane.tracing_seconds(now)).collect();
+        let sum: f64 = tracing.iter().sum();
+        let busiest = tracing.iter().copied().fold(0.0, f64::max);
+        let all = now.secs() * tracing.len() as f64;
+        let on_the_way: f64 = self.lanes.iter().map(|lane| lane.on_the_way_seconds(now)).sum();
+        // Nearly in order: a record may come a little before that of an earlier message.
         let trips = self.trips.partition_point(|trip| trip.sent <= now);
         let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
         Usage {
             utilisation: share(sum, all),
-            imbalance: share(most * busy.len() as f64, sum),
-            asking: share(asking, all),
+            imbalance: share(busiest * tracing.len() as f64 - sum, sum).max(0.0),
+            on_the_way: share(on_the_way, all),
             messages: trips,
             bytes: trips.checked_sub(1).map_or(0, |last| self.bytes[last]),
         }
@@ -197,31 +194,31 @@ impl Lanes {
             if (own || load == Load::Request)
                 && let Some(lane) = self.lane(node)
             {
-                lane.stay(sent, LanePhase::Offers);
+                lane.begin_phase(sent, LanePhase::Offers);
             }
         }
         if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
             && let Some(lane) = self.lane(node)
         {
-            lane.stay(sent, LanePhase::Receives);
+            lane.begin_phase(sent, LanePhase::Receives);
         }
         self.bytes.push(self.bytes.last().copied().unwrap_or(0).saturating_add(bytes));
         self.trips.push(Trip { id, from, to, load, atoms, sent, arrives });
     }
 }
 
-/// How machines' time was used.
+/// Use of all machines' time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Usage {
-    /// What part of their time they traced atoms, 0 to 1.
+    /// Part of the time in which machines traced atoms, 0 to 1.
     pub utilisation: f64,
-    /// How much longer the busiest traced than all on the average: 1 is perfect.
+    /// Tracing time of the busiest machine / mean tracing time − 1; 0 is perfect.
     pub imbalance: f64,
-    /// What part of their time they offered help, asked or waited for atoms on their way, 0 to 1.
-    pub asking: f64,
-    /// Messages that have left.
+    /// Part of the time in which an offer or a request of a machine, or atoms for it, were on the way, 0 to 1.
+    pub on_the_way: f64,
+    /// Number of messages that have been sent.
     pub messages: usize,
-    /// What these weigh on the wire.
+    /// Weight of these messages in bytes.
     pub bytes: u64,
 }
 
@@ -250,7 +247,7 @@ mod tests {
             for lane in lanes.lanes() {
                 prop_assert!(lane.bars().windows(2).all(|pair| pair[0].to <= pair[1].from));
                 prop_assert!(lane.bars().iter().all(|bar| bar.from <= bar.to && bar.to <= end));
-                prop_assert!(lane.stays().is_sorted_by_key(|(at, _)| *at));
+                prop_assert!(lane.phases().is_sorted_by_key(|(at, _)| *at));
                 traced.extend(lane.bars().iter().map(|bar| bar.atom));
             }
             traced.sort_unstable();
@@ -266,8 +263,8 @@ mod tests {
             let covered = |bar: &Traced| bar.to.min(now).since(bar.from).as_secs_f64();
             let busy: f64 = lanes.lanes().iter().flat_map(Lane::bars).map(covered).sum();
             prop_assert!((usage.utilisation * now.secs() * speeds.len() as f64 - busy).abs() < 1e-6);
-            prop_assert!((0.0..=1.0 + 1e-9).contains(&usage.utilisation) && (0.0..=1.0).contains(&usage.asking));
-            prop_assert!(usage.imbalance == 0.0 || usage.imbalance >= 1.0 - 1e-9);
+            prop_assert!((0.0..=1.0 + 1e-9).contains(&usage.utilisation) && (0.0..=1.0).contains(&usage.on_the_way));
+            prop_assert!((0.0..speeds.len() as f64).contains(&usage.imbalance));
             prop_assert_eq!(usage.messages, lanes.trips().iter().filter(|trip| trip.sent <= now).count());
         }
     }
@@ -276,17 +273,17 @@ mod tests {
     fn a_lane_knows_what_it_was_about() {
         let (lanes, end) = lanes(&[1.0, 1.0, 0.1], 300);
         let fast = &lanes.lanes()[0];
-        assert_eq!((fast.stay_at(Time::ZERO), fast.stay_at(end)), (LanePhase::Receives, LanePhase::Retired));
-        let seen: Vec<LanePhase> = fast.stays().iter().map(|(_, stay)| *stay).collect();
-        for stay in [LanePhase::Works, LanePhase::Offers, LanePhase::Receives, LanePhase::Retired] {
-            assert!(seen.contains(&stay), "{stay:?}: {seen:?}");
+        assert_eq!((fast.phase_at(Time::ZERO), fast.phase_at(end)), (LanePhase::Receives, LanePhase::Retired));
+        let seen: Vec<LanePhase> = fast.phases().iter().map(|(_, phase)| *phase).collect();
+        for phase in [LanePhase::HasAtoms, LanePhase::Offers, LanePhase::Receives, LanePhase::Retired] {
+            assert!(seen.contains(&phase), "{phase:?}: {seen:?}");
         }
         let bar = fast.bars()[fast.bars().len() / 2];
         assert_eq!(fast.bar_at(Time((bar.from.0 + bar.to.0) / 2)), Some(bar));
     }
 
     #[test]
-    fn pauses_begin_and_end() {
+    fn paused_machine_at_speed_0_stays_stopped_when_resumed() {
         let header = sample_runs::header(&[1.0, 1.0], 9);
         let mut lanes = Lanes::new(&header);
         let whats = [
@@ -297,7 +294,6 @@ mod tests {
         for (at, what) in (1..).zip(whats) {
             lanes.apply(&Record { at: Time(at), what });
         }
-        lanes.apply(&Record { at: Time(9), what: RecordKind::SpeedSet { node: 1, speed: 0.0 } });
-        assert_eq!(lanes.lanes()[1].pauses(), [(Time(1), Some(Time(3))), (Time(9), None)]);
+        assert_eq!(lanes.lanes()[1].stops(), [(Time(1), None)]);
     }
 }

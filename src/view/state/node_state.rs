@@ -50,6 +50,8 @@ pub struct NodeState {
     pub(crate) band_at: Option<Time>,
     /// Its offer, or its request, is not answered yet.
     pub(crate) offer_out: bool,
+    /// When it was done with its last atom so far.
+    pub(crate) last_atom: Option<Time>,
     /// When the last of its results, its requests and its parts left that are drawn.
     pub(crate) last_drawn: [Option<Time>; 3],
     idle: Duration,
@@ -73,11 +75,11 @@ pub struct Parcels {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
     /// Its band has not arrived yet.
-    Waiting,
+    NoBand,
     /// Its worker traces atoms.
-    Computing,
+    Tracing,
     /// It has atoms, but its speed is 0.
-    Stopped,
+    SpeedZero,
     /// It has atoms, but it is paused.
     Paused,
     /// Its offer of help is on its way.
@@ -196,6 +198,7 @@ impl NodeState {
             left: 0,
             band_at: None,
             offer_out: false,
+            last_atom: None,
             last_drawn: [None; 3],
             idle: Duration::ZERO,
             idle_since: None,
@@ -227,7 +230,7 @@ impl NodeState {
     pub(crate) fn atom_done(&mut self, counts: bool, at: Time) {
         self.done += u32::from(counts);
         self.left -= 1;
-        self.atom = None;
+        (self.atom, self.last_atom) = (None, Some(at));
         self.rate.count(at);
         if self.left <= 0 && self.idle_since.is_none() {
             self.idle_since = Some(at);

@@ -314,9 +314,9 @@ fn names_and_numbers_are_portuguese() {
 #[test]
 fn states_fit_below_a_machine() {
     let all = [
-        Activity::Waiting,
-        Activity::Computing,
-        Activity::Stopped,
+        Activity::NoBand,
+        Activity::Tracing,
+        Activity::SpeedZero,
         Activity::Paused,
         Activity::Offering,
         Activity::Asking,

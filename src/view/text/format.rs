@@ -99,9 +99,9 @@ pub fn time_words(time: Time, rate: f64, language: Language) -> String {
 /// What a node is doing, in a word.
 pub fn activity_word(activity: Activity, language: Language) -> &'static str {
     match activity {
-        Activity::Waiting => word!(language, "waiting", "esperando"),
-        Activity::Computing => word!(language, "computing", "calculando"),
-        Activity::Stopped => word!(language, "stopped", "parada"),
+        Activity::NoBand => word!(language, "no band", "sem faixa"),
+        Activity::Tracing => word!(language, "tracing", "calculando"),
+        Activity::SpeedZero => word!(language, "at 0 %", "a 0 %"),
         Activity::Paused => word!(language, "paused", "em pausa"),
         Activity::Offering => word!(language, "offering", "oferecendo"),
         Activity::Asking => word!(language, "asking", "pedindo"),

@@ -21,8 +21,8 @@ pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str
         (_, 0.0) => say!(language, "{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
         _ => say!(
             language,
-            "up to {samples} × {samples} samples a pixel, until the error is {error}",
-            "até {samples} × {samples} amostras por pixel, até o erro ser {error}"
+            "up to {samples} × {samples} samples a pixel, until the estimated error is {error}",
+            "até {samples} × {samples} amostras por pixel, até o erro estimado ser {error}"
         ),
     };
     let part = error_words(100.0 * cutoff, language);
@@ -49,6 +49,7 @@ pub fn measured_lines(
     language: Language,
 ) -> Vec<(&'static str, String)> {
     let wrong = decimal(language, 100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
+    let limit = Difference::SAME;
     let (took, width, height) = (duration(time, language), size.width(), size.height());
     let worst = decimal(language, difference.worst_ssim, 3);
     vec![
@@ -65,8 +66,8 @@ pub fn measured_lines(
             word!(language, "Wrong", "Errados"),
             say!(
                 language,
-                "{wrong} % of the pixels, so much that it can be seen",
-                "{wrong} % dos pixels, tanto que se vê"
+                "{wrong} % of the pixels: a channel differs by more than {limit} of 255",
+                "{wrong} % dos pixels: um canal difere em mais de {limit} de 255"
             ),
         ),
         (
@@ -118,7 +119,7 @@ mod tests {
         let adaptive = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         assert!(
             quality_words(&adaptive, language)
-                .starts_with("up to 4 × 4 samples a pixel, until the error is 0.02, 10 levels")
+                .starts_with("up to 4 × 4 samples a pixel, until the estimated error is 0.02, 10 levels")
         );
     }
 

@@ -118,19 +118,22 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
     let until = state.finished().map_or(now, |end| end.min(now));
     let each = if until == Time::ZERO { 0.0 } else { arrived.messages as f64 / until.secs() };
     let (placed, of, part) = (count(arrived.pixels), count(all), percent(arrived.pixels, all));
-    let (seen, rate) = (arrived.messages, rate_words(each, language));
+    let (handled, rate) = (arrived.messages, rate_words(each, language));
     let mut words = vec![
         (
             word!(language, "placed", "recebido"),
             say!(language, "{placed} of {of} pixels, {part}", "{placed} de {of} pixels, {part}"),
         ),
-        (word!(language, "messages", "mensagens"), say!(language, "{seen} seen, {rate}", "{seen} vistas, {rate}")),
+        (
+            word!(language, "messages", "mensagens"),
+            say!(language, "{handled} handled, {rate}", "{handled} tratadas, {rate}"),
+        ),
     ];
     if !state.handling.is_zero() {
-        let (waiting, each) = (state.waiting(now), duration(state.handling, language));
+        let (messages, each) = (state.line_length(now), duration(state.handling, language));
         words.push((
-            word!(language, "waiting", "esperando"),
-            say!(language, "{waiting}, {each} each", "{waiting}, {each} cada"),
+            word!(language, "in line", "na fila"),
+            say!(language, "{messages}, {each} each", "{messages}, {each} cada"),
         ));
     }
     if state.sharing().is_farm() {
@@ -330,7 +333,7 @@ mod tests {
         sample_runs::records(&header).iter().take(30).for_each(|record| state.apply(record));
         let state_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "state").to_owned();
         let pipe_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "in the pipe").to_owned();
-        assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("computing", "two atoms, one of which it traces"));
+        assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("tracing", "two atoms, one of which it traces"));
         state.apply(&Record { at: state.head(), what: RecordKind::Paused { node: 0 } });
         assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("paused", "two atoms, which wait"));
         state.nodes[0].left = 0;
@@ -348,9 +351,9 @@ mod tests {
         let words = parent_words(&state, Time::from_secs(2.0), language);
         assert_eq!(value(&words, "placed"), "2\u{a0}000 of 2\u{a0}000 pixels, 100 %");
         assert_eq!(value(&words, "a hop takes"), "40 ms");
-        let seen = |record: &&Record| matches!(record.what, RecordKind::Received { by: Party::Parent, .. });
-        let seen = records.iter().filter(seen).count();
-        assert!(value(&words, "messages").starts_with(&format!("{seen} seen, ")), "{words:?}");
+        let is_handled = |record: &&Record| matches!(record.what, RecordKind::Received { by: Party::Parent, .. });
+        let handled = records.iter().filter(is_handled).count();
+        assert!(value(&words, "messages").starts_with(&format!("{handled} handled, ")), "{words:?}");
     }
 
     #[test]

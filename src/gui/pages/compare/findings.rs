@@ -158,8 +158,14 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
         (
             word!(
                 language,
-                ["messages to share", "Bands, requests, parts, offers and atoms given away"],
-                ["mensagens de divisão", "Faixas, pedidos, partes, ofertas e átomos cedidos"]
+                [
+                    "messages to share",
+                    "All messages but those with results and those that only tell what a machine has"
+                ],
+                [
+                    "mensagens de divisão",
+                    "Todas as mensagens, menos as de resultados e as que só dizem o que uma máquina tem"
+                ]
             ),
             |account, _| count(account.messages.sharing() as u32),
         ),

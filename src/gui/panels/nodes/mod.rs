@@ -135,7 +135,7 @@ fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Lo
     number(Some(places.left), count(row.left), some(row.left > 0));
     number(places.rate, a_second(row.rate, language), some(row.rate > 0.0));
     number(places.idle, fraction(row.idle), look.text);
-    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
+    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
     let now = pos2(places.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {

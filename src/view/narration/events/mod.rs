@@ -239,7 +239,7 @@ pub(crate) fn waiting_messages(state: &RunState, now: Time) -> Option<usize> {
     if state.handling.is_zero() {
         return None;
     }
-    Some(state.waiting(now)).filter(|&waiting| waiting >= MANY)
+    Some(state.line_length(now)).filter(|&waiting| waiting >= MANY)
 }
 
 /// Whether `node` has just traced its last atom, gets no other, and others go on.
