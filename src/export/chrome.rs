@@ -15,7 +15,7 @@ use crate::picture::{Atom, atoms_in};
 use crate::record::RecordKind;
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::{Lanes, Traced, node_name};
+use crate::view::{Lanes, Traced, fraction, node_name};
 
 /// The process of the machines, and those of the messages.
 const MACHINES: u32 = 1;
@@ -119,7 +119,7 @@ fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result
         events.put(&order)?;
     }
     for (node, speed) in (0..).zip(&log.header.speeds) {
-        let name = format!("machine {} ({:.0} %)", node_name(node), 100.0 * speed);
+        let name = format!("machine {} ({})", node_name(node), fraction(*speed));
         let track = track_of(node);
         let about =
             |what: &str, args: Value| json!({ "ph": "M", "name": what, "pid": MACHINES, "tid": track, "args": args });
@@ -267,7 +267,7 @@ fn happenings(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<
             RecordKind::Resumed { node } => (Some(*node), "resumed".into()),
             RecordKind::Retired { node } => (Some(*node), "retired".into()),
             RecordKind::Condition { node, condition } => (Some(*node), became(*condition).into()),
-            RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
+            RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {}", fraction(*speed))),
             RecordKind::LatencySet { latency } => (None, format!("a hop takes {latency:?}")),
             RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,

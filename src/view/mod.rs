@@ -52,9 +52,10 @@ pub use state::node_state::{Activity, NodeState, Parcels, Slot};
 pub use state::run_state::{Arrived, RunState};
 pub use state::scheduler::Sharing;
 pub use text::format::{
-    activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_words, time_words,
+    activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words, seconds_words,
+    time_words, two_digits,
 };
-pub use text::quality::{error_words, measured_lines, quality_lines, quality_words, times_words};
+pub use text::quality::{measured_lines, quality_lines, quality_words, times_words};
 pub use text::remedies::{remedies_words, remedy_hint, remedy_name, without};
 pub use text::scene_stats::{needs_lines, needs_warnings};
 pub use text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};

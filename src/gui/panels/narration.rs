@@ -6,12 +6,12 @@ use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBui
 use crate::gui::session::{Phase, Session};
 use crate::gui::widgets;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, figures, node_name, parts_words, percent, record_words, result_words, shares,
-    unfinished_words,
+    Details, Happening, NodeShare, figures, node_name, parts_words, percent, record_words, result_words, seconds_words,
+    shares, unfinished_words,
 };
 
 const SENTENCE: f32 = 3.25 * GRID;
@@ -122,7 +122,7 @@ fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a Happening)>, 
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT), Sense::hover());
         widgets::describe(&response, word!(language, "Event", "Evento"), || event.sentence(language));
         let y = line.center().y;
-        let time = format!("{} s", decimal(language, at.secs(), 1));
+        let time = seconds_words(at.secs(), language);
         ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
         let galley = one_line(ui, &event.sentence(language), &font, look, line.width() - 6.0 * GRID);
         ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);

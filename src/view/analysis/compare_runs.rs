@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use super::time_budget::TimeBudget;
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::text::format::{atoms_words, count, duration, fraction, node_name};
+use crate::view::text::format::{atoms_words, count, duration, fraction, node_name, ratio_words};
 
 /// A run that came to its end, and what it is called.
 #[derive(Clone, Copy, Debug)]
@@ -26,12 +26,8 @@ pub fn contrast(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language
     if times < SAME {
         return same(one, other, language);
     }
-    let (name, takes, quicker, ratio) = (
-        slow.name,
-        duration(slow.account.makespan, language),
-        quick.name,
-        decimal(language, times, if times < 10.0 { 2 } else { 0 }),
-    );
+    let (name, takes, quicker, ratio) =
+        (slow.name, duration(slow.account.makespan, language), quick.name, ratio_words(times, language));
     let mut told = say!(
         language,
         "{name} takes {takes}, {ratio} times as long as {quicker}.",
@@ -73,7 +69,7 @@ fn power(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> Option<St
     // As long as both go on: what is set later in one of them explains nothing.
     let [of_quick, of_slow] = [quick, slow].map(|run| run.power(Time::ZERO + quick.makespan));
     let times = of_quick / of_slow.max(f64::MIN_POSITIVE);
-    let ratio = decimal(language, times, 2);
+    let ratio = ratio_words(times, language);
     (times > SAME).then(|| {
         say!(
             language,
@@ -137,8 +133,7 @@ fn waiting(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> String 
     };
     let moved = quick.messages.atoms_moved;
     if moved > 0 && slow.messages.atoms_moved == 0 {
-        let (atoms, times) =
-            (atoms_words(moved.min(u64::from(u32::MAX)) as u32, language), count(quick.messages.transfers as u32));
+        let (atoms, times) = (atoms_words(moved, language), count(quick.messages.transfers));
         let helped = say!(
             language,
             "In the other run whoever is done takes over atoms: {atoms} in {times} transfers.",
@@ -155,7 +150,7 @@ fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     let waited = slow.waited_at_parent;
     // Only what comes to it keeps the parent busy.
     let arrived = slow.messages.requests + slow.messages.results;
-    let (messages, wait) = (count(arrived.min(u64::from(u32::MAX)) as u32), duration(waited, language));
+    let (messages, wait) = (count(arrived), duration(waited, language));
     if slow.sharing.is_farm() && waited > Duration::from_millis(1) {
         say!(
             language,

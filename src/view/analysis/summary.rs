@@ -4,13 +4,13 @@ use std::cmp::Reverse;
 use std::time::Duration;
 
 use crate::balance::{NodeId, Strategy};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::runlog::{Metrics, RunLog};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
-use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name};
+use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, seconds_words};
 
 /// What a finished run amounts to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,12 +72,12 @@ pub fn result_words(state: &RunState, outcome: &Summary, language: Language) -> 
     words
 }
 
-/// Seconds with a decimal, unless nothing would be left of them.
+/// Writes a length in seconds with a decimal, or in a smaller unit if it is shorter than 0.1 s.
 fn seconds(length: Duration, language: Language) -> String {
     if length < Duration::from_millis(95) {
         duration(length, language)
     } else {
-        format!("{} s", decimal(language, length.as_secs_f64(), 1))
+        seconds_words(length.as_secs_f64(), language)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Axes: which part of the numbers is seen, and which of them are written beside it.
 
-use crate::language::{Language, comma};
-use crate::view::text::format::count;
+use crate::language::Language;
+use crate::view::text::format::{count, number_to_power};
 
 /// How numbers become lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -195,22 +195,8 @@ impl Steps {
             Self::Twos(_) if (1.0..1e9).contains(&value) => 0,
             Self::Twos(_) => own - 1,
         };
-        let sign = if value < 0.0 { "−" } else { "" };
-        let value = value.abs();
-        if value >= 1e9 || power < -4 {
-            let digits = format!("{value:.*e}", (own - power).clamp(0, 9) as usize);
-            let (digits, exponent) = digits.split_at(digits.find('e').unwrap_or(digits.len()));
-            return comma(language, format!("{sign}{}{exponent}", trimmed(digits)));
-        }
-        let digits = format!("{value:.*}", (-power).max(0) as usize);
-        let (whole, decimals) = trimmed(&digits).split_at(digits.find('.').unwrap_or(digits.len()));
-        comma(language, format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
+        number_to_power(value, power, language)
     }
-}
-
-/// Decimals without zeros at their end.
-fn trimmed(digits: &str) -> &str {
-    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
 /// `digits` times ten to `power`, rounded once while both can be written exactly.

@@ -1,7 +1,7 @@
 //! One pixel: what made its colour and what took its time. The tree of its rays is the article's Figure 3, the spans along
 //! one of them are its Figure 2, and the terms are those of its equation (§3).
 
-mod format;
+mod phrases;
 mod rays;
 mod spans;
 mod terms;

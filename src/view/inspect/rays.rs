@@ -1,13 +1,13 @@
 //! The tree of rays (Figure 3): the eye above, and below each ray's end the rays that start there.
 
-use super::format::{kind_word, share_words};
+use super::phrases::kind_word;
 use super::{Inspected, cut, edge, label, line};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::tracer::{RayKind, RayNotes};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::draw::polyline::dashes;
-use crate::view::text::format::count;
+use crate::view::text::format::{count, fine_fraction};
 
 /// The tree as it is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +73,7 @@ impl Inspected {
                 let (kind, what, weight) = (
                     kind_word(ray.path.kind, language),
                     self.what(ray, language),
-                    share_words(ray.path.weight, language),
+                    fine_fraction(ray.path.weight, language),
                 );
                 let which = number + 1;
                 let name =
@@ -87,8 +87,8 @@ impl Inspected {
         let mut height = top + deepest as f32 * step + RADIUS + 5.0;
         if fitting < rays.len() {
             let weight = rays[fitting..].iter().map(|ray| ray.path.weight).fold(0.0, f64::max);
-            let more = count(u32::try_from(rays.len() - fitting).unwrap_or(u32::MAX));
-            let weight = share_words(weight, language);
+            let more = count((rays.len() - fitting) as u64);
+            let weight = fine_fraction(weight, language);
             let text =
                 say!(language, "and {more} more, none above {weight}", "e mais {more}, nenhum acima de {weight}");
             marks.push(label([width / 2.0, height + SMALL_LINE / 2.0], Anchor::Centre, cut(&text, width), Hue::Quiet));

@@ -1,12 +1,12 @@
 //! The spans along a ray (Figure 2): a row for each solid that it passes, and below it what the solid is made of.
 
-use super::format::{number, passes_nothing};
+use super::phrases::passes_nothing;
 use super::{Inspected, cut, edge, label, line, shown};
 use crate::csg::{Operation, SolidKind, SpanDiagram};
 use crate::language::{Language, say, word};
 use crate::view::charts::axis::{Axis, Ruler};
 use crate::view::draw::display_list::{Anchor, Hue, Mark};
-use crate::view::text::format::count;
+use crate::view::text::format::{count, distance_words};
 use crate::view::text::scene_stats::shape_names;
 
 /// The spans as they are drawn.
@@ -70,13 +70,13 @@ impl Inspected {
         if to.is_finite() {
             let at = x(to);
             marks.push(line([[at, top - 3.0], [at, bottom]], 2.0, Hue::Text.full()));
-            let end = number(to, language);
+            let end = distance_words(to, language);
             let text = say!(language, "ends at {end}", "termina em {end}");
             let beside = super::SMALL.width(along.len() + 1 + text.chars().count() / 2);
             marks.push(label([middle(&text, at).max(beside), top / 2.0 - 2.0], Anchor::Centre, text, Hue::Text));
         }
         if shown < rows.len() {
-            let more = count((rows.len() - shown) as u32);
+            let more = count((rows.len() - shown) as u64);
             let text = say!(language, "and {more} more", "e mais {more}");
             marks.push(label([0.0, bottom + ROW / 2.0], Anchor::Left, text, Hue::Quiet));
         }

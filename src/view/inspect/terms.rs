@@ -4,11 +4,11 @@
 
 use glam::DVec3;
 
-use super::format::share_words;
 use super::{Inspected, brightness, label, line, shown, swatch};
 use crate::language::{Language, decimal, word};
 use crate::tracer::RayKind;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point};
+use crate::view::text::format::fine_fraction;
 
 /// A term of the equation of one ray.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Inspected {
             for (value, x) in term.colour.to_array().into_iter().zip(places) {
                 marks.push(label([x, y], Anchor::Right, decimal(language, value, decimals), hue));
             }
-            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| fine_fraction(part, language));
             marks.push(label([width, y], Anchor::Right, part, hue));
         }
         Terms { marks, height: ROW * (terms.len() as f32 + 1.0) }

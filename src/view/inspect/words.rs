@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::format::{kind_word, number, passes_nothing, share_words};
+use super::phrases::{kind_word, passes_nothing};
 use super::{Inspected, shown};
 use crate::language::{Language, decimal, say, word};
 use crate::tracer::{RayKind, RayNotes};
-use crate::view::text::format::{count, counted};
+use crate::view::text::format::{count, counted, distance_words, fine_fraction};
 
 impl Inspected {
     /// Why the pixel took as long as it did: its rays, its samples, and what was left out.
@@ -21,27 +21,27 @@ impl Inspected {
         let kinds: Vec<_> = kinds
             .iter()
             .filter(|(many, _)| *many > 0)
-            .map(|(many, what)| format!("{} {}", big(*many), what[usize::from(*many > 1)]))
+            .map(|(many, what)| format!("{} {}", count(*many), what[usize::from(*many > 1)]))
             .collect();
         let (took, kinds) = (several_rays(rays.total(), language), kinds.join(", "));
         let mut said = vec![say!(language, "This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
         let (all, counting) = (self.samples.len(), self.samples.iter().filter(|sample| sample.counts).count());
-        let others = big((all - counting) as u64);
+        let others = count((all - counting) as u64);
         if all > counting {
-            let all = big(all as u64);
+            let all = count(all as u64);
             said.push(say!(
                 language,
                 "It has {all} samples; {others} at its corners only told that more were needed.",
                 "Tem {all} amostras; {others} nos cantos só mostraram que eram precisas mais."
             ));
         } else if all > 1 {
-            let all = big(all as u64);
+            let all = count(all as u64);
             said.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
         }
         let left_out: u64 = self.samples.iter().map(|sample| sample.rays_left_out).sum();
         if left_out > 0 {
             let weight = self.samples.iter().map(|sample| sample.left_out * sample.share(&self.samples)).sum();
-            let (rays, part) = (several_rays(left_out, language), share_words(weight, language));
+            let (rays, part) = (several_rays(left_out, language), fine_fraction(weight, language));
             said.push(if left_out == 1 {
                 say!(
                     language,
@@ -63,7 +63,7 @@ impl Inspected {
             .map(|sample| sample.share(&self.samples) * sample.rays.iter().map(too_deep).sum::<f64>())
             .sum();
         if deep > 0.0 {
-            let part = share_words(deep, language);
+            let part = fine_fraction(deep, language);
             said.push(say!(
                 language,
                 "The limit of the tree of rays cut off what would have counted {part}.",
@@ -83,7 +83,7 @@ impl Inspected {
             RayKind::Reflected => word!(language, "Reflected", "Refletido"),
             RayKind::Refracted => word!(language, "Through a surface", "Através de uma superfície"),
         };
-        let (level, weight) = (path.level, share_words(path.weight, language));
+        let (level, weight) = (path.level, fine_fraction(path.weight, language));
         let which = say!(
             language,
             "{kind}, on level {level}, it counts {weight} of its sample",
@@ -97,7 +97,7 @@ impl Inspected {
         } else {
             word!(language, "meets from within", "atinge por dentro")
         };
-        let (what, distance) = (self.what(ray, language), number(path.to, language));
+        let (what, distance) = (self.what(ray, language), distance_words(path.to, language));
         let mut said = vec![say!(
             language,
             "{which} and {does} {what} at a distance of {distance}.",
@@ -118,7 +118,7 @@ impl Inspected {
             Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
             Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
             Some(part) => {
-                let part = share_words(part, language);
+                let part = fine_fraction(part, language);
                 say!(language, "of {name} {part} arrives", "de {name} chega {part}")
             }
         }
@@ -167,7 +167,7 @@ impl Inspected {
         for term in self.terms(language) {
             let name = format!("{} ({})", term.formula, term.meaning);
             let [red, green, blue] = term.colour.to_array().map(|value| decimal(language, value, 4));
-            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| fine_fraction(part, language));
             put(&mut text, 0, &format!("{name:28} {red:>8} {green:>8} {blue:>8}   {part}"));
         }
         text
@@ -178,7 +178,7 @@ impl Inspected {
         let (rows, mut text) = (self.rows(), String::new());
         for row in rows.iter().take(MOST_LINES) {
             let stay = |stay: &[f64; 2]| {
-                let [enter, leave] = stay.map(|distance| number(distance, language));
+                let [enter, leave] = stay.map(|distance| distance_words(distance, language));
                 say!(language, "{enter} to {leave}", "{enter} a {leave}")
             };
             let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
@@ -202,8 +202,11 @@ impl Inspected {
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
             let ray = &rays[number];
-            let (kind, what, counts) =
-                (kind_word(ray.path.kind, language), self.what(ray, language), share_words(ray.path.weight, language));
+            let (kind, what, counts) = (
+                kind_word(ray.path.kind, language),
+                self.what(ray, language),
+                fine_fraction(ray.path.weight, language),
+            );
             let rays = several_rays(ray.lights.len() as u64, language);
             let shadows = match ray.lights.len() {
                 0 => String::new(),
@@ -232,17 +235,13 @@ fn put(text: &mut String, depth: usize, line: &str) {
 /// That there are more lines than are told.
 fn put_more(text: &mut String, all: usize, language: Language) {
     if all > MOST_LINES {
-        let more = big((all - MOST_LINES) as u64);
+        let more = count((all - MOST_LINES) as u64);
         put(text, 1, &say!(language, "and {more} more", "e mais {more}"));
     }
 }
 
-fn big(number: u64) -> String {
-    count(u32::try_from(number).unwrap_or(u32::MAX))
-}
-
 fn several_rays(number: u64, language: Language) -> String {
-    counted(u32::try_from(number).unwrap_or(u32::MAX), word!(language, "ray", "raio"), language)
+    counted(number, word!(language, "ray", "raio"), language)
 }
 
 #[cfg(test)]
@@ -252,22 +251,13 @@ mod tests {
     use crate::picture::Quality;
 
     #[test]
-    fn parts_and_distances_are_short() {
-        let said = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(|part| share_words(part, Language::English));
-        assert_eq!(said, ["0 %", "< 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
-        let said =
-            [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY].map(|distance| number(distance, Language::English));
-        assert_eq!(said, ["0", "1.000", "12.35", "−3.500", "1.00e9", "1.00e−7", "−∞"]);
-    }
-
-    #[test]
     fn the_sentences_count_the_rays_and_what_was_left_out() {
         let language = Language::English;
         let mut seen = [false; 3];
         let quality = Quality { max_depth: 4, samples: 2, ..Quality::default() };
         each(quality, |_, inspected| {
             let said = inspected.sentences(language);
-            let begins = format!("This pixel took {} ray", big(inspected.rays.total()));
+            let begins = format!("This pixel took {} ray", count(inspected.rays.total()));
             assert!(said[0].starts_with(&begins), "{said:?}");
             let left_out = inspected.samples.iter().any(|sample| sample.rays_left_out > 0);
             let too_deep = inspected.samples.iter().any(|sample| sample.rays.iter().any(|ray| ray.too_deep > 0.0));

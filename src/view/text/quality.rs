@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::format::{counted, duration};
+use super::format::{counted, duration, two_digits};
 use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::{Difference, Quality, Size};
 
@@ -25,7 +25,7 @@ pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str
             "até {samples} × {samples} amostras por pixel, até o erro estimado ser {error}"
         ),
     };
-    let part = error_words(100.0 * cutoff, language);
+    let part = two_digits(100.0 * cutoff, language);
     let left_out = if cutoff > 0.0 {
         say!(language, "weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
     } else {
@@ -61,7 +61,7 @@ pub fn measured_lines(
                 "{took} de um núcleo para {width} × {height} pixels"
             ),
         ),
-        (word!(language, "Error", "Erro"), error_words(difference.rmse, language)),
+        (word!(language, "Error", "Erro"), two_digits(difference.rmse, language)),
         (
             word!(language, "Wrong", "Errados"),
             say!(
@@ -79,15 +79,6 @@ pub fn measured_lines(
             ),
         ),
     ]
-}
-
-/// An error in two digits.
-pub fn error_words(error: f64, language: Language) -> String {
-    if error <= 0.0 {
-        return "0".into();
-    }
-    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
-    decimal(language, error, decimals)
 }
 
 /// How long one takes beside another.
@@ -121,12 +112,6 @@ mod tests {
             quality_words(&adaptive, language)
                 .starts_with("up to 4 × 4 samples a pixel, until the estimated error is 0.02, 10 levels")
         );
-    }
-
-    #[test]
-    fn errors_have_two_digits() {
-        let said = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0].map(|error| error_words(error, Language::English));
-        assert_eq!(said, ["0", "0.000012", "0.012", "0.096", "0.50", "12"]);
     }
 
     #[test]

@@ -149,7 +149,7 @@ fn levels_words(levels: &[u64], language: Language) -> String {
 }
 
 fn number(value: usize) -> String {
-    count(u32::try_from(value).unwrap_or(u32::MAX))
+    count(value as u64)
 }
 
 fn several(value: usize, [one, many]: [&str; 2]) -> String {

@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use super::format::{
     activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent, rate_words,
+    seconds_words,
 };
 use crate::balance::{Condition, NodeId, Party};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
 use crate::view::state::atom_state::AtomState;
@@ -191,11 +192,11 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time, language: Language) -
     let stands = match (place, state.carrier(atom)) {
         (AtomState::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default(), language);
-            let (by, at) = (node_name(by), decimal(language, at.secs(), 1));
+            let (by, at) = (node_name(by), seconds_words(at.secs(), language));
             say!(
                 language,
-                "traced by {by} at {at} s, at a cost of {cost}",
-                "calculado por {by} em {at} s, ao custo de {cost}"
+                "traced by {by} at {at}, at a cost of {cost}",
+                "calculado por {by} em {at}, ao custo de {cost}"
             )
         }
         (_, Some(Flight { from: Party::Node(from), to: Party::Node(to), .. })) => {

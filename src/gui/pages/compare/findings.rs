@@ -167,7 +167,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                     "Todas as mensagens, menos as de resultados e as que só dizem o que uma máquina tem"
                 ]
             ),
-            |account, _| count(account.messages.sharing() as u32),
+            |account, _| count(account.messages.sharing()),
         ),
         (
             word!(
@@ -183,7 +183,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                      uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
                 ]
             ),
-            |account, _| count(account.messages.results as u32),
+            |account, _| count(account.messages.results),
         ),
         (
             word!(
@@ -191,7 +191,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                 ["atoms given away", "From one machine to another"],
                 ["átomos cedidos", "De uma máquina a outra"]
             ),
-            |account, _| count(account.messages.atoms_moved as u32),
+            |account, _| count(account.messages.atoms_moved),
         ),
         (
             word!(
