@@ -101,8 +101,8 @@ impl Metrics {
         }
     }
 
-    /// From the first band sent, or the beginning of an estimate that it needs, to the last atom placed; `None` while the
-    /// picture is incomplete.
+    /// From the first band sent, or the beginning of an estimate that it needs, to the last atom placed; `None` while
+    /// the picture is incomplete.
     pub fn makespan(&self) -> Option<Duration> {
         Some(self.finished?.since(self.start?))
     }
@@ -119,8 +119,8 @@ impl Metrics {
 
     /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
     /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Metrics::work`].
-    /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is cut
-    /// off has done reaches nobody. `None` if the machines stand still before the work is done.
+    /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is
+    /// cut off has done reaches nobody. `None` if the machines stand still before the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
         let powers = self.powers();
@@ -164,8 +164,8 @@ impl Metrics {
         (!makespan.is_zero()).then(|| ideal.div_duration_f64(makespan))
     }
 
-    /// From the moment at which the first node is done with its last atom to that at which the last is; nodes that traced
-    /// nothing do not count.
+    /// From the moment at which the first node is done with its last atom to that at which the last is; nodes that
+    /// traced nothing do not count.
     pub fn finish_spread(&self) -> Duration {
         let ends: Vec<Time> = self.last_atoms().into_iter().flatten().collect();
         ends.iter().max().zip(ends.iter().min()).map_or(Duration::ZERO, |(last, first)| last.since(*first))
@@ -176,8 +176,8 @@ impl Metrics {
         self.nodes.iter().map(|(atoms, end)| (*atoms > 0).then_some(*end)).collect()
     }
 
-    /// The share of the machines' time that lies after their last atoms, a slow machine's time counting less; of a node that
-    /// traced nothing, all of its time. `None` while the picture is incomplete.
+    /// The share of the machines' time that lies after their last atoms, a slow machine's time counting less; of a node
+    /// that traced nothing, all of its time. `None` while the picture is incomplete.
     pub fn tail_idle(&self) -> Option<f64> {
         let (start, finished) = (self.start?, self.finished?);
         let idle = |(speed, (atoms, end)): (&f64, &(u32, Time))| {

@@ -108,7 +108,7 @@ fn a_farm_with_a_slow_parent_runs_to_its_end() {
     assert_eq!(parts.iter().sum::<usize>(), 6144 - 8 * 48);
     window.run_steps(2);
     let said = window.get_by_label("Result").value().unwrap_or_default();
-    assert!(said.ends_with("The parent was asked for 120 parts"), "{said}");
+    assert!(said.ends_with("Machines asked the parent for 120 parts"), "{said}");
 }
 
 #[test]

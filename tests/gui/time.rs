@@ -47,7 +47,7 @@ fn seen(window: &Window, language: Language) -> String {
         "{} {:?} {:?} {}",
         stage.records_shown(),
         state.nodes(),
-        state.places(),
+        state.atom_states(),
         stage.narrator().sentence(state, at, language)
     )
 }
@@ -105,7 +105,7 @@ fn going_to_a_time_and_playing_up_to_it_show_the_same() {
     let expected = format!(
         "{records} {:?} {:?} {}",
         state.nodes(),
-        state.places(),
+        state.atom_states(),
         told.narrator.sentence(state, state.head(), language)
     );
     assert_eq!(played, expected);

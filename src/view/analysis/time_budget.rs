@@ -1,4 +1,4 @@
-//! Where the machines' time went: what they traced, what they waited for, and who kept all others waiting.
+//! The time budget of a finished run: where the machines' time went, and which machine finished last.
 
 use std::time::Duration;
 
@@ -11,45 +11,46 @@ use crate::view::state::lane::Lane;
 use crate::view::state::lanes::Lanes;
 use crate::view::state::scheduler::Sharing;
 
-/// What a run that came to its end amounts to, and where its time went.
+/// Time budget of a finished run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeBudget {
-    /// How the atoms were shared.
+    /// Scheduler of the run.
     pub sharing: Sharing,
     /// From the first band sent to the last atom placed.
     pub makespan: Duration,
-    /// How long it would have taken, had the work been shared perfectly.
+    /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
     pub ideal: Duration,
     /// Σ speeds of the machines that work, with the times from which each sum holds ([`Metrics::powers`]).
     pub powers: Vec<(Time, f64)>,
-    /// Where the time of all machines went.
+    /// Seconds of all machines, from time 0 to the last atom placed.
     pub spent: MachineSeconds,
-    /// What was said.
+    /// Numbers of messages.
     pub messages: MessageCounts,
-    /// Whoever traced the last atom.
+    /// The machine that traced the last atom.
     pub last: LastMachine,
-    /// How long messages waited at the parent, all of them together.
+    /// Σ waiting times of all messages at the parent.
     pub waited_at_parent: Duration,
-    /// How long the parent sampled the picture before it gave bands.
+    /// Time from the beginning of the estimate to the first band sent.
     pub estimating: Duration,
 }
 
 /// The machine that traced the last atom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LastMachine {
-    /// Which.
+    /// The machine.
     pub node: NodeId,
     /// Its speed at the end.
     pub speed: f64,
-    /// How long no other traced any more.
+    /// Time from the last atom of the machine that finished last but one to its own last atom. A machine that traced
+    /// nothing finished at 0.
     pub alone: Duration,
-    /// How many atoms it traced.
+    /// Atoms that it traced.
     pub traced: u32,
-    /// How many it gave to others.
+    /// Atoms that it gave to others.
     pub gave: u32,
 }
 
-/// Seconds of all machines: a run of eight machines has eight in each second.
+/// Machine seconds: a second of a run of eight machines has eight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MachineSeconds {
     /// In which the machine traced atoms and was not stopped.
@@ -65,12 +66,12 @@ pub struct MachineSeconds {
 }
 
 impl MachineSeconds {
-    /// All of it.
+    /// Sum of the parts.
     pub fn sum(&self) -> f64 {
         self.parts().iter().sum()
     }
 
-    /// The parts, in the order of the fields.
+    /// Parts in the order of the fields.
     pub fn parts(&self) -> [f64; 5] {
         [self.tracing, self.starting, self.asking, self.stopped, self.waiting]
     }
@@ -93,12 +94,12 @@ impl MachineSeconds {
 }
 
 impl TimeBudget {
-    /// The account of a run; `None` unless its picture was completed.
+    /// Computes the budget of a run; `None` unless its picture was completed.
     pub fn of(log: &RunLog) -> Option<Self> {
         Self::new(log, &Lanes::of(log))
     }
 
-    /// The same, where what each machine did is known already.
+    /// Computes the budget of a run whose lanes are known already.
     pub(crate) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
         let metrics = Metrics::of(log);
         let (makespan, ideal) = (metrics.makespan()?, metrics.ideal()?);
@@ -141,7 +142,7 @@ impl TimeBudget {
 }
 
 impl LastMachine {
-    /// The machine with the last atom of all, and the time since the last atom of the machine that was last but one.
+    /// Finds the machine that traced the last atom.
     fn of(log: &RunLog, metrics: &Metrics) -> Option<Self> {
         let ends = metrics.last_atoms().into_iter().map(Option::unwrap_or_default);
         let mut ends: Vec<(Time, NodeId)> = ends.zip(0..).collect();
@@ -164,7 +165,7 @@ impl LastMachine {
     }
 }
 
-/// The parent is busy with one message after the other; those that come meanwhile wait.
+/// Adds up how long messages waited at the parent, which handles one after the other.
 fn waited_at_parent(log: &RunLog) -> Duration {
     let mut arrivals: Vec<Time> = log
         .records()
@@ -184,6 +185,7 @@ fn waited_at_parent(log: &RunLog) -> Duration {
     waited
 }
 
+/// Returns the time from the beginning of the estimate to the first band sent.
 fn estimating(records: &[Record]) -> Duration {
     let at =
         |wanted: fn(&RecordKind) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
@@ -197,7 +199,7 @@ mod tests {
     use crate::language::Language;
     use proptest::prelude::*;
 
-    use super::super::compare_runs::{NamedBudget, contrast};
+    use super::super::compare_runs::{NamedBudget, compare_runs};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::record::Record;
@@ -215,21 +217,21 @@ mod tests {
 
     proptest! {
         #[test]
-        fn all_of_the_machines_time_is_accounted_for(
+        fn parts_add_up_to_all_machine_seconds(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), strategy in 0..6usize, handling in 0..20u64,
         ) {
             let log = log(Strategy::ALL[strategy], &speeds, handling);
-            let account = TimeBudget::of(&log).expect("it came to its end");
+            let budget = TimeBudget::of(&log).expect("it came to its end");
             let end = log.records().iter().find(|record| record.what == RecordKind::Finished).expect("its end").at.secs();
-            let (spent, parts) = (account.spent, account.spent.parts());
+            let (spent, parts) = (budget.spent, budget.spent.parts());
             prop_assert!((spent.sum() - end * speeds.len() as f64).abs() < 1e-6, "{spent:?}");
             prop_assert!(parts.iter().all(|part| *part >= 0.0), "{spent:?}");
-            prop_assert!(account.efficiency() <= 1.0 + 1e-9 && account.ideal <= account.makespan);
+            prop_assert!(budget.efficiency() <= 1.0 + 1e-9 && budget.ideal <= budget.makespan);
         }
     }
 
     #[test]
-    fn with_bands_the_slow_machine_is_alone_at_the_end() {
+    fn slow_machine_is_alone_at_the_end_of_static_bands() {
         let bands = TimeBudget::of(&log(Strategy::Static, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
         let LastMachine { node, speed, alone, traced, gave } = bands.last;
         assert_eq!((node, speed, traced, gave), (3, 0.1, 300, 0));
@@ -260,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn messages_wait_for_a_parent_that_is_busy() {
+    fn messages_wait_at_a_busy_parent() {
         let waited =
             |handling| TimeBudget::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
         assert_eq!(waited(0), Duration::ZERO);
@@ -268,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
+    fn slowed_machine_explains_a_longer_run() {
         let language = Language::English;
         let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
         let quick = TimeBudget::of(&plain).expect("it came to its end");
@@ -283,11 +285,11 @@ mod tests {
         let whole = Time(2 * half.0);
         assert!((slow.power(whole) - 1.75).abs() < 1e-9, "{}", slow.power(whole));
         let slow = TimeBudget { makespan: quick.makespan.mul_f64(1.2), ..slow };
-        let told = contrast(
-            NamedBudget { name: "One", account: &quick },
-            NamedBudget { name: "The other", account: &slow },
+        let text = compare_runs(
+            NamedBudget { name: "One", budget: &quick },
+            NamedBudget { name: "The other", budget: &slow },
             language,
         );
-        assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
+        assert!(text.contains("Its machines together are slower: those of the other run are 1.1"), "{text}");
     }
 }

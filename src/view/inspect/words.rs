@@ -1,4 +1,4 @@
-//! What there is to say of a pixel, in sentences and as a text.
+//! An inspected pixel in sentences, and as a text.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use crate::tracer::{RayKind, RayNotes};
 use crate::view::text::format::{count, counted, distance_words, fine_fraction};
 
 impl Inspected {
-    /// Why the pixel took as long as it did: its rays, its samples, and what was left out.
+    /// Explains the pixel's time: its rays, its samples, and rays left out.
     pub fn sentences(&self, language: Language) -> Vec<String> {
         let rays = &self.rays;
         let kinds = [
@@ -24,35 +24,36 @@ impl Inspected {
             .map(|(many, what)| format!("{} {}", count(*many), what[usize::from(*many > 1)]))
             .collect();
         let (took, kinds) = (several_rays(rays.total(), language), kinds.join(", "));
-        let mut said = vec![say!(language, "This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
+        let mut sentences =
+            vec![say!(language, "This pixel needed {took}: {kinds}.", "Este pixel precisou de {took}: {kinds}.")];
         let (all, counting) = (self.samples.len(), self.samples.iter().filter(|sample| sample.counts).count());
         let others = count((all - counting) as u64);
         if all > counting {
             let all = count(all as u64);
-            said.push(say!(
+            sentences.push(say!(
                 language,
-                "It has {all} samples; {others} at its corners only told that more were needed.",
-                "Tem {all} amostras; {others} nos cantos só mostraram que eram precisas mais."
+                "It has {all} samples. {others} at its corners only showed that more were needed.",
+                "Tem {all} amostras. {others} nos cantos só mostraram que eram necessárias mais."
             ));
         } else if all > 1 {
             let all = count(all as u64);
-            said.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
+            sentences.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
         }
         let left_out: u64 = self.samples.iter().map(|sample| sample.rays_left_out).sum();
         if left_out > 0 {
             let weight = self.samples.iter().map(|sample| sample.left_out * sample.share(&self.samples)).sum();
             let (rays, part) = (several_rays(left_out, language), fine_fraction(weight, language));
-            said.push(if left_out == 1 {
+            sentences.push(if left_out == 1 {
                 say!(
                     language,
-                    "{rays} was left out; it would have counted {part}.",
-                    "{rays} foi omitido; contaria {part}."
+                    "{rays} was left out. Its weight was {part}.",
+                    "{rays} foi omitido. Seu peso era {part}."
                 )
             } else {
                 say!(
                     language,
-                    "{rays} were left out; they would have counted {part} together.",
-                    "{rays} foram omitidos; juntos contariam {part}."
+                    "{rays} were left out. The sum of their weights was {part}.",
+                    "{rays} foram omitidos. A soma de seus pesos era {part}."
                 )
             });
         }
@@ -64,16 +65,16 @@ impl Inspected {
             .sum();
         if deep > 0.0 {
             let part = fine_fraction(deep, language);
-            said.push(say!(
+            sentences.push(say!(
                 language,
-                "The limit of the tree of rays cut off what would have counted {part}.",
-                "O limite da árvore de raios cortou o que contaria {part}."
+                "The limit of the tree of rays cut off rays with a weight of {part}.",
+                "O limite da árvore de raios cortou raios com peso de {part}."
             ));
         }
-        said
+        sentences
     }
 
-    /// What the chosen ray is, what it met, and which light arrives there.
+    /// Describes the chosen ray, the solid that it met, and the light that arrives there.
     pub fn ray_sentences(&self, language: Language) -> Vec<String> {
         let ray = self.ray();
         let path = &ray.path;
@@ -84,49 +85,50 @@ impl Inspected {
             RayKind::Refracted => word!(language, "Through a surface", "Através de uma superfície"),
         };
         let (level, weight) = (path.level, fine_fraction(path.weight, language));
-        let which = say!(
+        let ray_words = say!(
             language,
-            "{kind}, on level {level}, it counts {weight} of its sample",
-            "{kind}, no nível {level}, conta {weight} de sua amostra"
+            "{kind}, on level {level}, it has a weight of {weight} in its sample",
+            "{kind}, no nível {level}, tem peso de {weight} em sua amostra"
         );
         let Some(met) = ray.met else {
-            return vec![say!(language, "{which} and meets nothing.", "{which} e não encontra nada.")];
+            return vec![say!(language, "{ray_words} and meets nothing.", "{ray_words} e não encontra nada.")];
         };
-        let does = if met.enters {
+        let verb = if met.enters {
             word!(language, "enters", "entra em")
         } else {
-            word!(language, "meets from within", "atinge por dentro")
+            word!(language, "meets, from the inside,", "atinge por dentro")
         };
-        let (what, distance) = (self.what(ray, language), distance_words(path.to, language));
-        let mut said = vec![say!(
+        let (material, distance) = (self.met_name(ray, language), distance_words(path.to, language));
+        let mut sentences = vec![say!(
             language,
-            "{which} and {does} {what} at a distance of {distance}.",
-            "{which} e {does} {what} à distância de {distance}."
+            "{ray_words} and {verb} {material} at a distance of {distance}.",
+            "{ray_words} e {verb} {material} à distância de {distance}."
         )];
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
             let lights = lights.join(", ");
-            said.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
+            sentences.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
         }
-        said
+        sentences
     }
 
+    /// Says how much of a light arrives where a ray ended.
     fn light_words(&self, ray: &RayNotes, light: usize, language: Language) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
             Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
-            Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
+            Some(1.0) => say!(language, "all of {name} arrives", "de {name} chega tudo"),
             Some(part) => {
                 let part = fine_fraction(part, language);
-                say!(language, "of {name} {part} arrives", "de {name} chega {part}")
+                say!(language, "{part} of {name} arrives", "de {name} chega {part}")
             }
         }
     }
 
-    /// Everything as a text of several lines.
+    /// Returns everything as a text of several lines.
     pub fn text(&self, language: Language) -> String {
-        let [x, y] = self.place;
+        let [x, y] = self.pixel;
         let colour = self.colour();
         let [red, green, blue] = shown(colour);
         let linear = colour.to_array().map(|value| decimal(language, value, 4)).join(" ");
@@ -156,12 +158,16 @@ impl Inspected {
             ),
         );
         self.term_words(language).lines().for_each(|line| put(&mut text, 1, line));
-        put(&mut text, 0, word!(language, "\nIts stays in what it passes", "\nSuas permanências no que atravessa"));
+        put(
+            &mut text,
+            0,
+            word!(language, "\nIts spans in the solids that it enters", "\nSeus trechos nos sólidos em que entra"),
+        );
         self.span_words(language).lines().for_each(|line| put(&mut text, 1, line));
         text
     }
 
-    /// The terms of the chosen ray, a line each.
+    /// Returns the terms of the chosen ray, one on each line.
     pub fn term_words(&self, language: Language) -> String {
         let mut text = String::new();
         for term in self.terms(language) {
@@ -173,16 +179,16 @@ impl Inspected {
         text
     }
 
-    /// What the chosen ray passes and its stays in there, a line each.
+    /// Returns the solids that the chosen ray enters, with its spans in them, one on each line.
     pub fn span_words(&self, language: Language) -> String {
         let (rows, mut text) = (self.rows(), String::new());
-        for row in rows.iter().take(MOST_LINES) {
-            let stay = |stay: &[f64; 2]| {
-                let [enter, leave] = stay.map(|distance| distance_words(distance, language));
+        for row in rows.iter().take(MAX_LINES) {
+            let span = |span: &[f64; 2]| {
+                let [enter, leave] = span.map(|distance| distance_words(distance, language));
                 say!(language, "{enter} to {leave}", "{enter} a {leave}")
             };
-            let stays: Vec<_> = row.figure.stays.iter().map(stay).collect();
-            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure, language), stays.join(", ")));
+            let spans: Vec<_> = row.diagram.stays.iter().map(span).collect();
+            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.diagram, language), spans.join(", ")));
         }
         put_more(&mut text, rows.len(), language);
         if rows.is_empty() {
@@ -191,10 +197,10 @@ impl Inspected {
         text
     }
 
-    /// The tree of rays, each below that from whose end it starts.
+    /// Writes the tree of rays, each ray below the one from whose end it starts.
     fn put_rays(&self, text: &mut String, language: Language) {
         let rays = &self.sample().rays;
-        let shown = rays.len().min(MOST_LINES);
+        let shown = rays.len().min(MAX_LINES);
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); shown];
         for (number, ray) in rays[..shown].iter().enumerate() {
             ray.path.from.into_iter().for_each(|from| followers[from as usize].push(number));
@@ -202,9 +208,9 @@ impl Inspected {
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
             let ray = &rays[number];
-            let (kind, what, counts) = (
+            let (kind, what, weight) = (
                 kind_word(ray.path.kind, language),
-                self.what(ray, language),
+                self.met_name(ray, language),
                 fine_fraction(ray.path.weight, language),
             );
             let rays = several_rays(ray.lights.len() as u64, language);
@@ -215,8 +221,8 @@ impl Inspected {
             let (name, depth) = (number + 1, ray.path.level as usize);
             let line = say!(
                 language,
-                "{name} {kind}: {what}, counts {counts}{shadows}",
-                "{name} {kind}: {what}, conta {counts}{shadows}"
+                "{name} {kind}: {what}, weight {weight}{shadows}",
+                "{name} {kind}: {what}, peso {weight}{shadows}"
             );
             put(text, depth, &line);
             waiting.extend(followers[number].iter().rev());
@@ -225,21 +231,23 @@ impl Inspected {
     }
 }
 
-/// Of longer lists only the beginning is told.
-const MOST_LINES: usize = 60;
+/// Most lines of a list.
+const MAX_LINES: usize = 60;
 
+/// Writes an indented line.
 fn put(text: &mut String, depth: usize, line: &str) {
     let _ = writeln!(text, "{:1$}{line}", "", 2 * depth);
 }
 
-/// That there are more lines than are told.
+/// Writes how many lines a list has beyond [`MAX_LINES`].
 fn put_more(text: &mut String, all: usize, language: Language) {
-    if all > MOST_LINES {
-        let more = count((all - MOST_LINES) as u64);
+    if all > MAX_LINES {
+        let more = count((all - MAX_LINES) as u64);
         put(text, 1, &say!(language, "and {more} more", "e mais {more}"));
     }
 }
 
+/// Writes a number of rays.
 fn several_rays(number: u64, language: Language) -> String {
     counted(number, word!(language, "ray", "raio"), language)
 }
@@ -251,18 +259,18 @@ mod tests {
     use crate::picture::Quality;
 
     #[test]
-    fn the_sentences_count_the_rays_and_what_was_left_out() {
+    fn sentences_count_rays_and_rays_left_out() {
         let language = Language::English;
         let mut seen = [false; 3];
         let quality = Quality { max_depth: 4, samples: 2, ..Quality::default() };
         each(quality, |_, inspected| {
-            let said = inspected.sentences(language);
-            let begins = format!("This pixel took {} ray", count(inspected.rays.total()));
-            assert!(said[0].starts_with(&begins), "{said:?}");
+            let sentences = inspected.sentences(language);
+            let begins = format!("This pixel needed {} ray", count(inspected.rays.total()));
+            assert!(sentences[0].starts_with(&begins), "{sentences:?}");
             let left_out = inspected.samples.iter().any(|sample| sample.rays_left_out > 0);
             let too_deep = inspected.samples.iter().any(|sample| sample.rays.iter().any(|ray| ray.too_deep > 0.0));
-            let says = |words: &str| said.iter().any(|sentence| sentence.contains(words));
-            assert_eq!([says("left out"), says("limit of the tree")], [left_out, too_deep], "{said:?}");
+            let says = |words: &str| sentences.iter().any(|sentence| sentence.contains(words));
+            assert_eq!([says("left out"), says("limit of the tree")], [left_out, too_deep], "{sentences:?}");
             assert!(says("the mean of 4 samples"));
             seen = [seen[0] || left_out, seen[1] || too_deep, true];
         });
@@ -270,13 +278,13 @@ mod tests {
     }
 
     #[test]
-    fn the_text_has_every_ray_term_and_row() {
+    fn text_has_every_ray_term_and_row() {
         let language = Language::English;
         each(Quality::default(), |_, inspected| {
             let text = inspected.text(language);
-            let [x, y] = inspected.place;
+            let [x, y] = inspected.pixel;
             assert!(text.starts_with(&format!("Pixel {x}, {y}: ")), "{text}");
-            for number in 1..=inspected.sample().rays.len().min(MOST_LINES) {
+            for number in 1..=inspected.sample().rays.len().min(MAX_LINES) {
                 assert!(
                     text.lines().any(|line| line.trim_start().starts_with(&format!("{number} "))),
                     "{number}: {text}"

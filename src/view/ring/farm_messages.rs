@@ -12,7 +12,7 @@ use crate::view::text::format::count;
 
 /// Draws requests, parts, and the line at the parent.
 pub(crate) fn draw(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
-    if state.presence(now) == 0.0 {
+    if state.opacity(now) == 0.0 {
         return;
     }
     line(plan, state, now, marks);
@@ -47,7 +47,7 @@ const WORDED: usize = 12;
 
 fn tokens<'a>(plan: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc<'a>> {
     let token = |flight: &'a Flight| {
-        let alpha = flight.presence(now) * state.presence(now);
+        let alpha = flight.opacity(now) * state.opacity(now);
         if flight.sent > now || !flight.shown().contains(&now) || alpha == 0.0 {
             return None;
         }

@@ -31,7 +31,7 @@ pub(crate) fn sparks(plan: &RingLayout, state: &RunState, now: Time, marks: &mut
 /// A small cross stands where a message is lost.
 pub(crate) fn crosses(plan: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights() {
-        let alpha = flight.cross(now) * state.presence(now);
+        let alpha = flight.cross_opacity(now) * state.opacity(now);
         if alpha == 0.0 {
             continue;
         }

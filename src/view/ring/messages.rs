@@ -15,11 +15,11 @@ pub(crate) fn results(plan: &RingLayout, state: &RunState, now: Time, marks: &mu
     for flight in state.flights() {
         if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
             && flight.shown().contains(&now)
-            && state.presence(now) > 0.0
+            && state.opacity(now) > 0.0
         {
             let (start, end) = (plan.seats - plan.node * 1.3, plan.parent);
             let radius = start + (end - start) * flight.progress(now);
-            let ink = Hue::Node(from).faint(state.presence(now));
+            let ink = Hue::Node(from).faint(state.opacity(now));
             marks.push(Mark::Disc { centre: plan.at(plan.angle(from), radius), radius: dot, ink });
         }
     }
@@ -110,7 +110,7 @@ impl OfferDisc<'_> {
 
 /// How strongly a flight or its trail is seen.
 pub(crate) fn seen_at(state: &RunState, flight: &Flight, now: Time) -> f32 {
-    flight.presence(now) * state.presence(now)
+    flight.opacity(now) * state.opacity(now)
 }
 
 /// Lanes lie on the rail, then by turns outside and inside it; beyond eight they are shared.

@@ -64,7 +64,7 @@ pub fn ring(state: &RunState, overlay: &RingOverlay, now: Time, size: Point, lan
     messages::results(&plan, state, now, &mut marks);
     messages::offers(&plan, state, now, overlay.message, &mut marks);
     for node in 0..state.nodes().len() as NodeId {
-        let of = &*state.seen(node, now);
+        let of = &*state.node_as_drawn(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
         machine(&plan, (node, of), activity, is_selected || overlay.lit.contains(&node), &mut marks);
         if is_labelled(&plan, is_selected) {

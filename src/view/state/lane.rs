@@ -1,4 +1,4 @@
-//! What one machine did and when.
+//! The lane of one machine: what it did, and when.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use crate::balance::Condition;
 use crate::picture::Atom;
 use crate::time::Time;
 
-/// What one machine did and when.
+/// What one machine did, and when.
 #[derive(Clone, Debug)]
 pub struct Lane {
     /// Traced atoms, by time.

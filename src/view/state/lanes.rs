@@ -1,4 +1,4 @@
-//! What each machine did and when, as a fold over records: a lane a node.
+//! Folds records into lanes: what each machine did, and when.
 
 use super::flight::{Cargo, Flight};
 use super::lane::{Lane, LanePhase, Traced};
@@ -8,38 +8,39 @@ use crate::record::{Record, RecordKind};
 use crate::runlog::{Header, RunLog};
 use crate::time::Time;
 
-/// What all machines did and when. Records of different parties may come interleaved, those of one in order.
+/// One lane for each machine, and all messages. Records of different parties may come interleaved; those of one party
+/// come in order.
 #[derive(Clone, Debug)]
 pub struct Lanes {
     lanes: Vec<Lane>,
     trips: Vec<Trip>,
-    /// By trip: the bytes of it and of all that were told before it.
+    /// By trip: the bytes of all trips up to it.
     bytes: Vec<u64>,
     version: u64,
-    /// Whether who retires can be woken.
-    wakes: bool,
+    /// Whether a retired machine can be woken.
+    can_wake: bool,
 }
 
-/// A message, from when it left to when it arrives.
+/// A message on its way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trip {
-    /// Its name in the run.
+    /// The message's number in the run.
     pub id: u64,
-    /// Who sent it.
+    /// The sender.
     pub from: Party,
-    /// Who gets it.
+    /// The receiver.
     pub to: Party,
-    /// What it carries, in a word.
+    /// The kind of message.
     pub load: Load,
-    /// How many atoms.
+    /// Number of atoms in it.
     pub atoms: u32,
-    /// When it left.
+    /// When it was sent.
     pub sent: Time,
     /// When the link delivers it.
     pub arrives: Time,
 }
 
-/// What a message carries.
+/// Kind of a message, as the timeline tells them apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Load {
     /// An offer, the sender's own or another's.
@@ -50,14 +51,14 @@ pub enum Load {
     Atoms,
     /// Traced atoms.
     Results,
-    /// What keeps a ring that adapts whole: who is there, and has what.
+    /// A message of the adaptive ring about the state of nodes.
     Notice,
-    /// The end.
+    /// The end of the run.
     Shutdown,
 }
 
 impl Lanes {
-    /// Before anything has happened.
+    /// Creates the lanes of a run that has not begun.
     pub fn new(header: &Header) -> Self {
         let lane = |(node, speed): (NodeId, &f64)| Lane::new(*speed, header.is_spare(node));
         Self {
@@ -65,18 +66,18 @@ impl Lanes {
             trips: Vec::new(),
             bytes: Vec::new(),
             version: 0,
-            wakes: header.remedies().has(Remedy::Wake),
+            can_wake: header.remedies().has(Remedy::Wake),
         }
     }
 
-    /// Of all of a run.
+    /// Folds all records of a run.
     pub fn of(log: &RunLog) -> Self {
         let mut lanes = Self::new(&log.header);
         log.records().iter().for_each(|record| lanes.apply(record));
         lanes
     }
 
-    /// Takes in what happened next.
+    /// Adds the next record.
     pub fn apply(&mut self, record: &Record) {
         self.version += 1;
         let at = record.at;
@@ -106,7 +107,7 @@ impl Lanes {
             }
             RecordKind::AtomDone { node, atom, .. } => {
                 if let Some(lane) = self.lane(*node) {
-                    // The end of a log may be cut, not its beginning; still nothing is known of an atom that was never begun.
+                    // A bar without a beginning has no length.
                     let from = lane.open.take().filter(|(open, _)| open == atom).map_or(at, |(_, since)| since);
                     lane.bars.push(Traced { from, to: at, atom: *atom });
                 }
@@ -119,7 +120,7 @@ impl Lanes {
             RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, true)),
             RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, false)),
             RecordKind::Retired { node } => {
-                let phase = if self.wakes { LanePhase::Asleep } else { LanePhase::Retired };
+                let phase = if self.can_wake { LanePhase::Asleep } else { LanePhase::Retired };
                 if let Some(lane) = self.lane(*node) {
                     lane.begin_phase(at, phase);
                 }
@@ -128,33 +129,33 @@ impl Lanes {
         }
     }
 
-    /// All lanes, in the order of the ring.
+    /// Lanes in the order of the ring.
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
 
-    /// All messages, about in the order in which they left.
+    /// Messages, about in the order in which they were sent.
     pub fn trips(&self) -> &[Trip] {
         &self.trips
     }
 
-    /// A message by its name in the run.
+    /// The message with this number in the run.
     pub fn trip(&self, id: u64) -> Option<&Trip> {
         self.trips.iter().rfind(|trip| trip.id == id)
     }
 
-    /// Another number whenever something came in.
+    /// A number that changes with every record.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Who traced an atom, and when.
+    /// The first bar of an atom, and its machine.
     pub fn bar_of(&self, atom: Atom) -> Option<(NodeId, Traced)> {
         let of = |(node, lane): (NodeId, &Lane)| lane.bars.iter().find(|bar| bar.atom == atom).map(|&bar| (node, bar));
         (0..).zip(&self.lanes).find_map(of)
     }
 
-    /// How the machines' time until `now` was used.
+    /// Sums up how the machines used their time until `now`.
     pub fn usage(&self, now: Time) -> Usage {
         let tracing: Vec<f64> = self.lanes.iter().map(|lane| lane.tracing_seconds(now)).collect();
         let sum: f64 = tracing.iter().sum();
@@ -239,7 +240,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_atom_is_a_bar_and_no_two_of_a_lane_overlap(
+        fn every_atom_is_one_bar_and_bars_do_not_overlap(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32,
         ) {
             let (lanes, end) = lanes(&speeds, atoms);
@@ -256,7 +257,7 @@ mod tests {
         }
 
         #[test]
-        fn usage_is_that_of_the_bars(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32, at in 0.0..1.0f64) {
+        fn usage_is_the_sum_of_the_bars(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32, at in 0.0..1.0f64) {
             let (lanes, end) = lanes(&speeds, atoms);
             let now = Time((at * end.0 as f64) as u64);
             let usage = lanes.usage(now);
@@ -270,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_knows_what_it_was_about() {
+    fn lane_passes_through_the_phases_of_a_ring() {
         let (lanes, end) = lanes(&[1.0, 1.0, 0.1], 300);
         let fast = &lanes.lanes()[0];
         assert_eq!((fast.phase_at(Time::ZERO), fast.phase_at(end)), (LanePhase::Receives, LanePhase::Retired));

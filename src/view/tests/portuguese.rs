@@ -13,7 +13,7 @@ use crate::scene::{BUILT_IN, Scene};
 use crate::sim::Sim;
 use crate::time::Time;
 use crate::tracer::Tracer;
-use crate::view::analysis::summary::{Summary, figures, result_words};
+use crate::view::analysis::summary::{Summary, result_words, summary_figures};
 use crate::view::charts::tradeoff::Tradeoff;
 use crate::view::draw::display_list::Mark;
 use crate::view::inspect::Inspected;
@@ -31,7 +31,7 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::activity_word;
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
-use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
+use crate::view::text::tooltips::{atom_words, drawing_notes, flight_words, node_words, parent_words};
 use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
 /// How much room there is for what is said.
@@ -232,7 +232,7 @@ fn hovered(moment: &Snapshot, now: Time, language: Language) -> Said {
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));
-    said.extend(small_print(state, language).into_iter().map(|line| (Room::Same, line)));
+    said.extend(drawing_notes(state, language).into_iter().map(|line| (Room::Same, line)));
     said
 }
 
@@ -256,7 +256,9 @@ fn summed_up(log: &RunLog, language: Language) -> Said {
         let outcome = Summary { makespan, ideal, efficiency, spread: tally.finish_spread() };
         said.push((Room::Same, result_words(state, &outcome, language)));
         said.extend(
-            figures(&outcome, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+            summary_figures(&outcome, language)
+                .into_iter()
+                .map(|(value, what)| (Room::Same, format!("{value} {what}"))),
         );
     }
     said

@@ -1,4 +1,4 @@
-//! What a quality is, and what came of it, in words.
+//! A quality, and its measured time and errors, in words.
 
 use std::time::Duration;
 
@@ -6,13 +6,13 @@ use super::format::{counted, duration, two_digits};
 use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::{Difference, Quality, Size};
 
-/// What a quality is, for a sentence.
+/// Describes a quality for a sentence.
 pub fn quality_words(quality: &Quality, language: Language) -> String {
     let lines = quality_lines(quality, language);
     lines.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
-/// What a quality is, knob by knob.
+/// Describes a quality, one option on each line.
 pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str, String)> {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
     let error = comma(language, threshold.to_string());
@@ -39,8 +39,8 @@ pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str
     ]
 }
 
-/// What came of a quality: its time on one core in a picture of `size`, and how far from the reference a picture of
-/// `measured` pixels was.
+/// Describes a measured quality: its time on one core for a picture of `size`, and the difference from the reference of
+/// a picture of size `measured`.
 pub fn measured_lines(
     time: Duration,
     size: Size,
@@ -74,23 +74,27 @@ pub fn measured_lines(
             word!(language, "Worst", "Pior"),
             say!(
                 language,
-                "{worst} is how similar the worst block is; 1 is the same (SSIM)",
+                "{worst} is the similarity of the worst block; 1 is the same (SSIM)",
                 "{worst} é a semelhança do pior bloco; 1 é igual (SSIM)"
             ),
         ),
     ]
 }
 
-/// How long one takes beside another.
+/// Compares a time with that of the present settings.
 pub fn times_words(time: f64, than: f64, language: Language) -> String {
     let times = time / than;
     let [faster, longer] = [1.0 / times, times].map(|times| decimal(language, times, 1));
     if !times.is_finite() || (0.95..1.05).contains(&times) {
-        word!(language, "about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
+        word!(language, "about as long as the present settings", "quase o mesmo tempo que o ajuste atual").into()
     } else if times < 1.0 {
-        say!(language, "{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
+        say!(
+            language,
+            "{faster} times as fast as the present settings",
+            "{faster} vezes mais rápido que o ajuste atual"
+        )
     } else {
-        say!(language, "{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
+        say!(language, "{longer} times as long as the present settings", "{longer} vezes o tempo do ajuste atual")
     }
 }
 
@@ -99,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quality_is_told_in_words() {
+    fn quality_is_described_by_its_options() {
         let language = Language::English;
         assert_eq!(
             quality_words(&Quality::default(), language),
@@ -115,11 +119,11 @@ mod tests {
     }
 
     #[test]
-    fn times_are_told_the_way_that_people_do() {
+    fn times_are_compared_in_the_direction_of_the_gain() {
         let language = Language::English;
         let said =
             [(1.0, 1.01), (1.0, 2.5), (3.0, 1.0), (0.0, 0.0)].map(|(one, other)| times_words(one, other, language));
-        let now = "as what is set now";
+        let now = "as the present settings";
         assert_eq!(
             said,
             [
@@ -132,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn what_came_of_it_is_told_with_its_units() {
+    fn measured_quality_has_units() {
         let language = Language::English;
         let difference = Difference { rmse: 0.0123, wrong_pixels: 30, worst_ssim: 0.5 };
         let size = |width, height| Size::new(width, height).unwrap();

@@ -15,7 +15,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::view::{
-    Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, rate_number, rows,
+    Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows, rate_number,
 };
 use row_layout::{HEAD, RowGrid, RowLayout};
 
@@ -30,7 +30,7 @@ pub fn height(ui: &Ui, nodes: usize) -> f32 {
 pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
     let language = session.language();
     let look = Look::of(ui.ctx());
-    let rows = rows(session.stage().state(), session.now());
+    let rows = node_rows(session.stage().state(), session.now());
     let grid = RowGrid::new(rows.len(), ui.available_width());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());

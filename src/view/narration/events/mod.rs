@@ -121,7 +121,7 @@ impl EventLog {
                 let same = |event: &RunEvent| matches!(event, RunEvent::Speed { node: other, .. } if other == node);
                 let before = match self.take(at, same) {
                     Some(RunEvent::Speed { before, .. }) => before,
-                    _ => machine.speed_before,
+                    _ => machine.previous_speed,
                 };
                 let happening = Happening::speed(state, *node, before, *speed);
                 self.tell(at, RunEvent::Speed { node: *node, before }, happening);
