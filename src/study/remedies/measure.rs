@@ -70,7 +70,7 @@ pub(super) struct RemedyRow {
     pub worst: Option<f64>,
     pub aim: f64,
     pub messages_per_node: f64,
-    /// Work that was done twice, over all work.
+    /// Work done twice / work.
     pub twice: f64,
 }
 

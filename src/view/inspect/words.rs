@@ -87,22 +87,22 @@ impl Inspected {
         let (level, weight) = (path.level, fine_fraction(path.weight, language));
         let ray_words = say!(
             language,
-            "{kind}, on level {level}, it has a weight of {weight} in its sample",
-            "{kind}, no nível {level}, tem peso de {weight} em sua amostra"
+            "{kind}, on level {level}. Its weight in the sample is {weight}.",
+            "{kind}, no nível {level}. Seu peso na amostra é {weight}."
         );
         let Some(met) = ray.met else {
-            return vec![say!(language, "{ray_words} and meets nothing.", "{ray_words} e não encontra nada.")];
+            return vec![say!(language, "{ray_words} It meets nothing.", "{ray_words} Não encontra nada.")];
         };
         let verb = if met.enters {
-            word!(language, "enters", "entra em")
+            word!(language, "It enters", "Entra em")
         } else {
-            word!(language, "meets, from the inside,", "atinge por dentro")
+            word!(language, "It meets, from the inside,", "Atinge por dentro")
         };
         let (material, distance) = (self.met_name(ray, language), distance_words(path.to, language));
         let mut sentences = vec![say!(
             language,
-            "{ray_words} and {verb} {material} at a distance of {distance}.",
-            "{ray_words} e {verb} {material} à distância de {distance}."
+            "{ray_words} {verb} {material} at a distance of {distance}.",
+            "{ray_words} {verb} {material} à distância de {distance}."
         )];
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
@@ -118,7 +118,7 @@ impl Inspected {
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
             Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
-            Some(1.0) => say!(language, "all of {name} arrives", "de {name} chega tudo"),
+            Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
             Some(part) => {
                 let part = fine_fraction(part, language);
                 say!(language, "{part} of {name} arrives", "de {name} chega {part}")

@@ -127,7 +127,7 @@ mod tests {
             let now = Time::from_secs(1.0);
             words(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
-        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
+        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5.0/s"]);
         state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });
         assert_eq!(said(&state, 1), "145 left, paused");
         state.nodes[0].left = 0;

@@ -127,7 +127,8 @@ impl Lane {
     pub(crate) fn stopped_seconds(&self, from: Time, to: Time) -> f64 {
         let first = self.stops.partition_point(|(_, end)| end.is_some_and(|end| end <= from));
         let overlap = |(start, end): &(Time, Option<Time>)| end.unwrap_or(to).min(to).since((*start).max(from));
-        self.stops[first..].iter().map(overlap).sum::<Duration>().as_secs_f64()
+        let stops = self.stops[first..].iter().take_while(|(start, _)| *start < to);
+        stops.map(overlap).sum::<Duration>().as_secs_f64()
     }
 
     /// Seconds until `now` in which the machine's offer or request, or atoms for it, were on the way.
