@@ -15,7 +15,7 @@ use crate::view::text::format::{atoms_words, count, counted, duration, fraction,
 /// Result of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// From the first band sent to the last atom placed.
+    /// From the first band sent, or from the beginning of the estimate that it needs, to the last atom placed.
     pub makespan: Duration,
     /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
     pub ideal: Duration,

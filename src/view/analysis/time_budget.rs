@@ -16,7 +16,7 @@ use crate::view::state::scheduler::Sharing;
 pub struct TimeBudget {
     /// Scheduler of the run.
     pub sharing: Sharing,
-    /// From the first band sent to the last atom placed.
+    /// From the first band sent, or from the beginning of the estimate that it needs, to the last atom placed.
     pub makespan: Duration,
     /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
     pub ideal: Duration,
