@@ -161,7 +161,8 @@ fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     } else {
         say!(
             language,
-            "In it machines wait {share} of their time between atoms, while offers, requests and atoms are on their way.",
+            "In it machines wait {share} of their time between atoms, while offers, requests and atoms are on \
+             their way.",
             "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas, pedidos e átomos estão a caminho."
         )
     }
@@ -174,8 +175,10 @@ fn starting(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     if slow.estimating > Duration::ZERO {
         say!(
             language,
-            "In it all machines wait {estimating} while the parent samples the picture to estimate the cost of each part.",
-            "Nela todas as máquinas esperam {estimating} enquanto o pai amostra a imagem para estimar quanto custa cada parte."
+            "In it all machines wait {estimating} while the parent samples the picture to estimate the cost of \
+             each part.",
+            "Nela todas as máquinas esperam {estimating} enquanto o pai amostra a imagem para estimar quanto custa \
+             cada parte."
         )
     } else {
         say!(
