@@ -12,8 +12,8 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
-    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name,
-    node_words, parent_words, ring, ring_at, small_print, time_words,
+    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, drawing_notes, flight_words,
+    message_at, node_name, node_words, parent_words, ring, ring_at, time_words,
 };
 
 /// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
@@ -78,7 +78,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
         ui.data_mut(|data| data.insert_temp(response.id, subject));
     }
     if state.finished().is_none() {
-        corner(&painter, rect, small_print(state, language), look);
+        corner(&painter, rect, drawing_notes(state, language), look);
     }
     // For a room there is no bar at the top that tells it.
     if Look::is_strong(painter.ctx()) {

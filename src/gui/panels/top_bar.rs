@@ -224,7 +224,6 @@ fn what(ui: &Ui, session: &Session) -> String {
     let virtually =
         if header.driver == Driver::Sim { word!(language, " · virtual time", " · tempo virtual") } else { "" };
     let machines = format!("{machines}{virtually}");
-    let machines = if session.is_recorded() { format!("recorded · {machines}") } else { machines };
     let title = &header.caption.title;
     let machines = if title.is_empty() { machines } else { format!("“{}” · {machines}", shown(title, 60)) };
     let machines = if session.is_recorded() {

@@ -96,7 +96,7 @@ fn other_quality(quality: Quality, before: Quality, tell: &mut impl FnMut(bool, 
     let least = comma(language, quality.threshold.to_string());
     let threshold = match quality.threshold {
         0.0 => word!(language, "all samples for every pixel", "todas as amostras em todo pixel").into(),
-        _ => say!(language, "samples until the error is {least}", "amostras até o erro ser {least}"),
+        _ => say!(language, "samples until the estimated error is {least}", "amostras até o erro estimado ser {least}"),
     };
     tell(quality.threshold != before.threshold, threshold);
     let depth = quality.max_depth;

@@ -8,7 +8,7 @@ use crate::gui::widgets::{Emphasis, button, slider};
 use crate::language::{Language, say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
-use crate::view::{duration, error_words, quality_words, times_words};
+use crate::view::{duration, quality_words, times_words, two_digits};
 
 /// What was done.
 pub enum QualityChoice {
@@ -41,7 +41,7 @@ pub fn show(
     };
     let mut done = None;
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
-    let said = error_words(error, language);
+    let said = two_digits(error, language);
     let limits = (best.rmse(), fastest.rmse());
     let (words, name) = word!(
         language,
@@ -88,7 +88,7 @@ pub fn show(
 /// What is chosen, and what it costs.
 fn sentence(findings: &AccuracyFindings, place: usize, point: &Point, language: Language) -> String {
     let (size, quality) = (findings.whole, quality_words(&point.quality, language));
-    let (time, error) = (duration(findings.time(place), language), error_words(point.rmse(), language));
+    let (time, error) = (duration(findings.time(place), language), two_digits(point.rmse(), language));
     let (width, height) = (size.width(), size.height());
     let costs = say!(
         language,

@@ -11,7 +11,10 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{NamedBudget, TimeBudget, contrast, count, duration, fraction, spent, spent_height, spent_words};
+use crate::view::{
+    NamedBudget, TimeBudget, compare_runs, count, duration, fraction, time_budget_height, time_budget_marks,
+    time_budget_words,
+};
 
 /// What is shown of all runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,9 +112,9 @@ impl Findings {
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
             let text = match (&one.budget, &other.budget) {
-                (Some(first), Some(second)) => contrast(
-                    NamedBudget { name: &one.name, account: first },
-                    NamedBudget { name: &other.name, account: second },
+                (Some(first), Some(second)) => compare_runs(
+                    NamedBudget { name: &one.name, budget: first },
+                    NamedBudget { name: &other.name, budget: second },
                     language,
                 ),
                 _ => {
@@ -158,10 +161,16 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
         (
             word!(
                 language,
-                ["messages to share", "Bands, requests, parts, offers and atoms given away"],
-                ["mensagens de divisão", "Faixas, pedidos, partes, ofertas e átomos cedidos"]
+                [
+                    "messages to share",
+                    "All messages but those with results and those that only tell what a machine has"
+                ],
+                [
+                    "mensagens de divisão",
+                    "Todas as mensagens, menos as de resultados e as que só dizem o que uma máquina tem"
+                ]
             ),
-            |account, _| count(account.messages.sharing() as u32),
+            |account, _| count(account.messages.sharing()),
         ),
         (
             word!(
@@ -177,7 +186,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                      uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
                 ]
             ),
-            |account, _| count(account.messages.results as u32),
+            |account, _| count(account.messages.results),
         ),
         (
             word!(
@@ -185,7 +194,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                 ["atoms given away", "From one machine to another"],
                 ["átomos cedidos", "De uma máquina a outra"]
             ),
-            |account, _| count(account.messages.atoms_moved as u32),
+            |account, _| count(account.messages.atoms_moved),
         ),
         (
             word!(
@@ -224,11 +233,11 @@ fn where_time_went(ui: &mut Ui, entries: &[CompareColumn], look: Look, language:
     let runs: Vec<(&str, &TimeBudget)> =
         names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
-        let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
+        let size = vec2(ui.available_width() - GRID, time_budget_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         widgets::describe(&response, word!(language, "Where the time went", "Para onde foi o tempo"), || {
-            spent_words(&runs, language)
+            time_budget_words(&runs, language)
         });
-        paint(ui.painter(), rect.min, &spent(&runs, rect.width(), language), &Inks { look, nodes: &[] });
+        paint(ui.painter(), rect.min, &time_budget_marks(&runs, rect.width(), language), &Inks { look, nodes: &[] });
     });
 }

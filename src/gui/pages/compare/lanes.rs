@@ -11,7 +11,7 @@ use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
 use crate::time::Time;
-use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, spent_words, time_words, timeline};
+use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, time_budget_words, time_words, timeline};
 
 /// Left of the lanes: the run's letter, and its machines' numbers.
 const LETTER: f32 = 2.5 * GRID;
@@ -126,7 +126,10 @@ fn seconds(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, langua
 }
 
 fn words(contender: &ComparedRun, language: Language) -> String {
-    contender.budget.as_ref().map_or_else(String::new, |account| spent_words(&[(&contender.name, account)], language))
+    contender
+        .budget
+        .as_ref()
+        .map_or_else(String::new, |account| time_budget_words(&[(&contender.name, account)], language))
 }
 
 /// What is to be seen; of changes only if there are any.

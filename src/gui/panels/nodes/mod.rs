@@ -12,9 +12,11 @@ use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
-use crate::view::{Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, rows};
+use crate::view::{
+    Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows, rate_number,
+};
 use row_layout::{HEAD, RowGrid, RowLayout};
 
 /// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
@@ -28,7 +30,7 @@ pub fn height(ui: &Ui, nodes: usize) -> f32 {
 pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
     let language = session.language();
     let look = Look::of(ui.ctx());
-    let rows = rows(session.stage().state(), session.now());
+    let rows = node_rows(session.stage().state(), session.now());
     let grid = RowGrid::new(rows.len(), ui.available_width());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
@@ -133,9 +135,9 @@ fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Lo
     let some = |is: bool| if is { look.text } else { look.quiet };
     number(places.done, count(row.done), look.text);
     number(Some(places.left), count(row.left), some(row.left > 0));
-    number(places.rate, a_second(row.rate, language), some(row.rate > 0.0));
+    number(places.rate, rate_number(row.rate, language), some(row.rate > 0.0));
     number(places.idle, fraction(row.idle), look.text);
-    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
+    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
     let now = pos2(places.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), some(!calm));
     if let Some(bar) = places.bar {
@@ -200,9 +202,4 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
     if percent != before {
         session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
-}
-
-/// Atoms a second, as exactly as can be read while it changes.
-fn a_second(rate: f64, language: Language) -> String {
-    if rate > 0.0 && rate < 9.95 { decimal(language, rate, 1) } else { count(rate.round() as u32) }
 }

@@ -11,9 +11,9 @@ use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, choice, number, popup_frame, slider};
-use crate::language::{Language, comma, decimal, say, word};
+use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
-use crate::view::count;
+use crate::view::{count, two_digits};
 
 /// How wide the panel is, in points.
 pub const WIDTH: f32 = 36.0 * GRID;
@@ -225,7 +225,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
         number(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE, name);
     });
     let part = |part: f64| {
-        let most = decimal(language, 100.0 * part, 2);
+        let most = two_digits(100.0 * part, language);
         if part > 0.0 {
             say!(language, "up to {most} % of a pixel", "até {most} % de um pixel")
         } else {
