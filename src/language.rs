@@ -1,26 +1,26 @@
-//! The language of what people read: English or Portuguese. Both stand beside each other where a sentence is made, so that
-//! none can be missing, and the compiler checks the places of both.
+//! English and Portuguese texts. Both versions of a sentence stand side by side in the code, so neither can be missing,
+//! and the compiler checks the placeholders of both.
 
 use serde::{Deserialize, Serialize};
 
-/// A language that the program speaks.
+/// Language of the texts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Language {
     /// English.
     #[default]
     English,
-    /// Portuguese, the article's, as it is written in Brazil.
+    /// Brazilian Portuguese, the language of the article.
     Portuguese,
 }
 
 impl Language {
-    /// The language of a locale: `pt_BR.UTF-8` is Portuguese, and whatever we do not know English.
+    /// Returns the language of a locale: Portuguese for `pt_BR.UTF-8` and the like, else English.
     pub fn of_locale(locale: &str) -> Self {
         let first = locale.split(['_', '-', '.', '@']).next().unwrap_or_default();
         if first.eq_ignore_ascii_case("pt") { Self::Portuguese } else { Self::English }
     }
 
-    /// The other one.
+    /// Returns the other language.
     pub fn other(self) -> Self {
         match self {
             Self::English => Self::Portuguese,
@@ -28,7 +28,7 @@ impl Language {
         }
     }
 
-    /// Its own name.
+    /// Returns the name of the language in that language.
     pub fn name(self) -> &'static str {
         match self {
             Self::English => "English",
@@ -36,7 +36,7 @@ impl Language {
         }
     }
 
-    /// Its name in two letters.
+    /// Returns the two-letter name.
     pub fn short_name(self) -> &'static str {
         match self {
             Self::English => "EN",
@@ -45,7 +45,7 @@ impl Language {
     }
 }
 
-/// Formats a sentence in a language, with places as in `format!`: `say!(language, "{n} left", "restam {n}")`.
+/// Formats a sentence in a language, with placeholders as in `format!`: `say!(language, "{n} left", "restam {n}")`.
 macro_rules! say {
     ($language:expr, $english:literal, $portuguese:literal $(,)?) => {
         match $language {
@@ -55,7 +55,7 @@ macro_rules! say {
     };
 }
 
-/// Chooses between two texts without places: `word!(language, "idle", "ociosa")`.
+/// Chooses between two values without placeholders: `word!(language, "idle", "ociosa")`.
 macro_rules! word {
     ($language:expr, $english:expr, $portuguese:expr $(,)?) => {
         match $language {
@@ -67,12 +67,12 @@ macro_rules! word {
 
 pub(crate) use {say, word};
 
-/// A number with so many digits after the point, or after the comma.
+/// Formats a number with `digits` decimals and the decimal mark of the language.
 pub fn decimal(language: Language, number: f64, digits: usize) -> String {
     comma(language, format!("{number:.digits$}"))
 }
 
-/// A number that is written with a point, as the language that is spoken writes it.
+/// Replaces the decimal point of a formatted number by the decimal mark of the language.
 pub fn comma(language: Language, number: String) -> String {
     match language {
         Language::English => number,
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn locales() {
+    fn locale_gives_language() {
         for (locale, language) in [
             ("pt_BR.UTF-8", Language::Portuguese),
             ("pt", Language::Portuguese),

@@ -32,7 +32,7 @@ fn window_shows_the_run_and_obeys_the_mouse() {
     std::thread::sleep(Duration::from_secs(1));
 
     // Node 1 from full speed to about a third, in steps as by hand.
-    let slider = window.place("Speed of node 1");
+    let slider = window.place("Speed of machine 1");
     let y = slider.middle()[1];
     let from = slider.x + slider.width - slider.height / 2;
     let to = slider.x + slider.width / 3;

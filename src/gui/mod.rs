@@ -1,55 +1,41 @@
-//! The window: paints what `view` returns, and hands clicks to the run.
+//! The window: paints the drawings of `view` and sends the user's commands to the run.
 //!
 //! The modules in the order of their layers: a module imports only from lower layers (`tests/tidy` checks this).
 
-// Layer 0: what the user sets.
+// Layer 0: the settings, their history, and the header of a run made from them.
 mod settings;
 
-// Layer 1: runs and background jobs.
+// Layer 1: the run on the stage and the background jobs; the only module with threads and clocks.
 mod session;
 
-// Layer 2: buttons, sliders, icons, colours.
+// Layer 2: buttons, sliders, fonts, colours, and the painter of display lists.
 mod widgets;
 
-// Layer 3: keys, menus, selection.
+// Layer 3: keys, context menus, selection.
 mod input;
 
-// Layer 4: the panels around a run.
+// Layer 4: the parts of the main page: picture, ring, machines, timeline, bars.
 mod panels;
 
-// Layer 5: the pages that take the place of the run.
+// Layer 5: the pages that replace the main page.
 mod pages;
 
-// Layer 6: the arrangement of panels and pages.
+// Layer 6: the arrangement of panels and pages, and the state kept between two windows.
 mod app;
 
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use app::App;
+pub use app::{App, Launch};
 pub use session::opening::Opening;
 pub use session::{Phase, Session, Stage};
 pub use settings::Settings;
 pub use settings::pace::Pace;
 pub use settings::speed_preset::SpeedPreset;
 
-use crate::language::Language;
-
-/// What the window opens with.
-#[derive(Clone, Debug, Default)]
-pub struct Launch {
-    /// The scene or the recorded run; what was open last if `None`.
-    pub opening: Option<Opening>,
-    /// Where each run's records are written when it ends or the window closes.
-    pub log: Option<PathBuf>,
-    /// What is spoken until the user chooses otherwise.
-    pub language: Language,
-}
-
-/// The smallest window in which everything has its place, in points.
-const LEAST: [f32; 2] = [800.0, 500.0];
+/// Smallest size of the window in which the layout works, in points.
+const MIN_WINDOW_SIZE_PT: [f32; 2] = [800.0, 500.0];
 
 /// Decodes the window's icon; an icon without pixels, which windowing systems ignore, if it is not PNG.
 fn icon() -> egui::IconData {
@@ -59,23 +45,23 @@ fn icon() -> egui::IconData {
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// A sentence that says why no window could be opened; the caller may then go on without one.
+/// A sentence with the reason why no window could be opened. The caller can go on without a window.
 pub fn open(launch: Launch) -> Result<(), String> {
     let viewport = egui::ViewportBuilder::default()
         .with_title("anel")
         .with_app_id("anel")
         .with_icon(icon())
         .with_inner_size([1280.0, 800.0])
-        .with_min_inner_size(LEAST);
-    let window_builder: Option<eframe::WindowBuilderHook> = Some(Box::new(not_too_small));
+        .with_min_inner_size(MIN_WINDOW_SIZE_PT);
+    let window_builder: Option<eframe::WindowBuilderHook> = Some(Box::new(with_min_size));
     let options = eframe::NativeOptions { viewport, renderer: RENDERER, window_builder, ..Default::default() };
-    // A missing library makes the windowing crates panic. That is no fault of this program: it is told in one
-    // sentence. Once the window is there, panics are reported as usual.
-    let usual = Arc::new(Mutex::new(Some(panic::take_hook())));
+    // The windowing crates panic if a library is missing. That is no bug of this program, so it becomes an error of one
+    // sentence. As soon as the window exists, the usual panic hook is restored.
+    let usual_hook = Arc::new(Mutex::new(Some(panic::take_hook())));
     let restore = {
-        let usual = Arc::clone(&usual);
+        let usual_hook = Arc::clone(&usual_hook);
         move || {
-            let hook = usual.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let hook = usual_hook.lock().unwrap_or_else(PoisonError::into_inner).take();
             hook.into_iter().for_each(panic::set_hook);
         }
     };
@@ -96,36 +82,36 @@ pub fn open(launch: Launch) -> Result<(), String> {
         Ok(Err(error)) => Err(reason(&error)),
         Err(panic) if is_created.load(Ordering::Relaxed) => panic::resume_unwind(panic),
         Err(panic) => {
-            let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
-            let said = said.or_else(|| panic.downcast_ref::<String>().cloned());
-            Err(without_place(&said.unwrap_or_else(|| "no reason given".into())))
+            let message = panic.downcast_ref::<&str>().map(|message| (*message).to_owned());
+            let message = message.or_else(|| panic.downcast_ref::<String>().cloned());
+            Err(without_location(&message.unwrap_or_else(|| "no reason given".into())))
         }
     }
 }
 
-/// A window opens with the size that it had last; a size in which nothing could be seen must not come back.
-fn not_too_small(viewport: egui::ViewportBuilder) -> egui::ViewportBuilder {
+/// Raises the remembered size of the window to the minimum, so that a tiny window does not come back at the next start.
+fn with_min_size(viewport: egui::ViewportBuilder) -> egui::ViewportBuilder {
     match viewport.inner_size {
-        Some(size) => viewport.with_inner_size(size.max(LEAST.into())),
+        Some(size) => viewport.with_inner_size(size.max(MIN_WINDOW_SIZE_PT.into())),
         None => viewport,
     }
 }
 
-/// Why there is no window, in a few words.
+/// Shortens eframe's error to a few words.
 fn reason(error: &eframe::Error) -> String {
-    let said = error.to_string();
-    // What follows are the properties that were asked for, a screenful.
-    match said.split_once("matching the template") {
+    let message = error.to_string();
+    // The rest of this message lists the requested properties, a whole screen of them.
+    match message.split_once("matching the template") {
         Some(_) => "OpenGL is missing or does not work".into(),
-        None => without_place(&said),
+        None => without_location(&message),
     }
 }
 
-/// What an error says without the place in some crate's source where it arose: `… at FILE.rs:LINE: WHAT`.
-fn without_place(said: &str) -> String {
-    let after = said.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
-    let what = after.map_or(said, |(_, what)| what);
-    what.lines().map(str::trim).collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()
+/// Drops the source location from an error message of the form `… at FILE.rs:LINE: MESSAGE`.
+fn without_location(message: &str) -> String {
+    let after = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    let message = after.map_or(message, |(_, message)| message);
+    message.lines().map(str::trim).collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()
 }
 
 #[cfg(feature = "glow")]
@@ -138,24 +124,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn window_has_icon() {
-        assert_eq!((icon().width, icon().height), (256, 256));
-    }
-
-    #[test]
-    fn an_absurd_size_does_not_come_back() {
-        let opened = |size: [f32; 2]| not_too_small(egui::ViewportBuilder::default().with_inner_size(size)).inner_size;
-        assert_eq!(opened([64.0, 64.0]), Some(LEAST.into()));
-        assert_eq!(opened([64.0, 700.0]), Some(egui::vec2(LEAST[0], 700.0)));
+    fn remembered_size_below_minimum_is_raised() {
+        let opened = |size: [f32; 2]| with_min_size(egui::ViewportBuilder::default().with_inner_size(size)).inner_size;
+        assert_eq!(opened([64.0, 64.0]), Some(MIN_WINDOW_SIZE_PT.into()));
+        assert_eq!(opened([64.0, 700.0]), Some(egui::vec2(MIN_WINDOW_SIZE_PT[0], 700.0)));
         assert_eq!(opened([1300.0, 900.0]), Some(egui::vec2(1300.0, 900.0)));
     }
 
     #[test]
-    fn errors_are_told_without_their_place_in_a_crate() {
-        let said = "winit EventLoopError: os error at /a/b-0.1/src/mod.rs:788: Failed to open connection to X server";
-        assert_eq!(without_place(said), "Failed to open connection to X server");
+    fn error_message_loses_its_source_location() {
+        let message =
+            "winit EventLoopError: os error at /a/b-0.1/src/mod.rs:788: Failed to open connection to X server";
+        assert_eq!(without_location(message), "Failed to open connection to X server");
         assert_eq!(
-            without_place("library libxkbcommon-x11.so could not be loaded."),
+            without_location("library libxkbcommon-x11.so could not be loaded."),
             "library libxkbcommon-x11.so could not be loaded"
         );
     }

@@ -116,7 +116,7 @@ fn closing_the_page_cancels_the_measurement() {
     let mut window = open(SIZE);
     key(&mut window, Key::A);
     let said = window.get_by_label("Chart of time and error").value();
-    assert!(said.is_some_and(|said| said.starts_with("First a picture is traced")));
+    assert!(said.is_some_and(|said| said.starts_with("First the reference is traced")));
     assert!(session(&window).stage().paused);
     press(&mut window, "Close accuracy");
     assert!(!session(&window).stage().paused && points(&window) == 0);

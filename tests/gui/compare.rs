@@ -67,7 +67,7 @@ fn bands_farm_and_ring_are_compared_while_the_run_is_paused() {
 #[test]
 fn run_is_forked_with_one_change_and_removed() {
     let mut window = open_comparison();
-    press(&mut window, "The same as C with one thing changed");
+    press(&mut window, "Add C with one change");
     // The present values are listed, but cannot be chosen.
     window.get_by_role_and_label(Role::Label, "8 machines, now");
     window.get_by_role_and_label(Role::Label, "8 at 10 %, now");
@@ -76,7 +76,7 @@ fn run_is_forked_with_one_change_and_removed() {
     let known = runs(&window);
     assert_ne!(makespan(&known, "Ring, 8 at 5 %"), makespan(&known, "Ring"), "{known:?}");
     window.get_by_label("C and D: why they differ");
-    press(&mut window, "Take B away");
+    press(&mut window, "Remove B");
     assert_eq!(names(&window), ["Equal bands", "Ring", "Ring, 8 at 5 %"]);
     press(&mut window, "Add a run");
     press(&mut window, "Serial");
@@ -92,7 +92,7 @@ fn fork_starts_at_the_shown_time_and_a_run_without_end_says_so() {
     key(&mut window, Key::Space);
     window.run_steps(30);
     key(&mut window, Key::Space);
-    press(&mut window, "The same as A with one thing changed");
+    press(&mut window, "Add A with one change");
     let shown = times(&window);
     let later = texts(&window, Role::Button).into_iter().find(|label| label.starts_with("8 at 0 % from "));
     press(&mut window, &later.expect("a change from the shown time on"));
@@ -118,10 +118,10 @@ fn every_tab_has_words() {
     assert_eq!(tabs(&window), before, "nothing moves");
     assert!(is_told(&window, "Hollow dots: the article's") && !is_told(&window, "Letters: "));
     // A fork is a dot beside the curves; a run without end has no dot.
-    press(&mut window, "The same as C with one thing changed");
+    press(&mut window, "Add C with one change");
     press(&mut window, "8 at 50 %");
     until(&mut window, "dot", |window| is_told(window, "\nD: 8: ") && is_told(window, "Letters: "));
-    press(&mut window, "The same as A with one thing changed");
+    press(&mut window, "Add A with one change");
     press(&mut window, "8 at 0 %");
     until(&mut window, "run without end", |window| is_told(window, "E never ends"));
 }
@@ -135,7 +135,7 @@ fn compared_runs_are_saved_as_a_table_and_as_bars() {
         key(&mut window, Key::S);
         press(&mut window, kind);
         window.run_steps(2);
-        type_path(&mut window, "Where to save", &path);
+        type_path(&mut window, "Path of the file", &path);
         key(&mut window, Key::Enter);
         until(&mut window, "the file", |_| path.exists());
         let written = std::fs::read_to_string(&path).expect("a text");

@@ -46,15 +46,15 @@ fn is_narrated(window: &Window, words: &str) -> bool {
 #[test]
 fn machine_is_switched_off_and_on_by_the_menu_of_its_row() {
     let mut window = open_adaptive();
-    window.get_by_label("Node 3").click_secondary();
+    window.get_by_label("Machine 3").click_secondary();
     press(&mut window, "Switch off");
     until(&mut window, "a loss", |window| conditions(window) == [(2, Condition::Off)]);
     let state = session(&window).stage().state();
     assert_eq!((state.nodes()[2].condition, state.nodes()[2].left()), (Condition::Off, 0));
     until(&mut window, "the ring to notice", |window| is_narrated(window, "the ring closes round it"));
     assert!(is_narrated(&window, "Machine 3 is switched off with "));
-    window.get_by_label("What node 3 does: off").click();
-    press(&mut window, "Switch on again");
+    window.get_by_label("Machine 3 now: off").click();
+    press(&mut window, "Switch on");
     until(&mut window, "its return", |window| is_narrated(window, "the ring opens for it"));
     let before = session(&window).stage().state().nodes()[2].done;
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[2].done > before);
@@ -65,11 +65,11 @@ fn spare_machine_joins() {
     let mut window = open_adaptive();
     assert_eq!((session(&window).header().spares, session(&window).header().speeds.len()), (1, 9));
     assert!(session(&window).is_spare(8));
-    window.get_by_label("Node 9").click_secondary();
-    press(&mut window, "Let it join");
+    window.get_by_label("Machine 9").click_secondary();
+    press(&mut window, "Join");
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[8].done > 0);
     assert!(is_narrated(&window, "Machine 9 joins"));
-    drag(&mut window, "Speed of node 9", 0.5);
+    drag(&mut window, "Speed of machine 9", 0.5);
     assert_eq!(session(&window).speed(8), 0.5);
 }
 
@@ -79,7 +79,7 @@ fn ring_has_the_same_menu() {
     let ring = window.get_by_label("The ring").rect();
     let top = egui::pos2(ring.center().x, ring.top() + 0.22 * ring.height());
     press_right(&mut window, top);
-    press(&mut window, "Let it hang");
+    press(&mut window, "Hang");
     until(&mut window, "a machine that hangs", |window| conditions(window) == [(0, Condition::Hung)]);
 }
 
@@ -135,7 +135,7 @@ fn message_is_delayed_by_its_menu() {
     let ([x, y], from, to) = message(&window).expect("the message at the paused time");
     let at = ring.min + egui::vec2(x, y);
     press_right(&mut window, at);
-    press(&mut window, "Hold it up for 5 s");
+    press(&mut window, "Delay by 5 s");
     key(&mut window, Key::Space);
     let held = |window: &Window| {
         recorded(window, |what| match what {

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::driving::*;
 
-const FIELD: &str = "What to open";
+const FIELD: &str = "Path of the file to open";
 
 /// Writes a scene of one ball to a file.
 fn ball(directory: &TempDir, name: &str) -> PathBuf {
@@ -129,12 +129,12 @@ fn changed_file_is_offered_for_reload_and_a_removed_one_is_reported() {
     // The watch must have read the first version of the file.
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::write(&path, scene("radius: 0.25")).expect("a file");
-    until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on the disk");
+    until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on disk");
     press(&mut window, "Reload");
     until(&mut window, "the new text", |window| session(window).header().scene_text.contains("0.25"));
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::remove_file(&path).expect("a file");
-    until(&mut window, "notice", |window| notice(window).contains("ball.ron is gone"));
+    until(&mut window, "notice", |window| notice(window).contains("ball.ron was deleted"));
     key(&mut window, Key::F5);
     until(&mut window, "notice", |window| notice(window).contains("no such file"));
     key(&mut window, Key::R);
@@ -163,7 +163,7 @@ fn recorded_run_is_replayed_and_made_live() {
     assert_eq!(stage.log, live);
     assert!(stage.frame.to_srgb8() == picture, "the picture differs");
     // A recorded run cannot be changed.
-    drag(&mut window, "Speed of node 1", 0.2);
+    drag(&mut window, "Speed of machine 1", 0.2);
     assert_eq!(session(&window).speed(0), 1.0);
     key(&mut window, Key::R);
     assert!(session(&window).is_recorded() && !session(&window).stage().shows_end());

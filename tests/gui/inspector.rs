@@ -24,7 +24,7 @@ fn click_at(window: &mut Window, at: Pos2) {
 
 /// Waits until the pixel is traced and shown.
 fn wait_for_pixel(window: &mut Window) {
-    until(window, "the pixel", |window| !session(window).is_looking());
+    until(window, "the pixel", |window| !session(window).is_inspecting());
     window.run_steps(2);
 }
 
@@ -43,7 +43,7 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     assert!(window.query_by_label("The ring").is_some());
     click(&mut window, [0.5, 0.5]);
     let size = session(&window).header().size;
-    let [x, y] = session(&window).inspected_place().expect("a pixel is inspected");
+    let [x, y] = session(&window).inspected_pixel().expect("a pixel is inspected");
     assert!(x.abs_diff(size.width() / 2) <= 1 && y.abs_diff(size.height() / 2) <= 1, "{x} {y}");
     assert!(window.query_by_label("The ring").is_none(), "the inspector replaces the ring");
     assert!(window.query_by_label(&format!("Pixel {x}, {y}")).is_some());
@@ -60,20 +60,20 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     ] {
         key(&mut window, arrow);
         wait_for_pixel(&mut window);
-        assert_eq!((session(&window).inspected_place(), inspected(&window).pixel), (Some(place), place));
+        assert_eq!((session(&window).inspected_pixel(), inspected(&window).pixel), (Some(place), place));
         assert!(window.query_by_label(&format!("Pixel {}, {}", place[0], place[1])).is_some());
     }
     key(&mut window, Key::Escape);
-    assert!(session(&window).inspected_place().is_none() && window.query_by_label("The ring").is_some());
+    assert!(session(&window).inspected_pixel().is_none() && window.query_by_label("The ring").is_some());
     key(&mut window, Key::ArrowRight);
-    assert!(session(&window).inspected_place().is_none(), "arrows do not open the inspector");
+    assert!(session(&window).inspected_pixel().is_none(), "arrows do not open the inspector");
 }
 
 #[test]
 fn arrows_stop_at_the_edge_of_the_picture_and_the_button_closes() {
     let mut window = open(SIZE);
     click(&mut window, [0.0005, 0.0005]);
-    assert_eq!(session(&window).inspected_place(), Some([0, 0]));
+    assert_eq!(session(&window).inspected_pixel(), Some([0, 0]));
     key(&mut window, Key::ArrowLeft);
     key(&mut window, Key::ArrowUp);
     wait_for_pixel(&mut window);
@@ -125,7 +125,7 @@ fn recorded_run_can_be_inspected_and_a_drag_inspects_nothing() {
     window.step();
     window.drop_at(rect.center() + egui::vec2(60.0, 0.0));
     window.run_steps(2);
-    assert!(session(&window).inspected_place().is_none(), "a drag is not a click");
+    assert!(session(&window).inspected_pixel().is_none(), "a drag is not a click");
     click(&mut window, [0.3, 0.7]);
     assert!(window.query_by_label("Tree of rays").is_some());
     // A restart keeps the pixel.

@@ -19,10 +19,11 @@ fn windows_of_every_size_show_all_widgets() {
     for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open(size);
         let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
-        let time = ["Step back", "What a step is", "Step on", "Slower", "Faster", "The run's time", "Live", "Find"];
+        let time =
+            ["Step back", "Unit of a step", "Step forward", "Slower", "Faster", "The run's time", "Live", "Find"];
         // A small picture has space for the layer's name only.
         let layer = if size[0] < 1000.0 { "Who traced it" } else { "Render or layer" };
-        let others = [layer, "Speed of node 1", "Pause node 1"];
+        let others = [layer, "Speed of machine 1", "Pause machine 1"];
         for pair in time.windows(2) {
             let (one, other) = (rect(&window, pair[0]), rect(&window, pair[1]));
             assert!(one.right() <= other.left(), "{pair:?} at {size:?}");
@@ -65,9 +66,9 @@ fn smallest_window_shows_all_machines_and_the_save_row() {
             assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}");
         }
         for node in 1..=8 {
-            let row = rect(&window, &format!("Node {node}"));
+            let row = rect(&window, &format!("Machine {node}"));
             assert!(whole(size).contains_rect(row), "node {node} at {size:?}: {row:?}");
-            for part in ["Speed of node", "Exact speed of node", "Pause node"] {
+            for part in ["Speed of machine", "Exact speed of machine", "Pause machine"] {
                 let part = rect(&window, &format!("{part} {node}")).shrink(2.0);
                 assert!(row.contains_rect(part), "{part:?} {row:?} at {size:?}");
             }

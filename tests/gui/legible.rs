@@ -190,7 +190,7 @@ fn assert_pages_legible(size: [f32; 2], in_projector_mode: bool) {
         walk.window.drag_at(middle);
         walk.window.step();
         walk.window.drop_at(middle);
-        walk.until("the pixel", |window| !session(window).is_looking());
+        walk.until("the pixel", |window| !session(window).is_inspecting());
         walk.look("a pixel", Hidden::Lines);
         assert!(walk.found.is_empty(), "{size:?}, {language:?}: {:#?}", walk.found);
     }
@@ -258,8 +258,7 @@ impl Walk {
         self.look_everywhere(&format!("{name}, the end"));
     }
 
-    /// Looks in windows of two sizes, in projector mode and in both languages. Returns to the first window and to
-    /// English.
+    /// Looks in windows of two sizes, in projector mode and in both languages. Returns to the first window and to English.
     fn look_everywhere(&mut self, page: &str) {
         for (size, in_projector_mode) in [(SIZE, false), (SIZE, true), ([1920.0, 1080.0], true)] {
             self.window.set_size(size.into());

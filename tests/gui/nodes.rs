@@ -9,7 +9,7 @@ use super::driving::*;
 #[test]
 fn slider_changes_the_speed_while_it_is_dragged() {
     let mut window = open(SIZE);
-    let slider = window.get_by_label("Speed of node 1").rect();
+    let slider = window.get_by_label("Speed of machine 1").rect();
     window.drag_at(slider.right_center() - egui::vec2(8.0, 0.0));
     window.step();
     window.hover_at(slider.center());
@@ -25,10 +25,10 @@ fn slider_changes_the_speed_while_it_is_dragged() {
 #[test]
 fn exact_speed_can_be_typed() {
     let mut window = open(SIZE);
-    type_number(&mut window, "Exact speed of node 2", "37");
+    type_number(&mut window, "Exact speed of machine 2", "37");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 0.37)));
     // No machine is faster than the reference machine.
-    type_number(&mut window, "Exact speed of node 2", "370");
+    type_number(&mut window, "Exact speed of machine 2", "370");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(1, 1.0)));
 }
 
@@ -37,9 +37,9 @@ fn speed_set_during_a_pause_applies_after_it() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 5);
     key(&mut window, Key::Space);
-    drag(&mut window, "Speed of node 8", 0.5);
+    drag(&mut window, "Speed of machine 8", 0.5);
     assert_eq!(session(&window).speed(7), 0.5);
-    press(&mut window, "Go on");
+    press(&mut window, "Resume");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(7, 0.5)));
 }
 
@@ -54,13 +54,13 @@ fn machine_is_paused_and_resumed() {
             _ => None,
         })
     };
-    press(&mut window, "Pause node 2");
+    press(&mut window, "Pause machine 2");
     until(&mut window, "a pause", |window| pauses(window) == [(1, true)]);
     let then = session(&window).stage().state().nodes()[1].done;
     assert!(session(&window).is_node_paused(1) && session(&window).stage().state().nodes()[1].paused);
     until(&mut window, "atoms of other machines", |window| done(window) > 200);
     assert!(session(&window).stage().state().nodes()[1].done <= then + 1);
-    press(&mut window, "Pause node 2");
+    press(&mut window, "Pause machine 2");
     until(&mut window, "work", |window| pauses(window) == [(1, true), (1, false)]);
     until(&mut window, "its atoms", |window| session(window).stage().state().nodes()[1].done > then + 1);
 }
@@ -82,10 +82,10 @@ fn machine_is_selected_and_changed_with_keys() {
     key(&mut window, Key::P);
     assert!(session(&window).is_node_paused(7));
     key(&mut window, Key::Num9);
-    assert_eq!(notice(&window), "There is no machine 9");
+    assert_eq!(notice(&window), "This run has no machine 9");
     key(&mut window, Key::Num8);
     assert_eq!(window.state().selected(), None);
-    window.get_by_label("Node 3").click();
+    window.get_by_label("Machine 3").click();
     window.run_steps(2);
     assert_eq!(window.state().selected(), Some(2));
     // Esc closes the notice first, then the selection.
@@ -111,15 +111,15 @@ fn click_on_the_ring_selects_a_machine() {
 #[test]
 fn change_of_speed_is_undone_and_redone() {
     let mut window = open(SIZE);
-    drag(&mut window, "Speed of node 1", 0.3);
-    drag(&mut window, "Speed of node 1", 0.6);
+    drag(&mut window, "Speed of machine 1", 0.3);
+    drag(&mut window, "Speed of machine 1", 0.6);
     let second = session(&window).speed(0);
     ctrl(&mut window, Key::Z);
     let first = session(&window).speed(0);
     assert!(first < 0.5 && second > 0.5, "{first} {second}");
     press(&mut window, "Undo");
     assert_eq!(session(&window).speed(0), 1.0);
-    assert_eq!(notice(&window), "Undone; now machine 1 at 100 %");
+    assert_eq!(notice(&window), "Undone. Now: machine 1 at 100 %");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(0, 1.0)));
     ctrl(&mut window, Key::Y);
     window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::Z);

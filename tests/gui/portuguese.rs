@@ -235,7 +235,7 @@ fn lists_and_changes_are_portuguese() {
     press(&mut window, "Mais…");
     assert_portuguese(&window, "the quality");
     key(&mut window, Key::Escape);
-    for preset in ["Iguais", "Uma lenta", "Ao acaso", "Laboratório antigo"] {
+    for preset in ["Iguais", "Uma lenta", "Aleatórias", "Laboratório antigo"] {
         press(&mut window, preset);
     }
     type_number(&mut window, "Número de máquinas", "3");
@@ -257,7 +257,7 @@ fn inspector_and_accuracy_are_portuguese() {
     window.drag_at(middle);
     window.step();
     window.drop_at(middle);
-    until(&mut window, "the pixel", |window| !session(window).is_looking());
+    until(&mut window, "the pixel", |window| !session(window).is_inspecting());
     window.run_steps(2);
     window.get_by_label("Árvore de raios");
     assert_portuguese(&window, "a pixel");
@@ -280,10 +280,10 @@ fn nothing_is_cut_off_in_windows_of_every_size() {
         let buttons = ["Cenas", "Pausar", "Reiniciar", "Desfazer", "Ajustar", "Salvar…", "Escuro ou claro", "Ajuda"];
         let time = [
             "Passo atrás",
-            "O que é um passo",
+            "Unidade do passo",
             "Passo adiante",
-            "Mais devagar",
-            "Mais depressa",
+            "Mais lento",
+            "Mais rápido",
             "O tempo da execução",
             "Ao vivo",
             "Achar",

@@ -30,7 +30,7 @@ fn settings_and_scene_are_restored() {
     let mut window = open_with(SIZE, "csg-primer");
     key(&mut window, Key::E);
     type_number(&mut window, "Number of machines", "5");
-    drag(&mut window, "Speed of node 2", 0.25);
+    drag(&mut window, "Speed of machine 2", 0.25);
     let storage = store(&mut window);
     let again = reopen(&storage);
     assert_eq!(session(&again).header().scene, "csg-primer");

@@ -39,7 +39,7 @@ fn pause_stops_the_clock_and_the_work() {
 #[test]
 fn restart_keeps_the_speeds() {
     let mut window = open(SIZE);
-    drag(&mut window, "Speed of node 3", 0.0);
+    drag(&mut window, "Speed of machine 3", 0.0);
     until(&mut window, "speed 0", |window| session(window).stage().state().nodes()[2].speed == 0.0);
     until(&mut window, "many atoms", |window| done(window) > 300);
     let begun = session(&window).runs_begun();
@@ -80,7 +80,7 @@ fn stopped_machines_need_few_repaints_and_a_pause_none() {
     until(&mut window, "traced atoms", |window| done(window) > 20);
     assert!(repaint_delay(&window) <= Duration::from_millis(40));
     for node in 1..=8 {
-        drag(&mut window, &format!("Speed of node {node}"), 0.0);
+        drag(&mut window, &format!("Speed of machine {node}"), 0.0);
     }
     until(&mut window, "rest", |window| repaint_delay(window) >= Duration::from_millis(200));
     until(&mut window, "a sentence", |window| {

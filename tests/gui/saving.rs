@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-const FIELD: &str = "Where to save";
+const FIELD: &str = "Path of the file";
 
 /// Chooses the kind of file.
 fn choose_kind(window: &mut Window, kind: &str) {
@@ -50,13 +50,13 @@ fn run_is_saved_and_opened_with_keys() {
     until(&mut window, "some atoms", |window| done(window) > 20);
     window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, Key::S);
     window.run_steps(3);
-    type_path(&mut window, "Where to save", &path);
+    type_path(&mut window, "Path of the file", &path);
     key(&mut window, Key::Enter);
     until(&mut window, "a file", |_| path.is_file());
     until(&mut window, "notice", |window| notice(window).contains("run.anel"));
     key(&mut window, Key::Escape);
     key(&mut window, Key::O);
-    press(&mut window, "Open the run saved last");
+    press(&mut window, "Open the last saved run");
     until(&mut window, "the run", |window| session(window).is_recorded());
     assert_eq!(session(&window).header().scene, "ten-objects");
 }
@@ -207,11 +207,11 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     press(&mut window, "Save");
     until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
     assert_eq!(image::image_dimensions(&path).expect("a PNG"), (200, 50));
-    window.get_by_label_contains("Another shape than the picture's");
+    window.get_by_label_contains("The shape differs from the picture's");
     key(&mut window, Key::Escape);
     let path = save(&mut window, "huge.png");
     press(&mut window, "4K");
-    assert!(window.query_by_label_contains("Another shape than the picture's").is_none());
+    assert!(window.query_by_label_contains("The shape differs from the picture's").is_none());
     assert_eq!(window.get_by_role_and_label(Role::SpinButton, "Pixels across").value().as_deref(), Some("2880"));
     type_number(&mut window, "Samples a pixel", "16");
     press(&mut window, "Save");
@@ -317,14 +317,14 @@ fn file_is_replaced_only_after_a_second_press() {
     key(&mut window, Key::S);
     type_path(&mut window, FIELD, &path);
     key(&mut window, Key::Enter);
-    window.get_by_label("there.png exists; press Save again to replace it");
+    window.get_by_label("there.png exists. Press Save again to replace it");
     // After a change of the path the question comes again.
     window.event(egui::Event::Text("x".into()));
     window.step();
     assert!(window.query_by_label_contains("exists").is_none());
     key(&mut window, Key::Backspace);
     press(&mut window, "Save");
-    window.get_by_label_contains("press Save again");
+    window.get_by_label_contains("Press Save again");
     assert_eq!(std::fs::read(&path).expect("the file"), b"dear");
     press(&mut window, "Save");
     until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));

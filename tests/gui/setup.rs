@@ -62,9 +62,9 @@ fn number_of_machines_restarts_the_run_and_can_be_undone() {
     let begun = session(&window).runs_begun();
     type_number(&mut window, "Number of machines", "32");
     assert_eq!(session(&window).runs_begun(), begun + 1);
-    assert_eq!(notice(&window), "Started anew: 32 machines");
+    assert_eq!(notice(&window), "Restarted with: 32 machines");
     assert_eq!((session(&window).header().speeds.len(), session(&window).stage().state().nodes().len()), (32, 32));
-    window.get_by_label("Node 32");
+    window.get_by_label("Machine 32");
     // No run starts before the slider is released.
     let rect = window.get_by_label("Machines slider").rect();
     window.drag_at(rect.left_center());
@@ -84,7 +84,7 @@ fn size_atoms_and_strategy_restart_the_run() {
     let mut window = open_setup();
     type_number(&mut window, "Pixels in an atom", "200");
     assert_eq!(session(&window).header().division.atom_pixels(), 200);
-    type_number(&mut window, "Least atoms worth sending", "5");
+    type_number(&mut window, "Fewest atoms of a transfer", "5");
     assert_eq!(session(&window).header().rules.part, 5);
     type_number(&mut window, "Width in pixels", "400");
     until(&mut window, "a small picture", |window| session(window).header().size.to_string() == "400x480");
@@ -110,7 +110,7 @@ fn pace_restarts_the_run() {
     let mut window = open_setup();
     let pace = session(&window).header().pace;
     type_number(&mut window, "Seconds of the run", "40");
-    assert_eq!(session(&window).settings().tempo, Pace::Lasts(40));
+    assert_eq!(session(&window).settings().pace, Pace::Lasts(40));
     assert!((session(&window).header().pace / pace - 0.5).abs() < 1e-6);
     press(&mut window, "Full speed");
     assert_eq!(session(&window).header().pace, 1.0);
@@ -129,7 +129,7 @@ fn impossible_setting_is_refused_in_a_sentence() {
     assert_eq!(session(&window).settings().atom, 50);
     // A larger number becomes the largest possible one.
     type_number(&mut window, "Number of machines", "999");
-    assert_eq!(session(&window).header().speeds.len(), Settings::MOST_NODES);
+    assert_eq!(session(&window).header().speeds.len(), Settings::MAX_NODES);
 }
 
 #[test]

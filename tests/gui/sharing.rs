@@ -44,7 +44,7 @@ fn every_strategy_can_be_chosen_and_traces() {
         until(&mut window, "atoms", |window| done(window) > 20);
     }
     choose(&mut window, "Strategy", "Farm");
-    assert_eq!(notice(&window), "Started anew: farm");
+    assert_eq!(notice(&window), "Restarted with: farm");
     ctrl(&mut window, Key::Z);
     assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
 }
@@ -78,7 +78,7 @@ fn parts_and_the_network_can_be_set() {
     window.get_by_label("All share one wire").click();
     window.run_steps(3);
     assert!(session(&window).header().link.shared);
-    assert_eq!(notice(&window), "Started anew: one wire for all");
+    assert_eq!(notice(&window), "Restarted with: one wire for all machines");
     for _ in 0..3 {
         ctrl(&mut window, Key::Z);
     }
@@ -118,7 +118,7 @@ fn run_in_virtual_time_obeys_and_is_replayed_and_made_live() {
     press(&mut window, "Virtual");
     type_number(&mut window, "Seconds of the run", "3");
     until(&mut window, "many atoms", |window| done(window) > 1000);
-    drag(&mut window, "Speed of node 8", 1.0);
+    drag(&mut window, "Speed of machine 8", 1.0);
     until(&mut window, "the end", has_ended);
     assert_eq!(speeds_set(&window), [(7, 1.0)]);
     assert_eq!(done(&window), 6144);

@@ -85,7 +85,7 @@ fn change_of_a_machine_returns_to_live() {
         key(&mut window, Key::Comma);
     }
     scrub(&mut window, 0.2);
-    drag(&mut window, "Speed of node 1", 0.0);
+    drag(&mut window, "Speed of machine 1", 0.0);
     assert!(session(&window).stage().is_live() && notice(&window).starts_with("Back in the present"));
     until(&mut window, "a record", |window| speeds_set(window) == [(0, 0.0)]);
 }
@@ -159,7 +159,7 @@ fn found_moment_is_shown_and_the_time_stops_there() {
     window.step();
     window.drop_at(biggest);
     window.run_steps(4);
-    assert!(matches!(window.state().focus(), Some(Subject::Message(_))), "{:?}", window.state().focus());
+    assert!(matches!(window.state().selection(), Some(Subject::Message(_))), "{:?}", window.state().selection());
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.contains(" had traced ") && said.contains(" that waited with machine "), "{said}");
     let then = session(&window).now();
@@ -167,7 +167,7 @@ fn found_moment_is_shown_and_the_time_stops_there() {
     assert_eq!(session(&window).now(), then);
     // Esc clears the selection.
     key(&mut window, Key::Escape);
-    assert_eq!(window.state().focus(), None);
+    assert_eq!(window.state().selection(), None);
 }
 
 #[test]
@@ -228,19 +228,19 @@ fn timeline_shows_the_work_of_machines_and_selects_an_atom() {
     for _ in 0..9 {
         ctrl(&mut window, Key::ArrowUp);
     }
-    let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of 3").rect());
+    let (timeline, lane) = (window.get_by_label("Timeline").rect(), window.get_by_label("Lane of machine 3").rect());
     // The zoom keeps the position of the shown time.
     let at = egui::pos2(timeline.left() + timeline.width() * share, lane.center().y);
     window.drag_at(at);
     window.step();
     window.drop_at(at);
     window.run_steps(3);
-    assert_eq!(window.state().focus(), Some(Subject::Atom(longest.atom)));
+    assert_eq!(window.state().selection(), Some(Subject::Atom(longest.atom)));
     let said = window.get_by_label("Selected").value().unwrap_or_default();
     assert!(said.starts_with(&format!("Atom {}", anel::view::count(longest.atom + 1))), "{said}");
     assert!(!session(&window).stage().is_live() && !session(&window).stage().goes_on());
     key(&mut window, Key::T);
-    window.get_by_label("Node 1");
+    window.get_by_label("Machine 1");
 }
 
 #[test]
@@ -258,10 +258,10 @@ fn camera_is_moved_and_restored() {
     let (home, begun) = (eye(&window), session(&window).runs_begun());
     key(&mut window, Key::C);
     key(&mut window, Key::ArrowRight);
-    assert!(session(&window).is_moving());
-    until(&mut window, "a picture from there", |window| session(window).moved().is_some());
+    assert!(session(&window).is_camera_moving());
+    until(&mut window, "a picture from there", |window| session(window).camera_preview().is_some());
     until(&mut window, "a run from there", |window| session(window).runs_begun() == begun + 1);
-    assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_moving());
+    assert!((eye(&window) - home).length() > 0.1 && !session(&window).is_camera_moving());
     // The scene text has the new camera.
     let text = &session(&window).header().scene_text;
     assert_eq!(anel::scene::Scene::parse(text).expect("a scene").camera.eye, eye(&window));

@@ -1,4 +1,4 @@
-//! What happens when something is asked for, by a key or by a button.
+//! Executes the commands of keys and buttons.
 
 use egui::{Context, Theme, ViewportCommand};
 
@@ -11,9 +11,10 @@ use crate::time::Time;
 use crate::view::{StepUnit, Subject, node_name};
 
 impl App {
+    /// Executes a command; an open page or lesson gets it first.
     pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
         let language = self.session.language();
-        // A clicker knows forward and back.
+        // A presenter's remote control sends only Page Down and Page Up.
         if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
             let forward = if back { UserCommand::Beginning } else { UserCommand::Pause };
             return self.handle_command(forward, ctx);
@@ -38,19 +39,19 @@ impl App {
                 session.restart();
                 session.end_notice();
             }
-            UserCommand::StepUnit(by, forward) => session.step(by, forward),
+            UserCommand::Step(by, forward) => session.step(by, forward),
             UserCommand::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
             UserCommand::SetRate(index) => session.stage_mut().set_rate(index),
             UserCommand::Live => {
                 session.stage_mut().follow();
-                // What was looked at is past, and what happens now is to be read.
-                self.focus.selected = self.focus.node().map(Subject::Node);
+                // A selected atom or message belongs to the past; its text would hide the narration of the present.
+                self.selection.selected = self.selection.node().map(Subject::Node);
             }
             UserCommand::Beginning => session.stage_mut().seek(Time::ZERO, true),
             UserCommand::Find => self.time.toggle_find(),
-            UserCommand::Jump(records, about) => {
+            UserCommand::Jump(records, subject) => {
                 session.stage_mut().show_after(records);
-                self.focus.selected = Some(about);
+                self.selection.selected = Some(subject);
             }
             UserCommand::Timeline => self.shows_timeline = !self.shows_timeline,
             UserCommand::Zoom(nearer) => {
@@ -61,8 +62,8 @@ impl App {
                 ctx.copy_image(session.copied_picture(self.picture.shown()));
                 session.note(word!(
                     language,
-                    "The picture is in the clipboard",
-                    "A imagem está na área de transferência"
+                    "The picture is copied to the clipboard",
+                    "A imagem foi copiada para a área de transferência"
                 ));
             }
             UserCommand::Save => self.save_bar.toggle(session),
@@ -96,24 +97,28 @@ impl App {
             UserCommand::Undo => session.undo(),
             UserCommand::Redo => session.redo(),
             UserCommand::Select(node) if usize::from(node) < session.header().speeds.len() => {
-                self.focus.toggle(Subject::Node(node));
+                self.selection.toggle(Subject::Node(node));
             }
             UserCommand::Select(node) => {
                 let name = node_name(node);
-                session.note(say!(language, "There is no machine {name}", "Não há máquina {name}"));
+                session.note(say!(
+                    language,
+                    "This run has no machine {name}",
+                    "Esta execução não tem a máquina {name}"
+                ));
             }
-            UserCommand::Faster | UserCommand::Slower | UserCommand::PauseNode | UserCommand::Put(_) => {
-                self.obey_for_node(command)
+            UserCommand::Faster | UserCommand::Slower | UserCommand::PauseNode | UserCommand::ToggleCondition(_) => {
+                self.handle_machine_command(command)
             }
             UserCommand::Camera => self.picture.moves_camera = !self.picture.moves_camera,
-            UserCommand::CameraHome => session.camera_home(),
+            UserCommand::CameraHome => session.reset_camera(),
             UserCommand::Dolly(nearer) => {
                 session.move_camera(|camera| camera.dolly(if nearer { 0.9 } else { 1.0 / 0.9 }))
             }
             UserCommand::Arrow([right, down]) if self.picture.moves_camera => {
                 session.move_camera(|camera| camera.orbit(f64::from(5 * right), f64::from(-5 * down)));
             }
-            UserCommand::Arrow(by) if session.inspected_place().is_some() => session.inspect_beside(by),
+            UserCommand::Arrow(by) if session.inspected_pixel().is_some() => session.inspect_beside(by),
             UserCommand::Arrow([right, 0]) => session.step(StepUnit::Event, right > 0),
             UserCommand::Arrow(_) => {}
             UserCommand::Layer => self.picture.next_layer(),
@@ -123,59 +128,60 @@ impl App {
             }
             UserCommand::Language => {
                 session.set_language(session.language().other());
-                // Their texts are in the other language.
+                // Their texts are still in the old language.
                 (self.hovered, self.selected) = (None, None);
             }
             UserCommand::FullScreen => {
                 let full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
-            UserCommand::Projector => self.project(!self.projector, ctx),
+            UserCommand::Projector => self.set_projector(!self.projector, ctx),
             UserCommand::Help => self.help = !self.help,
-            UserCommand::Back => self.back(ctx),
+            UserCommand::Back => self.close_topmost(ctx),
             UserCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
 
-    /// Whether a page lies over the picture and the ring.
+    /// Whether a page replaces the picture and the ring.
     pub(super) fn shows_page(&self) -> bool {
         self.gallery.is_open() || self.accuracy.is_open() || self.compare.is_open() || self.learn.is_open()
     }
 
-    /// Shows it for a room, or for whoever sits before it.
-    fn project(&mut self, projector: bool, ctx: &Context) {
-        /// How much larger everything is for a room.
-        const LARGER: f32 = 1.5;
+    /// Switches presentation mode on or off.
+    fn set_projector(&mut self, projector: bool, ctx: &Context) {
+        /// Zoom factor of presentation mode.
+        const PROJECTOR_ZOOM: f32 = 1.5;
         self.projector = projector;
         self.session.end_notice();
         if projector {
-            // What is asked for from now on is shown nevertheless.
+            // They can be opened again in presentation mode.
             self.setup.open = false;
             self.save_bar.close();
         }
         Look::set_strong(ctx, projector);
         let zoom = ctx.zoom_factor();
-        ctx.set_zoom_factor(if projector { zoom * LARGER } else { zoom / LARGER });
+        ctx.set_zoom_factor(if projector { zoom * PROJECTOR_ZOOM } else { zoom / PROJECTOR_ZOOM });
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(projector));
     }
 
-    fn obey_for_node(&mut self, command: UserCommand) {
+    /// Executes a command for the selected machine.
+    fn handle_machine_command(&mut self, command: UserCommand) {
         let language = self.session.language();
-        let Some(node) = self.focus.node() else {
+        let Some(node) = self.selection.node() else {
             return self.session.note(word!(
                 language,
-                "First select a machine: press its number, or click it",
-                "Selecionar antes uma máquina: pressionar seu número, ou clicar nela"
+                "First select a machine: press its number or click it",
+                "Primeiro selecione uma máquina: pressione seu número ou clique nela"
             ));
         };
         if command == UserCommand::PauseNode {
             return self.session.toggle_node_pause(node);
         }
-        if let UserCommand::Put(condition) = command {
+        if let UserCommand::ToggleCondition(condition) = command {
             return self.session.toggle_condition(node, condition);
         }
         let now = self.session.speed(node);
-        // To the next tenth, or to one of the low speeds at which a machine is felt.
+        // Tenths, and low speeds that make a machine the bottleneck.
         let mut steps = [0.0, 0.01, 0.05].into_iter().chain((1..=10).map(|tenth| f64::from(tenth) / 10.0));
         let speed = match command {
             UserCommand::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
@@ -184,8 +190,8 @@ impl App {
         self.session.change(Gesture::Once, |settings| settings.set_speed(node, speed));
     }
 
-    /// Whatever was opened last goes away.
-    fn back(&mut self, ctx: &Context) {
+    /// Closes what lies on top: help, list, page, bar, notice, inspector, mode, zoom, selection or lesson.
+    fn close_topmost(&mut self, ctx: &Context) {
         if self.help {
             self.help = false;
         } else if self.time.is_finding() {
@@ -202,16 +208,16 @@ impl App {
             self.save_bar.close();
         } else if self.session.notice().is_some() {
             self.session.close_notice();
-        } else if self.session.inspected_place().is_some() {
+        } else if self.session.inspected_pixel().is_some() {
             self.session.stop_inspecting();
         } else if self.projector {
-            self.project(false, ctx);
+            self.set_projector(false, ctx);
         } else if self.picture.moves_camera {
             self.picture.moves_camera = false;
         } else if self.picture.is_zoomed() {
             self.picture.show_all();
-        } else if self.focus.selected.is_some() {
-            self.focus.selected = None;
+        } else if self.selection.selected.is_some() {
+            self.selection.selected = None;
         } else {
             self.learn.leave(&mut self.session);
         }

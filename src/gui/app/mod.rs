@@ -1,10 +1,10 @@
-//! The window's content: which panel goes where.
-
-pub(crate) mod repaint_schedule;
+//! The content of the window: places panels and pages, and passes commands and job results to them.
 
 mod commands;
+mod launch;
 mod main_area_layout;
 mod notices;
+mod repaint_schedule;
 
 use std::time::Duration;
 
@@ -12,7 +12,6 @@ use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
-use super::Launch;
 use super::input::keys;
 use super::input::selection::Selection;
 use super::input::zoom;
@@ -35,9 +34,10 @@ use crate::balance::NodeId;
 use crate::language::{Language, say};
 use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
-use main_area_layout::heroes;
+pub use launch::Launch;
+use main_area_layout::split_main_area;
 
-/// The window's content.
+/// The content of the window.
 pub struct App {
     session: Session,
     picture: PicturePanel,
@@ -50,114 +50,118 @@ pub struct App {
     learn: Learn,
     help: bool,
     timeline: TimelinePanel,
-    /// The timeline stands in the machines' place.
+    /// Whether the timeline replaces the table of machines.
     shows_timeline: bool,
-    focus: Selection,
-    /// Of what the pointer is on, and of what is selected.
+    selection: Selection,
+    /// Details of the hovered subject.
     hovered: Option<Details>,
+    /// Details of the selected subject.
     selected: Option<Details>,
-    lit: Highlight,
-    /// Where words about the run stand, if they do in this frame.
-    words: Option<Rect>,
-    begun: usize,
-    /// Large, in strong colours, and nothing but what is looked at.
+    highlight: Highlight,
+    /// Rectangle of the narration or of the lesson in this frame, if one is shown.
+    narration_rect: Option<Rect>,
+    /// `Session::runs_begun` at the last frame.
+    runs_begun: usize,
+    /// Presentation mode: large text, strong colours, no controls.
     projector: bool,
 }
 
-/// What is remembered from one window to the next, beside what egui itself remembers.
+/// The state that the next window restores, beside egui's own.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
-struct Remembered {
+struct StoredState {
     settings: Settings,
     scene: Option<String>,
     recent: Vec<String>,
     blend: Option<f64>,
-    setup: bool,
-    timeline: bool,
+    #[serde(rename = "setup")]
+    is_setup_open: bool,
+    #[serde(rename = "timeline")]
+    shows_timeline: bool,
     language: Option<Language>,
     projector: bool,
 }
 
-const REMEMBERED: &str = "anel";
+/// Key of [`StoredState`] in eframe's storage.
+const STORAGE_KEY: &str = "anel";
 
 impl App {
-    /// The window's content, with what `storage` remembers; a run starts as soon as its scene is compiled.
+    /// Restores the state from `storage` and opens a scene; its run starts as soon as the scene is compiled.
     pub fn new(ctx: &Context, storage: Option<&dyn Storage>, launch: Launch) -> Self {
-        let remembered: Remembered =
-            storage.and_then(|storage| eframe::get_value(storage, REMEMBERED)).unwrap_or_default();
-        let language = remembered.language.unwrap_or(launch.language);
+        let stored: StoredState =
+            storage.and_then(|storage| eframe::get_value(storage, STORAGE_KEY)).unwrap_or_default();
+        let language = stored.language.unwrap_or(launch.language);
         theme::install(ctx);
         test_positions::install(ctx);
         zoom::install(ctx);
-        Look::set_strong(ctx, remembered.projector);
-        let settings =
-            if remembered.settings.check(language).is_ok() { remembered.settings } else { Settings::default() };
+        Look::set_strong(ctx, stored.projector);
+        let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_language(language);
-        session.set_recent(remembered.recent);
-        match (launch.opening, &remembered.scene) {
+        session.set_recent(stored.recent);
+        match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
             (None, Some(scene)) => session.open(scene),
             (None, None) => session.open("ten-objects"),
         }
         let mut picture = PicturePanel::default();
-        picture.blend = remembered.blend.unwrap_or(picture.blend).clamp(0.0, 100.0);
+        picture.blend = stored.blend.unwrap_or(picture.blend).clamp(0.0, 100.0);
         Self {
             session,
             picture,
             time: TimePanel::default(),
             save_bar: SaveBar::default(),
-            setup: SetupPanel::new(remembered.setup),
+            setup: SetupPanel::new(stored.is_setup_open),
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
             compare: Compare::default(),
             learn: Learn::default(),
             help: false,
             timeline: TimelinePanel::default(),
-            shows_timeline: remembered.timeline,
-            focus: Selection::default(),
+            shows_timeline: stored.shows_timeline,
+            selection: Selection::default(),
             hovered: None,
             selected: None,
-            lit: Highlight::default(),
-            words: None,
-            begun: 0,
-            projector: remembered.projector,
+            highlight: Highlight::default(),
+            narration_rect: None,
+            runs_begun: 0,
+            projector: stored.projector,
         }
     }
 
-    /// What is shown, for tests.
+    /// Returns the session, for tests.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    /// Of how many qualities it is known what they cost, for tests.
+    /// Returns how many qualities the Accuracy page has measured, for tests.
     pub fn points_measured(&self) -> usize {
         self.accuracy.points()
     }
 
-    /// What is compared, for tests.
+    /// Returns names and makespans of the compared runs, for tests.
     pub fn compared(&self) -> Vec<(String, Option<Duration>)> {
         self.compare.runs()
     }
 
-    /// The lesson that is taken and its step, for tests.
+    /// Returns the open lesson and its step, for tests.
     pub fn lesson(&self) -> Option<(&str, usize)> {
         self.learn.step()
     }
 
-    /// The selected machine, for tests.
+    /// Returns the selected machine, for tests.
     pub fn selected(&self) -> Option<NodeId> {
-        self.focus.node()
+        self.selection.node()
     }
 
-    /// Shows another moment, for tests.
+    /// Shows the run at `time`, for tests.
     pub fn seek(&mut self, time: Time) {
         self.session.stage_mut().seek(time, true);
     }
 
-    /// What is selected, for tests.
-    pub fn focus(&self) -> Option<Subject> {
-        self.focus.selected
+    /// Returns the selected subject, for tests.
+    pub fn selection(&self) -> Option<Subject> {
+        self.selection.selected
     }
 
     fn take_dropped(&mut self, ctx: &Context) {
@@ -168,11 +172,11 @@ impl App {
         self.session.open(&first.to_string_lossy());
         if dropped.len() > 1 {
             let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let many = dropped.len();
+            let count = dropped.len();
             self.session.note(say!(
                 language,
-                "{many} files were dropped; {name} is opened",
-                "{many} arquivos foram soltos; {name} é aberto"
+                "Only the first of {count} files is opened: {name}",
+                "Só o primeiro de {count} arquivos é aberto: {name}"
             ));
         }
     }
@@ -180,7 +184,7 @@ impl App {
     fn panels(&mut self, ui: &mut Ui) {
         let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
-        self.words = None;
+        self.narration_rect = None;
         self.bars(ui);
         if self.shows_page() {
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
@@ -198,41 +202,41 @@ impl App {
             return;
         }
         if self.setup.open {
-            let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup::WIDTH).resizable(false);
+            let panel = Panel::left("setup").frame(panel(8, 8)).exact_size(setup::WIDTH_PT).resizable(false);
             panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
         }
-        self.light();
-        // What stands on a wall is looked at; hands are at the keys.
+        self.update_highlight();
+        // The audience of a projector only looks; its presenter uses keys.
         if self.shows_timeline || !self.projector {
             self.machines(ui);
         }
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
         let height = lesson.unwrap_or_else(|| narration::height(ui));
-        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        let words = words.show(ui, |ui| {
+        let narration = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
+        let narration = narration.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
             } else {
                 narration::show(ui, &self.session, self.selected.as_ref());
             }
         });
-        self.words = Some(words.response.rect);
-        // Beside a lesson a low window has no room for it, and the lesson's own buttons lead on.
+        self.narration_rect = Some(narration.response.rect);
+        // A low window has no room for the time bar beside a lesson, and a lesson has its own buttons.
         let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
         if !(self.projector || is_tight) || self.time.is_finding() {
-            let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time::HEIGHT + 8.0);
+            let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time::HEIGHT_PT + 8.0);
             let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
             if let Some(command) = time.show(ui, row).inner {
                 self.handle_command(command, ui.ctx());
             }
         }
-        self.heroes(ui);
+        self.main_area(ui);
     }
 
-    /// The bar at the top, and what is opened from there.
+    /// Shows the top bar and, if it is open, the save bar.
     fn bars(&mut self, ui: &mut Ui) {
         if !self.projector {
-            let open = top_bar::Open {
+            let open = top_bar::OpenPages {
                 scenes: self.gallery.is_open(),
                 accuracy: self.accuracy.is_open(),
                 compare: self.compare.is_open(),
@@ -257,7 +261,7 @@ impl App {
         }
     }
 
-    /// Machines, or their timeline.
+    /// Shows the table of machines, or the timeline.
     fn machines(&mut self, ui: &mut Ui) {
         let nodes = self.session.header().speeds.len();
         let height = if self.shows_timeline {
@@ -269,51 +273,55 @@ impl App {
         below.show(ui, |ui| {
             if self.shows_timeline {
                 let hovered = self.hovered.as_ref();
-                self.timeline.show(ui, &mut self.session, &mut self.focus, &self.lit, hovered);
+                self.timeline.show(ui, &mut self.session, &mut self.selection, &self.highlight, hovered);
             } else {
-                nodes::show(ui, &mut self.session, &mut self.focus, &self.lit);
+                nodes::show(ui, &mut self.session, &mut self.selection, &self.highlight);
             }
         });
     }
 
-    /// Finds what stands out in this frame.
-    fn light(&mut self) {
+    /// Looks up the hovered and the selected subject, and what to highlight for them in this frame.
+    fn update_highlight(&mut self) {
         let language = self.session.language();
         let nodes = self.session.header().speeds.len();
-        if self.begun != self.session.runs_begun() {
-            self.begun = self.session.runs_begun();
-            self.timeline.begin();
+        if self.runs_begun != self.session.runs_begun() {
+            self.runs_begun = self.session.runs_begun();
+            self.timeline.reset();
             (self.hovered, self.selected) = (None, None);
-            // A machine is the same one in the next run; atoms and messages are others.
-            self.focus.selected = self.focus.node().filter(|node| usize::from(*node) < nodes).map(Subject::Node);
+            // The next run has the same machines, but other atoms and messages.
+            self.selection.selected =
+                self.selection.node().filter(|node| usize::from(*node) < nodes).map(Subject::Node);
         }
-        self.focus.begin();
+        self.selection.begin_frame();
         let stage = self.session.stage_mut();
-        let known = [(&mut self.hovered, self.focus.hovered()), (&mut self.selected, self.focus.selected)];
-        for (dossier, about) in known {
-            // What is not over yet is looked up again.
-            let is_known = |dossier: &Details| Some(dossier.subject) == about && dossier.is_complete();
-            if !dossier.as_ref().is_some_and(is_known) {
-                *dossier = about.map(|about| stage.dossier(about, language));
+        let pairs = [(&mut self.hovered, self.selection.hovered()), (&mut self.selected, self.selection.selected)];
+        for (details, subject) in pairs {
+            // Details change until the subject's atom is traced or its message has arrived.
+            let is_final = |details: &Details| Some(details.subject) == subject && details.is_complete();
+            if !details.as_ref().is_some_and(is_final) {
+                *details = subject.map(|subject| stage.dossier(subject, language));
             }
         }
-        let lit = self.hovered.as_ref().or(self.selected.as_ref());
-        self.lit = lit.map(|dossier| dossier.highlight(stage.state())).unwrap_or_default();
+        let details = self.hovered.as_ref().or(self.selected.as_ref());
+        self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
-    fn heroes(&mut self, ui: &mut Ui) {
+    /// Shows the picture and, beside it, the ring or the inspector.
+    fn main_area(&mut self, ui: &mut Ui) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
-        // Rather not at all than cut.
+        // In less height both would be cut off.
         if area.height() < 7.0 * GRID {
             return;
         }
         let size = self.session.header().size;
-        let (left, right) = heroes(area, size.width() as f32 / size.height() as f32);
+        let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32);
         let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
-        ui.scope_builder(within(left), |ui| self.picture.show(ui, &mut self.session, &mut self.focus, &self.lit));
-        ui.scope_builder(within(right), |ui| match self.session.inspected_place() {
-            Some(place) => inspector::show(ui, place, &mut self.session),
-            None => ring::show(ui, &mut self.session, &mut self.focus, &self.lit),
+        ui.scope_builder(within(left), |ui| {
+            self.picture.show(ui, &mut self.session, &mut self.selection, &self.highlight)
+        });
+        ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
+            Some(pixel) => inspector::show(ui, pixel, &mut self.session),
+            None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
         });
     }
 }
@@ -324,23 +332,23 @@ impl eframe::App for App {
         self.take_dropped(ctx);
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
-                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_in(chosen, language),
+                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_chosen(chosen, language),
                 JobResult::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
                 JobResult::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 JobResult::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
-                JobResult::ToTeach(lesson) => self.learn.open(lesson, &mut self.session),
-                JobResult::Lesson(job, taught) => self.learn.take(job, taught, &mut self.session),
-                JobResult::CompareResult(job, compared) => self.compare.take(job, compared),
+                JobResult::LessonOpened(lesson) => self.learn.open(lesson, &mut self.session),
+                JobResult::LessonPrepared(job, prepared) => self.learn.take(job, prepared, &mut self.session),
+                JobResult::Compared(job, result) => self.compare.take(job, result),
                 JobResult::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
         }
-        if let Some(points) = self.learn.tick(&mut self.session) {
-            self.focus.selected = points;
+        if let Some(selected) = self.learn.tick(&mut self.session) {
+            self.selection.selected = selected;
             self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
         }
         if !ctx.input(|input| input.pointer.any_down()) {
-            self.session.let_go();
+            self.session.end_gesture();
         }
         repaint_schedule::schedule(ctx, &self.session, frame.info().cpu_usage);
     }
@@ -348,10 +356,9 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let language = self.session.language();
         zoom::keys(ui.ctx());
-        let types = ui.ctx().text_edit_focused();
-        // Whoever is about to type a path means letters, wherever the focus is just then.
-        let types = types || self.save_bar.is_open() || self.gallery.is_open();
-        for command in keys::pressed(ui.ctx(), types) {
+        // While a path field is open, letters belong to it, even if it does not have the focus.
+        let is_typing = ui.ctx().text_edit_focused() || self.save_bar.is_open() || self.gallery.is_open();
+        for command in keys::pressed(ui.ctx(), is_typing) {
             self.handle_command(command, ui.ctx());
         }
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
@@ -370,31 +377,31 @@ impl eframe::App for App {
             Some(path) => std::path::absolute(path).ok().map(|path| path.to_string_lossy().into_owned()),
             None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
         });
-        let remembered = Remembered {
+        let stored = StoredState {
             settings: self.session.settings().clone(),
             scene,
             recent: self.session.recent().to_vec(),
             blend: Some(self.picture.blend),
-            setup: self.setup.open,
-            timeline: self.shows_timeline,
+            is_setup_open: self.setup.open,
+            shows_timeline: self.shows_timeline,
             language: Some(self.session.language()),
             projector: self.projector,
         };
-        eframe::set_value(storage, REMEMBERED, &remembered);
+        eframe::set_value(storage, STORAGE_KEY, &stored);
     }
 
     #[cfg(feature = "glow")]
     fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
-        self.session.keep_log();
+        self.session.save_log_on_exit();
     }
 
     #[cfg(not(feature = "glow"))]
     fn on_exit(&mut self) {
-        self.session.keep_log();
+        self.session.save_log_on_exit();
     }
 }
 
-/// A panel's frame, with so much room above and below.
+/// Returns the frame of a panel with these margins above and below its content, in points.
 fn panel(top: i8, bottom: i8) -> Frame {
     let side = 2 * GRID as i8;
     Frame::NONE.inner_margin(Margin { left: side, right: side, top, bottom })

@@ -1,26 +1,26 @@
-//! What floats over the panels, and where.
+//! The notice that floats over the panels, and its position.
 
 use egui::{Context, Pos2, vec2};
 
 use super::App;
-use crate::gui::panels::notice::{self, Click};
+use crate::gui::panels::notice::{self, NoticeAction};
 use crate::gui::widgets::theme::GRID;
 
 impl App {
-    /// Shows what is being made or read, or the last notice.
+    /// Shows the progress of an export, the last notice, or the loading message; the first that applies.
     pub(super) fn notices(&mut self, ctx: &Context) {
         let language = self.session.language();
-        let at = self.place_of_notices(ctx);
+        let at = self.notice_corner(ctx);
         let is_free = self.session.notice().is_none();
-        let making = self.session.making().filter(|(_, secs, _)| is_free && *secs > 0.4);
-        if let Some(making) = making {
-            if notice::making(ctx, at, making, language) {
-                self.session.stop_making();
+        let export = self.session.export_progress().filter(|(_, secs, _)| is_free && *secs > 0.4);
+        if let Some(progress) = export {
+            if notice::export_progress(ctx, at, progress, language) {
+                self.session.cancel_export();
             }
         } else if let Some(notice) = self.session.notice().cloned() {
             match notice::show(&notice, ctx, at, language) {
-                Some(Click::Close) => self.session.close_notice(),
-                Some(Click::Reload) => self.session.reload(),
+                Some(NoticeAction::Close) => self.session.close_notice(),
+                Some(NoticeAction::Reload) => self.session.reload(),
                 None => {}
             }
         } else if let Some((name, _)) = self.session.loading().filter(|(_, secs)| *secs > 0.4) {
@@ -28,10 +28,10 @@ impl App {
         }
     }
 
-    /// The lower right corner of the words about the run, where they are shortest: neither picture nor ring nor anything that
-    /// a hand holds lies there. On a page that of the window.
-    fn place_of_notices(&self, ctx: &Context) -> Pos2 {
-        let words = self.words.unwrap_or(ctx.content_rect());
-        words.right_bottom() - vec2(GRID, GRID / 2.0)
+    /// Returns the lower right corner of a notice: that of the narration, whose lines are short, so the notice covers
+    /// neither picture nor ring nor controls. On a page it is the corner of the window.
+    fn notice_corner(&self, ctx: &Context) -> Pos2 {
+        let rect = self.narration_rect.unwrap_or(ctx.content_rect());
+        rect.right_bottom() - vec2(GRID, GRID / 2.0)
     }
 }

@@ -1,4 +1,4 @@
-//! Which key does what. One table serves both the keys themselves and the page that lists them.
+//! Key bindings. One table serves both the input and the Keys page.
 
 use egui::{Context, Event, Key, Modifiers};
 
@@ -6,116 +6,116 @@ use crate::balance::{Condition, NodeId};
 use crate::language::{Language, word};
 use crate::view::{StepUnit, Subject};
 
-/// What can be asked for, by a key or by a button.
+/// Command of a key or a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UserCommand {
-    /// Stand still, or go on.
+    /// Pauses or resumes.
     Pause,
-    /// A new run.
+    /// Starts a new run.
     Restart,
-    /// What happened next (`true`) or before.
-    StepUnit(StepUnit, bool),
-    /// The run's time goes faster (`true`) or slower.
+    /// Steps forward (`true`) or back by one unit.
+    Step(StepUnit, bool),
+    /// Raises (`true`) or lowers the playback rate.
     Rate(bool),
-    /// Time goes at this place of [`RATES`](crate::view::RATES).
+    /// Sets the playback rate to this entry of [`RATES`](crate::view::RATES).
     SetRate(usize),
-    /// What happens as it happens; or the end.
+    /// Follows the run, or shows its end.
     Live,
-    /// The run's beginning.
+    /// Shows the beginning of the run.
     Beginning,
-    /// What is worth jumping to.
+    /// Opens or closes the list of landmarks.
     Find,
-    /// The moment after so many records, and what it is about.
+    /// Shows the moment after this many records and selects the subject.
     Jump(usize, Subject),
-    /// The timeline in the machines' place, or these again.
+    /// Switches between timeline and table of machines.
     Timeline,
-    /// Less of the timeline (`true`), from nearer, or more.
+    /// Zooms the timeline in (`true`) or out.
     Zoom(bool),
-    /// Into a file.
+    /// Opens or closes the save bar.
     Save,
-    /// The run into a file.
+    /// Opens the save bar for the run.
     SaveRun,
-    /// The picture as it is shown into the clipboard.
+    /// Copies the picture as it is shown to the clipboard.
     Copy,
-    /// The scenes, and what else can be opened.
+    /// Opens or closes the Scenes page.
     Scenes,
-    /// Speed against accuracy.
+    /// Opens or closes the Accuracy page.
     Accuracy,
-    /// Runs beside each other.
+    /// Opens or closes the Compare page.
     Compare,
-    /// The lessons.
+    /// Opens or closes the list of lessons.
     Learn,
-    /// The scene's file once more.
+    /// Reads the file of the scene again.
     Reload,
-    /// What can be set.
+    /// Opens or closes the settings.
     Setup,
-    /// Take the last change back.
+    /// Undoes the last change.
     Undo,
-    /// Make it again.
+    /// Makes the undone change again.
     Redo,
-    /// A machine, to be changed with keys.
+    /// Selects a machine; in a list or a question chooses the entry of this number, from 0.
     Select(NodeId),
-    /// The selected machine, to the next higher speed.
+    /// Sets the selected machine to the next higher speed.
     Faster,
-    /// The selected machine, to the next lower speed.
+    /// Sets the selected machine to the next lower speed.
     Slower,
-    /// The selected machine stands still, or goes on.
+    /// Pauses or resumes the selected machine.
     PauseNode,
-    /// The selected machine becomes so, or well again if it is so.
-    Put(Condition),
-    /// The pixel so far to the right and below, instead of the one that is inspected; if none is, a step to the right is
-    /// the next event.
+    /// Sets the condition of the selected machine, or sets it to well if it has that condition.
+    ToggleCondition(Condition),
+    /// Moves the inspected pixel (right, down), or the camera while it is being moved; else left and right step by one
+    /// event.
     Arrow([i32; 2]),
-    /// What lies over the picture.
+    /// Shows the next layer over the render.
     Layer,
-    /// Lines between bands and atoms.
+    /// Shows or hides lines between bands and atoms.
     Outlines,
-    /// A drag of the picture moves the camera, or no longer.
+    /// Switches whether a drag of the picture moves the camera.
     Camera,
-    /// The scene's own camera.
+    /// Moves the camera back to that of the scene.
     CameraHome,
-    /// The camera nearer (`true`) or further away.
+    /// Moves the camera nearer (`true`) or further away.
     Dolly(bool),
-    /// Dark or light.
+    /// Switches between the dark and the light theme.
     Theme,
-    /// English or Portuguese.
+    /// Switches between English and Portuguese.
     Language,
-    /// Large and plain, for a room.
+    /// Switches presentation mode on or off.
     Projector,
-    /// The whole screen, or a window.
+    /// Switches full screen on or off.
     FullScreen,
-    /// This table.
+    /// Opens or closes the list of keys.
     Help,
-    /// Whatever lies over the picture goes away.
+    /// Closes what lies on top.
     Back,
-    /// The end.
+    /// Closes the window.
     Quit,
 }
 
-/// A line of the table: what the keys are called, what they do, and the keys.
-pub struct Line {
-    shown: Both,
-    what: Both,
+/// A row of the table: the names of the keys, what they do, and their commands.
+pub struct KeyRow {
+    keys_text: Bilingual,
+    effect: Bilingual,
     keys: &'static [(Modifiers, Key, UserCommand)],
 }
 
-/// The same in English and in Portuguese.
-type Both = (&'static str, &'static str);
+/// A text in English and in Portuguese.
+type Bilingual = (&'static str, &'static str);
 
-/// What is on the keys themselves.
-const fn same(shown: &'static str) -> Both {
-    (shown, shown)
+/// A text that is the same in both languages.
+const fn same(text: &'static str) -> Bilingual {
+    (text, text)
 }
 
-impl Line {
-    /// What the keys are called.
-    pub fn shown(&self, language: Language) -> &'static str {
-        word!(language, self.shown.0, self.shown.1)
+impl KeyRow {
+    /// Returns the names of the keys.
+    pub fn keys_text(&self, language: Language) -> &'static str {
+        word!(language, self.keys_text.0, self.keys_text.1)
     }
 
-    /// What they do.
-    pub fn what(&self, language: Language) -> &'static str {
-        word!(language, self.what.0, self.what.1)
+    /// Returns what the keys do.
+    pub fn effect(&self, language: Language) -> &'static str {
+        word!(language, self.effect.0, self.effect.1)
     }
 }
 
@@ -123,16 +123,16 @@ const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
-/// Everything that keys do, in the order in which it is listed.
-pub const TABLE: &[Line] = &[
-    Line {
-        shown: ("Space", "Espaço"),
-        what: ("Pause, or go on", "Pausar, ou continuar"),
+/// All key bindings, in the order of the Keys page.
+pub const KEY_TABLE: &[KeyRow] = &[
+    KeyRow {
+        keys_text: ("Space", "Espaço"),
+        effect: ("Pause or resume", "Pausar ou continuar"),
         keys: &[(NONE, Key::Space, UserCommand::Pause)],
     },
-    Line {
-        shown: same("←  →"),
-        what: ("An event back or on; or the pixel beside", "Um evento atrás ou adiante; ou o pixel ao lado"),
+    KeyRow {
+        keys_text: same("←  →"),
+        effect: ("Previous or next event, or pixel", "Evento ou pixel anterior ou seguinte"),
         keys: &[
             (NONE, Key::ArrowLeft, UserCommand::Arrow([-1, 0])),
             (NONE, Key::ArrowRight, UserCommand::Arrow([1, 0])),
@@ -140,106 +140,106 @@ pub const TABLE: &[Line] = &[
             (NONE, Key::ArrowDown, UserCommand::Arrow([0, 1])),
         ],
     },
-    Line {
-        shown: same("Shift ←  →"),
-        what: ("An atom back or on", "Um átomo atrás ou adiante"),
+    KeyRow {
+        keys_text: same("Shift ←  →"),
+        effect: ("Previous or next traced atom", "Átomo calculado anterior ou seguinte"),
         keys: &[
-            (SHIFT, Key::ArrowLeft, UserCommand::StepUnit(StepUnit::Atom, false)),
-            (SHIFT, Key::ArrowRight, UserCommand::StepUnit(StepUnit::Atom, true)),
+            (SHIFT, Key::ArrowLeft, UserCommand::Step(StepUnit::Atom, false)),
+            (SHIFT, Key::ArrowRight, UserCommand::Step(StepUnit::Atom, true)),
         ],
     },
-    Line {
-        shown: same("Ctrl ←  →"),
-        what: ("An offer back or on, from when it is made", "Uma oferta atrás ou adiante, ao ser feita"),
+    KeyRow {
+        keys_text: same("Ctrl ←  →"),
+        effect: ("Previous or next lap: an offer is made", "Volta anterior ou seguinte: uma oferta é feita"),
         keys: &[
-            (CTRL, Key::ArrowLeft, UserCommand::StepUnit(StepUnit::Lap, false)),
-            (CTRL, Key::ArrowRight, UserCommand::StepUnit(StepUnit::Lap, true)),
+            (CTRL, Key::ArrowLeft, UserCommand::Step(StepUnit::Lap, false)),
+            (CTRL, Key::ArrowRight, UserCommand::Step(StepUnit::Lap, true)),
         ],
     },
-    Line {
-        shown: same(",  ."),
-        what: ("Time goes slower, or faster", "O tempo passa mais devagar, ou mais depressa"),
+    KeyRow {
+        keys_text: same(",  ."),
+        effect: ("Slower or faster time", "Tempo mais lento ou mais rápido"),
         keys: &[(NONE, Key::Comma, UserCommand::Rate(false)), (NONE, Key::Period, UserCommand::Rate(true))],
     },
-    Line {
-        shown: same("Home"),
-        what: ("To the beginning", "Ao início"),
+    KeyRow {
+        keys_text: same("Home"),
+        effect: ("Show the beginning", "Mostrar o início"),
         keys: &[(NONE, Key::Home, UserCommand::Beginning)],
     },
-    Line {
-        shown: same("L"),
-        what: ("Live: what happens now; or the end", "Ao vivo: o que acontece agora; ou o fim"),
+    KeyRow {
+        keys_text: same("L"),
+        effect: ("Show the present (Live) or the end", "Mostrar o presente (Ao vivo) ou o fim"),
         keys: &[(NONE, Key::L, UserCommand::Live), (NONE, Key::End, UserCommand::Live)],
     },
-    Line {
-        shown: same("F"),
-        what: ("Find the first offer, the biggest transfer …", "Achar a primeira oferta, a maior transferência …"),
+    KeyRow {
+        keys_text: same("F"),
+        effect: ("Find the first offer, the biggest transfer …", "Achar a primeira oferta, a maior transferência …"),
         keys: &[(NONE, Key::F, UserCommand::Find), (CTRL, Key::F, UserCommand::Find)],
     },
-    Line {
-        shown: same("T"),
-        what: ("The timeline, or the machines", "A linha do tempo, ou as máquinas"),
+    KeyRow {
+        keys_text: same("T"),
+        effect: ("Show the timeline or the machines", "Mostrar a linha do tempo ou as máquinas"),
         keys: &[(NONE, Key::T, UserCommand::Timeline)],
     },
-    Line {
-        shown: same("Ctrl ↑  ↓"),
-        what: ("Zoom the timeline", "Ampliar a linha do tempo"),
+    KeyRow {
+        keys_text: same("Ctrl ↑  ↓"),
+        effect: ("Zoom the timeline", "Ampliar a linha do tempo"),
         keys: &[(CTRL, Key::ArrowUp, UserCommand::Zoom(true)), (CTRL, Key::ArrowDown, UserCommand::Zoom(false))],
     },
-    Line {
-        shown: same("R"),
-        what: ("Restart with what is set", "Reiniciar com o que está ajustado"),
+    KeyRow {
+        keys_text: same("R"),
+        effect: ("Restart with the present settings", "Reiniciar com os ajustes atuais"),
         keys: &[(NONE, Key::R, UserCommand::Restart)],
     },
-    Line {
-        shown: same("S"),
-        what: ("Save a picture, or the run", "Salvar uma imagem, ou a execução"),
+    KeyRow {
+        keys_text: same("S"),
+        effect: ("Save a picture or the run", "Salvar uma imagem ou a execução"),
         keys: &[(NONE, Key::S, UserCommand::Save), (CTRL, Key::S, UserCommand::Save)],
     },
-    Line {
-        shown: same("Ctrl Shift S"),
-        what: ("Save the run; then Enter", "Salvar a execução; depois, Enter"),
+    KeyRow {
+        keys_text: same("Ctrl Shift S"),
+        effect: ("Save the run; then press Enter", "Salvar a execução; depois, Enter"),
         keys: &[(CTRL.plus(SHIFT), Key::S, UserCommand::SaveRun)],
     },
-    // Windows tell of these keys as of one.
-    Line {
-        shown: same("Ctrl C"),
-        what: ("Copy the picture as it is shown", "Copiar a imagem como se mostra"),
+    // The window system reports these keys as one copy event.
+    KeyRow {
+        keys_text: same("Ctrl C"),
+        effect: ("Copy the picture as it is shown", "Copiar a imagem como aparece"),
         keys: &[],
     },
-    Line {
-        shown: same("O"),
-        what: ("Scenes: open one, or a recorded run", "Cenas: abrir uma, ou uma execução gravada"),
+    KeyRow {
+        keys_text: same("O"),
+        effect: ("Open a scene or a recorded run", "Abrir uma cena ou uma execução gravada"),
         keys: &[(NONE, Key::O, UserCommand::Scenes), (CTRL, Key::O, UserCommand::Scenes)],
     },
-    Line {
-        shown: same("A"),
-        what: ("Accuracy: what other qualities cost", "Precisão: o que custam outras qualidades"),
+    KeyRow {
+        keys_text: same("A"),
+        effect: ("Accuracy: error and time of qualities", "Precisão: erro e tempo das qualidades"),
         keys: &[(NONE, Key::A, UserCommand::Accuracy)],
     },
-    Line {
-        shown: same("N"),
-        what: ("Learn: lessons with questions", "Aprender: lições com perguntas"),
+    KeyRow {
+        keys_text: same("N"),
+        effect: ("Learn: lessons with questions", "Aprender: lições com perguntas"),
         keys: &[(NONE, Key::N, UserCommand::Learn)],
     },
-    Line {
-        shown: same("K"),
-        what: ("Compare: the same by other strategies", "Comparar: o mesmo com outras estratégias"),
+    KeyRow {
+        keys_text: same("K"),
+        effect: ("Compare: the run by other strategies", "Comparar: a execução por outras estratégias"),
         keys: &[(NONE, Key::K, UserCommand::Compare)],
     },
-    Line {
-        shown: same("F5"),
-        what: ("Read the scene's file again", "Ler de novo o arquivo da cena"),
+    KeyRow {
+        keys_text: same("F5"),
+        effect: ("Reload the file of the scene", "Recarregar o arquivo da cena"),
         keys: &[(NONE, Key::F5, UserCommand::Reload)],
     },
-    Line {
-        shown: same("E"),
-        what: ("Set up machines, picture and strategy", "Ajustar máquinas, imagem e estratégia"),
+    KeyRow {
+        keys_text: same("E"),
+        effect: ("Set up machines, strategy and picture", "Ajustar máquinas, estratégia e imagem"),
         keys: &[(NONE, Key::E, UserCommand::Setup)],
     },
-    Line {
-        shown: same("1 … 9"),
-        what: ("Select a machine; answer; choose of a list", "Selecionar máquina; responder; escolher da lista"),
+    KeyRow {
+        keys_text: same("1 … 9"),
+        effect: ("Select a machine, an answer, an entry", "Selecionar máquina, resposta ou item"),
         keys: &[
             (NONE, Key::Num1, UserCommand::Select(0)),
             (NONE, Key::Num2, UserCommand::Select(1)),
@@ -252,130 +252,134 @@ pub const TABLE: &[Line] = &[
             (NONE, Key::Num9, UserCommand::Select(8)),
         ],
     },
-    Line {
-        shown: same("+  −"),
-        what: ("The selected machine faster, or slower", "A máquina selecionada mais rápida, ou mais lenta"),
+    KeyRow {
+        keys_text: same("+  −"),
+        effect: ("Make the selected machine faster or slower", "Tornar a máquina selecionada mais rápida ou lenta"),
         keys: &[
             (NONE, Key::Plus, UserCommand::Faster),
             (NONE, Key::Equals, UserCommand::Faster),
             (NONE, Key::Minus, UserCommand::Slower),
         ],
     },
-    Line {
-        shown: same("P"),
-        what: ("Pause the selected machine, or let it go on", "Pausar a máquina selecionada, ou retomá-la"),
+    KeyRow {
+        keys_text: same("P"),
+        effect: ("Pause or resume the selected machine", "Pausar ou retomar a máquina selecionada"),
         keys: &[(NONE, Key::P, UserCommand::PauseNode)],
     },
-    Line {
-        shown: same("X  H  U"),
-        what: ("It is off, hangs, is cut off; or well again", "Ela é desligada, trava, isola-se; ou volta"),
+    KeyRow {
+        keys_text: same("X  H  U"),
+        effect: ("Switch it off, hang it, cut it off; or undo", "Desligar, travar ou isolar a máquina; ou desfazer"),
         keys: &[
-            (NONE, Key::X, UserCommand::Put(Condition::Off)),
-            (NONE, Key::H, UserCommand::Put(Condition::Hung)),
-            (NONE, Key::U, UserCommand::Put(Condition::CutOff)),
+            (NONE, Key::X, UserCommand::ToggleCondition(Condition::Off)),
+            (NONE, Key::H, UserCommand::ToggleCondition(Condition::Hung)),
+            (NONE, Key::U, UserCommand::ToggleCondition(Condition::CutOff)),
         ],
     },
-    Line {
-        shown: ("Click", "Clique"),
-        what: ("Inspect a pixel of the picture", "Inspecionar um pixel da imagem"),
+    KeyRow {
+        keys_text: ("Click", "Clique"),
+        effect: ("Inspect a pixel of the picture", "Inspecionar um pixel da imagem"),
         keys: &[],
     },
-    Line {
-        shown: ("Wheel", "Roda"),
-        what: ("Zoom the picture or timeline; drag moves it", "Ampliar imagem ou linha do tempo; arrastar move"),
+    KeyRow {
+        keys_text: ("Wheel", "Roda"),
+        effect: ("Zoom the picture or timeline; drag moves it", "Ampliar imagem ou linha do tempo; arrastar move"),
         keys: &[],
     },
-    Line {
-        shown: same("V"),
-        what: ("Who traced it, what it cost, when it came", "Quem calculou, quanto custou, quando chegou"),
+    KeyRow {
+        keys_text: same("V"),
+        effect: ("Colours: who traced it, its cost, its arrival", "Cores: quem calculou, custo, chegada"),
         keys: &[(NONE, Key::V, UserCommand::Layer)],
     },
-    Line {
-        shown: same("C"),
-        what: ("Drag or arrows move the camera; Shift C: back", "Arrastar ou setas: câmera; Shift C: de volta"),
+    KeyRow {
+        keys_text: same("C"),
+        effect: ("Drag or arrows move the camera; Shift C: back", "Arrastar ou setas: câmera; Shift C: de volta"),
         keys: &[(NONE, Key::C, UserCommand::Camera), (SHIFT, Key::C, UserCommand::CameraHome)],
     },
-    Line {
-        shown: same("Page ↑  ↓"),
-        what: ("The camera nearer, or further away", "A câmera mais perto, ou mais longe"),
+    KeyRow {
+        keys_text: same("Page ↑  ↓"),
+        effect: ("Move the camera nearer or further away", "Aproximar ou afastar a câmera"),
         keys: &[(NONE, Key::PageUp, UserCommand::Dolly(true)), (NONE, Key::PageDown, UserCommand::Dolly(false))],
     },
-    Line {
-        shown: same("B"),
-        what: ("Lines between bands, and from near atoms", "Linhas entre faixas e, de perto, átomos"),
+    KeyRow {
+        keys_text: same("B"),
+        effect: ("Lines between bands; when zoomed, atoms", "Linhas entre faixas; ampliado, entre átomos"),
         keys: &[(NONE, Key::B, UserCommand::Outlines)],
     },
-    Line {
-        shown: same("Ctrl Z"),
-        what: ("Undo the last change of a speed or a setting", "Desfazer a última mudança de ajuste"),
+    KeyRow {
+        keys_text: same("Ctrl Z"),
+        effect: ("Undo the last change of a setting", "Desfazer a última mudança de ajuste"),
         keys: &[(CTRL, Key::Z, UserCommand::Undo)],
     },
-    Line {
-        shown: same("Ctrl Y"),
-        what: ("Redo", "Refazer"),
+    KeyRow {
+        keys_text: same("Ctrl Y"),
+        effect: ("Redo", "Refazer"),
         keys: &[(CTRL.plus(Modifiers::SHIFT), Key::Z, UserCommand::Redo), (CTRL, Key::Y, UserCommand::Redo)],
     },
-    // The keys of the zoom are egui's own.
-    Line {
-        shown: same("Ctrl +  −  0"),
-        what: ("Everything larger, smaller, as usual", "Tudo maior, menor, normal"),
+    // `zoom` handles these keys.
+    KeyRow {
+        keys_text: same("Ctrl +  −  0"),
+        effect: ("Larger, smaller or normal window content", "Conteúdo maior, menor ou normal"),
         keys: &[],
     },
-    Line { shown: same("D"), what: ("Dark or light", "Escuro ou claro"), keys: &[(NONE, Key::D, UserCommand::Theme)] },
-    Line {
-        shown: same("Shift L"),
-        what: ("English, or Portuguese", "Inglês, ou português"),
+    KeyRow {
+        keys_text: same("D"),
+        effect: ("Dark or light colours", "Cores escuras ou claras"),
+        keys: &[(NONE, Key::D, UserCommand::Theme)],
+    },
+    KeyRow {
+        keys_text: same("Shift L"),
+        effect: ("English or Portuguese", "Inglês ou português"),
         keys: &[(SHIFT, Key::L, UserCommand::Language)],
     },
-    Line {
-        shown: same("F11"),
-        what: ("For a projector: large, plain; Page ↓ ↑ go on", "Para o projetor: grande; Page ↓ ↑ avançam"),
+    KeyRow {
+        keys_text: same("F11"),
+        effect: ("Large and plain, for a projector", "Grande e simples, para o projetor"),
         keys: &[(NONE, Key::F11, UserCommand::Projector)],
     },
-    Line {
-        shown: same("Alt Enter"),
-        what: ("Full screen, or a window again", "Tela cheia, ou janela de novo"),
+    KeyRow {
+        keys_text: same("Alt Enter"),
+        effect: ("Full screen or window", "Tela cheia ou janela"),
         keys: &[(Modifiers::ALT, Key::Enter, UserCommand::FullScreen)],
     },
-    Line {
-        shown: same("Esc"),
-        what: ("Close what is open", "Fechar o que está aberto"),
+    KeyRow {
+        keys_text: same("Esc"),
+        effect: ("Close what is open", "Fechar o que está aberto"),
         keys: &[(NONE, Key::Escape, UserCommand::Back)],
     },
-    Line {
-        shown: same("F1"),
-        what: ("This list of keys", "Esta lista de teclas"),
+    KeyRow {
+        keys_text: same("F1"),
+        effect: ("This list of keys", "Esta lista de teclas"),
         keys: &[(NONE, Key::F1, UserCommand::Help)],
     },
-    Line { shown: same("Ctrl Q"), what: ("Quit", "Sair"), keys: &[(CTRL, Key::Q, UserCommand::Quit)] },
+    KeyRow { keys_text: same("Ctrl Q"), effect: ("Quit", "Sair"), keys: &[(CTRL, Key::Q, UserCommand::Quit)] },
 ];
 
-/// What the keys ask for. While somebody `types`, letters and digits are what is typed.
-pub fn pressed(ctx: &Context, types: bool) -> Vec<UserCommand> {
-    // Space and Enter press what has the focus, and arrows move it.
+/// Returns the commands of the keys pressed in this frame. While the user `is_typing`, plain keys are text.
+pub fn pressed(ctx: &Context, is_typing: bool) -> Vec<UserCommand> {
+    // Space and Enter press the widget with the focus, and arrows move the focus.
     let has_focus = ctx.memory(|memory| memory.focused().is_some());
     let mut commands = Vec::new();
-    // The more modifiers, the sooner: Ctrl Shift Z is not Ctrl Z.
-    let mut keys: Vec<_> = TABLE.iter().flat_map(|line| line.keys).collect();
+    // Keys with Shift first, so that Ctrl Shift Z is not taken for Ctrl Z.
+    let mut keys: Vec<_> = KEY_TABLE.iter().flat_map(|row| row.keys).collect();
     keys.sort_by_key(|(modifiers, ..)| std::cmp::Reverse(modifiers.shift));
     for &(modifiers, key, command) in keys {
         let plain = modifiers == NONE;
-        let typed = plain && !matches!(key, Key::F1 | Key::F5 | Key::F11 | Key::Escape);
+        let is_text = plain && !matches!(key, Key::F1 | Key::F5 | Key::F11 | Key::Escape);
         let edits = matches!(command, UserCommand::Undo | UserCommand::Redo);
-        let is_of_focus = key == Key::Space || matches!(command, UserCommand::Arrow(_) | UserCommand::StepUnit(..));
-        if types && (typed || edits) || is_of_focus && has_focus {
+        let is_of_focus = key == Key::Space || matches!(command, UserCommand::Arrow(_) | UserCommand::Step(..));
+        if is_typing && (is_text || edits) || is_of_focus && has_focus {
             continue;
         }
-        let happens = ctx.input_mut(|input| {
-            // A plus may need Shift, an F key may not be one with Alt.
+        let is_pressed = ctx.input_mut(|input| {
+            // Shift is ignored, because a plus may need it; Ctrl and Alt are not.
             let exact = if plain { !input.modifiers.command && !input.modifiers.alt } else { true };
             exact && if plain { input.key_pressed(key) } else { input.consume_key(modifiers, key) }
         });
-        if happens {
+        if is_pressed {
             commands.push(command);
         }
     }
-    if !types && !has_focus && ctx.input(|input| input.events.contains(&Event::Copy)) {
+    if !is_typing && !has_focus && ctx.input(|input| input.events.contains(&Event::Copy)) {
         commands.push(UserCommand::Copy);
     }
     commands
@@ -386,8 +390,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_key_does_two_things() {
-        let keys: Vec<_> = TABLE.iter().flat_map(|line| line.keys).collect();
+    fn no_key_has_two_commands() {
+        let keys: Vec<_> = KEY_TABLE.iter().flat_map(|row| row.keys).collect();
         for (i, (modifiers, key, _)) in keys.iter().enumerate() {
             assert!(!keys[..i].iter().any(|(others, other, _)| (others, other) == (modifiers, key)), "{key:?}");
         }

@@ -1,4 +1,4 @@
-//! What can become of a message on its way: it is held up, and whatever follows it there.
+//! Context menu of a message on its way: delay it and the messages behind it.
 
 use std::time::Duration;
 
@@ -7,42 +7,42 @@ use egui::{Popup, Response, Ui};
 use crate::balance::Party;
 use crate::gui::session::Session;
 use crate::gui::widgets::theme::Look;
-use crate::gui::widgets::{deeds, popup_frame};
+use crate::gui::widgets::{action_menu, popup_frame};
 use crate::language::{Language, say, word};
 use crate::view::{Flight, flight_words};
 
-/// How long it may be held up, in seconds.
-const SECONDS: [u64; 3] = [1, 5, 20];
+/// Delays that the menu offers, in seconds.
+const DELAYS_S: [u64; 3] = [1, 5, 20];
 
-/// The message that the menu is about, which may have arrived since it opened.
+/// The message of a menu; it may have arrived since the menu opened.
 #[derive(Clone, Debug)]
 pub struct MessageInMenu {
-    words: String,
-    way: (Party, Party),
+    text: String,
+    parties: (Party, Party),
 }
 
 impl MessageInMenu {
-    /// The message that a menu opens for.
+    /// Keeps what the menu needs of a message.
     pub fn new(flight: &Flight, language: Language) -> Self {
-        Self { words: flight_words(flight, language), way: (flight.from, flight.to) }
+        Self { text: flight_words(flight, language), parties: (flight.from, flight.to) }
     }
 }
 
-/// The menu of a message, which opens where the right button is pressed on `response`.
-pub fn on(response: &Response, session: &mut Session, subject: &MessageInMenu, look: Look) {
+/// Opens the menu of a message when `response` is right-clicked.
+pub fn on(response: &Response, session: &mut Session, message: &MessageInMenu, look: Look) {
     let popup = Popup::context_menu(response).frame(popup_frame(&response.ctx));
-    popup.show(|ui| items(ui, session, subject, look));
+    popup.show(|ui| items(ui, session, message, look));
 }
 
-fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { words, way }: &MessageInMenu, look: Look) {
+fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { text, parties }: &MessageInMenu, look: Look) {
     let language = session.language();
-    let hold = SECONDS.map(|seconds| (seconds, say!(language, "Hold it up for {seconds} s", "Reter por {seconds} s")));
+    let delays = DELAYS_S.map(|seconds| (seconds, say!(language, "Delay by {seconds} s", "Atrasar {seconds} s")));
     let hint = word!(
         language,
-        "What is on this way, and what is sent there meanwhile, arrives then, in its order",
-        "O que está neste caminho, e o que nele se mande até lá, chega então, em ordem"
+        "All messages from this sender to this receiver wait and then arrive in order",
+        "Todas as mensagens deste remetente a este destino esperam e depois chegam em ordem"
     );
-    if let Some(seconds) = deeds(ui, words, hold, (session.can_fail(), hint), look, language) {
-        session.delay(*way, Duration::from_secs(seconds));
+    if let Some(seconds) = action_menu(ui, text, delays, (session.can_fail(), hint), look, language) {
+        session.delay(*parties, Duration::from_secs(seconds));
     }
 }

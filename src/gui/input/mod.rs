@@ -1,4 +1,4 @@
-//! Keys, menus, and what the pointer selects.
+//! Keys, context menus and the selection.
 
 pub mod keys;
 pub mod machine_menu;

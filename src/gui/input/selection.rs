@@ -1,35 +1,35 @@
-//! What the pointer is on and what is selected, the same in every view.
+//! The hovered and the selected subject, shared by all views.
 
 use crate::balance::NodeId;
 use crate::view::Subject;
 
-/// What stands out: a machine, an atom or a message. Views tell what the pointer is on, and show what it was on in the
-/// frame before, wherever that was.
+/// The hovered and the selected machine, atom or message. Views report what the pointer hovers; all views show it in
+/// the next frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Selection {
-    /// What was clicked.
+    /// The clicked subject.
     pub selected: Option<Subject>,
     hovered: Option<Subject>,
     next: Option<Subject>,
 }
 
 impl Selection {
-    /// A new frame begins.
-    pub fn begin(&mut self) {
+    /// Begins a frame: what was reported in the last frame becomes the hovered subject.
+    pub fn begin_frame(&mut self) {
         self.hovered = self.next.take();
     }
 
-    /// The pointer is on this.
-    pub fn hover(&mut self, about: Subject) {
-        self.next = Some(about);
+    /// Reports that the pointer hovers `subject`.
+    pub fn hover(&mut self, subject: Subject) {
+        self.next = Some(subject);
     }
 
-    /// Selects it, or nothing if it was selected.
-    pub fn toggle(&mut self, about: Subject) {
-        self.selected = if self.selected == Some(about) { None } else { Some(about) };
+    /// Selects `subject`, or deselects it if it was selected.
+    pub fn toggle(&mut self, subject: Subject) {
+        self.selected = if self.selected == Some(subject) { None } else { Some(subject) };
     }
 
-    /// The selected machine.
+    /// Returns the selected machine.
     pub fn node(&self) -> Option<NodeId> {
         match self.selected {
             Some(Subject::Node(node)) => Some(node),
@@ -37,7 +37,7 @@ impl Selection {
         }
     }
 
-    /// What the pointer was on.
+    /// Returns the hovered subject.
     pub fn hovered(&self) -> Option<Subject> {
         self.hovered
     }

@@ -1,20 +1,20 @@
-//! Scenes to choose from, as small pictures; and a path, a dialog, or a file dropped on the window for all others.
+//! The Scenes page: thumbnails of scenes, a path field and the file dialog.
 
 use std::path::{Path, PathBuf};
 
 use egui::{Align2, Color32, ColorImage, Label, Rect, RichText, ScrollArea, Sense, StrokeKind};
 use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
 
-use crate::gui::panels::save_bar::resolve;
 use crate::gui::session::Thumbnail;
 use crate::gui::session::{Purpose, Session};
 use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, path_field};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{say, word};
 use crate::scene::BUILT_IN;
 
-/// The page of scenes.
+/// The Scenes page.
 #[derive(Default)]
 pub struct Gallery {
     open: bool,
@@ -24,21 +24,25 @@ pub struct Gallery {
     tiles: Vec<Tile>,
 }
 
+/// A scene of the page.
 struct Tile {
-    /// A name or a path.
+    /// Name or path of the scene.
     scene: String,
-    picture: Picture,
+    thumbnail: TileThumbnail,
 }
 
-enum Picture {
+/// Thumbnail of a tile.
+enum TileThumbnail {
+    /// It is being traced.
     Pending,
-    There(TextureHandle),
-    /// Why there is none.
-    None(String),
+    /// It is traced.
+    Ready(TextureHandle),
+    /// It cannot be traced, for this reason.
+    Failed(String),
 }
 
 impl Gallery {
-    /// Opens the page, and has small pictures made of what is new, or closes it.
+    /// Opens the page and starts the missing thumbnails, or closes it.
     pub fn toggle(&mut self, session: &Session) {
         let language = session.language();
         self.open = !self.open;
@@ -46,47 +50,47 @@ impl Gallery {
         if !self.open {
             return;
         }
-        let known = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
+        let built_in = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
         let recent = session.recent().iter().filter(|path| path.ends_with(".ron")).cloned();
-        let mut scenes: Vec<_> = known.chain(recent).collect();
+        let mut scenes: Vec<_> = built_in.chain(recent).collect();
         for old in std::mem::take(&mut self.tiles) {
-            // A file may have changed since.
-            let built_in = BUILT_IN.iter().any(|(name, _)| *name == old.scene);
-            if built_in && matches!(old.picture, Picture::There(_)) {
+            // Only thumbnails of built-in scenes are kept, because a file may have changed.
+            let is_built_in = BUILT_IN.iter().any(|(name, _)| *name == old.scene);
+            if is_built_in && matches!(old.thumbnail, TileThumbnail::Ready(_)) {
                 scenes.retain(|scene| *scene != old.scene);
                 self.tiles.push(old);
             }
         }
-        self.tiles.extend(scenes.iter().map(|scene| Tile { scene: scene.clone(), picture: Picture::Pending }));
+        self.tiles.extend(scenes.iter().map(|scene| Tile { scene: scene.clone(), thumbnail: TileThumbnail::Pending }));
         if !scenes.is_empty() {
             session.jobs().thumbnails(scenes, language);
         }
     }
 
-    /// Whether the page is to be shown.
+    /// Whether the page is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Closes it.
+    /// Closes the page.
     pub fn close(&mut self) {
         self.open = false;
     }
 
-    /// Takes in a small picture.
-    pub fn take_thumbnail(&mut self, ctx: &egui::Context, scene: &str, made: Result<Thumbnail, String>) {
+    /// Takes the thumbnail of a scene.
+    pub fn take_thumbnail(&mut self, ctx: &egui::Context, scene: &str, result: Result<Thumbnail, String>) {
         if let Some(tile) = self.tiles.iter_mut().find(|tile| tile.scene == scene) {
-            tile.picture = match made {
+            tile.thumbnail = match result {
                 Ok(Thumbnail { size, rgb }) => {
                     let image = ColorImage::from_rgb([size.width() as usize, size.height() as usize], &rgb);
-                    Picture::There(ctx.load_texture(scene, image, TextureOptions::LINEAR))
+                    TileThumbnail::Ready(ctx.load_texture(scene, image, TextureOptions::LINEAR))
                 }
-                Err(why) => Picture::None(why),
+                Err(why) => TileThumbnail::Failed(why),
             };
         }
     }
 
-    /// Takes in what was chosen in the system's dialog.
+    /// Takes the result of the file dialog.
     pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
         let language = session.language();
         match chosen {
@@ -94,14 +98,7 @@ impl Gallery {
                 self.open = false;
                 session.open(&path.to_string_lossy());
             }
-            None => {
-                let trouble = word!(
-                    language,
-                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
-                    "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
-                );
-                self.trouble = Some(trouble.into());
-            }
+            None => self.trouble = Some(no_file_chosen(language).into()),
         }
     }
 
@@ -127,10 +124,10 @@ impl Gallery {
             let width = (ui.available_width() - 26.0 * GRID).max(16.0 * GRID);
             let hint = word!(
                 language,
-                "path of a scene, a lesson (.ron) or a run (.anel)",
-                "caminho de uma cena, lição (.ron) ou execução (.anel)"
+                "path of a scene or lesson (.ron), or of a run (.anel)",
+                "caminho de uma cena ou lição (.ron), ou execução (.anel)"
             );
-            let name = word!(language, "What to open", "O que abrir");
+            let name = word!(language, "Path of the file to open", "Caminho do arquivo a abrir");
             let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);
             if field.changed {
                 self.trouble = None;
@@ -146,7 +143,7 @@ impl Gallery {
             }
             if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
-                session.jobs().choose(Purpose::Open, directory.join("scene"), language);
+                session.jobs().choose_file(Purpose::Open, directory.join("scene"), language);
             }
             if button(ui, Some(Icon::Close), word!(language, "Close scenes", "Fechar cenas"), false, Emphasis::Quiet)
                 .clicked()
@@ -155,11 +152,15 @@ impl Gallery {
             }
         });
         ui.horizontal(|ui| {
-            let text = word!(language, "Or drop a file on the window.", "Ou soltar um arquivo na janela.");
+            let text = word!(
+                language,
+                "You can also drop a file on the window.",
+                "Você também pode soltar um arquivo na janela."
+            );
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
             let last =
                 session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
-            let name = word!(language, "Open the run saved last", "Abrir a última execução salva");
+            let name = word!(language, "Open the last saved run", "Abrir a última execução salva");
             if let Some(last) = last
                 && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(&last).clicked()
             {
@@ -169,47 +170,48 @@ impl Gallery {
         });
     }
 
+    /// Shows the tiles. A click opens the scene.
     fn tiles(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
         let language = session.language();
-        const LEAST: f32 = 34.0 * GRID;
-        const GAP: f32 = 2.0 * GRID;
+        const MIN_TILE_WIDTH_PT: f32 = 34.0 * GRID;
+        const GAP_PT: f32 = 2.0 * GRID;
         let room = ui.available_width() - GRID;
-        let columns = (((room + GAP) / (LEAST + GAP)) as usize).clamp(1, 5);
-        let width = (room + GAP) / columns as f32 - GAP;
+        let columns = (((room + GAP_PT) / (MIN_TILE_WIDTH_PT + GAP_PT)) as usize).clamp(1, 5);
+        let width = (room + GAP_PT) / columns as f32 - GAP_PT;
         let (height, caption) = (width * 0.75, 4.0 * GRID);
         let lines = self.tiles.len().div_ceil(columns);
-        let (area, _) = ui.allocate_exact_size(vec2(room, lines as f32 * (height + caption + GAP)), Sense::hover());
+        let (area, _) = ui.allocate_exact_size(vec2(room, lines as f32 * (height + caption + GAP_PT)), Sense::hover());
         let mut opened = None;
         for (i, tile) in self.tiles.iter().enumerate() {
-            let corner =
-                area.min + vec2((i % columns) as f32 * (width + GAP), (i / columns) as f32 * (height + caption + GAP));
-            let place = Rect::from_min_size(corner, vec2(width, height + caption));
-            let response = ui.interact(place, ui.scope_id().with(("tile", &tile.scene)), Sense::click());
+            let corner = area.min
+                + vec2((i % columns) as f32 * (width + GAP_PT), (i / columns) as f32 * (height + caption + GAP_PT));
+            let rect = Rect::from_min_size(corner, vec2(width, height + caption));
+            let response = ui.interact(rect, ui.scope_id().with(("tile", &tile.scene)), Sense::click());
             let name = name_of(&tile.scene);
             let open = say!(language, "Open {name}", "Abrir {name}");
             response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &open));
-            let picture = place.with_max_y(place.top() + height);
+            let picture = rect.with_max_y(rect.top() + height);
             let painter = ui.painter();
             painter.rect_filled(picture, 6.0, look.raised);
-            match &tile.picture {
-                Picture::There(texture) => {
+            match &tile.thumbnail {
+                TileThumbnail::Ready(texture) => {
                     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                     painter.image(texture.id(), picture, whole, Color32::WHITE);
                 }
-                Picture::Pending => {
+                TileThumbnail::Pending => {
                     let (at, font) = (picture.center(), theme::regular(theme::SMALL));
-                    let words = word!(language, "is being traced …", "sendo calculada …");
-                    painter.text(at, Align2::CENTER_CENTER, words, font, look.quiet);
+                    let text = word!(language, "is being traced …", "está sendo calculada …");
+                    painter.text(at, Align2::CENTER_CENTER, text, font, look.quiet);
                 }
-                Picture::None(why) => {
+                TileThumbnail::Failed(why) => {
                     let font = theme::regular(theme::SMALL);
                     let colour = look.trouble;
                     let galley = painter.layout(why.clone(), font, colour, width - 2.0 * GRID);
                     painter.with_clip_rect(picture).galley(picture.min + vec2(GRID, GRID), galley, colour);
                 }
             }
-            let on = session.header().scene == name;
-            let line = match (on, response.hovered() || response.has_focus()) {
+            let is_open = session.header().scene == name;
+            let line = match (is_open, response.hovered() || response.has_focus()) {
                 (_, true) => Some((2.0, look.accent)),
                 (true, false) => Some((2.0, look.text)),
                 _ => None,
@@ -217,7 +219,7 @@ impl Gallery {
             if let Some((width, colour)) = line {
                 painter.rect_stroke(picture, 6.0, egui::Stroke::new(width, colour), StrokeKind::Outside);
             }
-            let at = pos2(place.left(), place.bottom() - caption / 2.0);
+            let at = pos2(rect.left(), rect.bottom() - caption / 2.0);
             painter.text(at, Align2::LEFT_CENTER, &name, theme::strong(theme::BODY), look.text);
             if response.on_hover_text(&tile.scene).clicked() {
                 opened = Some(tile.scene.clone());
@@ -230,7 +232,7 @@ impl Gallery {
     }
 }
 
-/// A scene's name, without directories and ending.
+/// Returns the name of a scene: its file name without the extension.
 fn name_of(scene: &str) -> String {
     let stem = Path::new(scene).file_stem();
     stem.map_or_else(|| scene.to_owned(), |stem| stem.to_string_lossy().into_owned())

@@ -1,4 +1,4 @@
-//! Pages that take the place of the run: accuracy, comparison, lessons, scenes, keys.
+//! Pages that replace the main page: accuracy, comparison, scenes, lessons, keys.
 
 pub mod accuracy;
 pub mod compare;

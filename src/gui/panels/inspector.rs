@@ -1,4 +1,4 @@
-//! A pixel in the place of the ring: why it has its colour, and why it took so long.
+//! Inspector of a pixel, in place of the ring: why it has its colour, and why it took so long.
 
 use egui::{
     Label, Layout, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
@@ -13,35 +13,37 @@ use crate::language::{Language, say, word};
 use crate::picture::srgb8;
 use crate::view::{ChosenRay, Inspected, Mark, RaySpot};
 
-/// What is asked for in the panel.
+/// Action of a button of the inspector.
 enum InspectorAction {
     Choose(ChosenRay),
     Copy,
     Close,
 }
 
-/// In less width the chosen ray stands below the tree of rays.
-const WIDE: f32 = 560.0;
-/// Of longer lists of solids only the beginning is shown.
-const MOST_ROWS: usize = 16;
+/// Least width for two columns; in less the chosen ray stands below the tree of rays.
+const MIN_TWO_COLUMNS_PT: f32 = 560.0;
+/// Most solids in the plot of spans.
+const MAX_SPAN_ROWS: usize = 16;
 
-/// Shows what is known of the pixel at `place`.
-pub fn show(ui: &mut Ui, place: [u32; 2], session: &mut Session) {
+/// Shows the inspector of a pixel.
+pub fn show(ui: &mut Ui, pixel: [u32; 2], session: &mut Session) {
     let language = session.language();
-    let mut asked = heading(ui, place, session.inspected(), language);
+    let mut action = heading(ui, pixel, session.inspected(), language);
     match session.inspected() {
         Some(inspected) => {
             let inks = Inks { look: Look::of(ui.ctx()), nodes: &session.stage().colours };
             let scrolled = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                // Beside the bar that scrolls.
+                // Room for the scroll bar.
                 ui.set_width(ui.available_width() - GRID);
                 body(ui, inspected, &inks, language)
             });
-            asked = asked.or(scrolled.inner);
+            action = action.or(scrolled.inner);
         }
-        None => quiet(ui, word!(language, "Tracing it once more …", "Calculando-o mais uma vez …")),
+        None => {
+            quiet(ui, word!(language, "The pixel is being traced again …", "O pixel está sendo calculado de novo …"))
+        }
     }
-    match asked {
+    match action {
         Some(InspectorAction::Choose(chosen)) => session.choose_ray(chosen),
         Some(InspectorAction::Copy) => {
             let text = session.inspected().map(|pixel| pixel.text(language)).unwrap_or_default();
@@ -60,7 +62,7 @@ fn heading(
     language: Language,
 ) -> Option<InspectorAction> {
     let look = Look::of(ui.ctx());
-    let mut asked = None;
+    let mut action = None;
     ui.horizontal(|ui| {
         if let Some(inspected) = inspected {
             let (rect, _) = ui.allocate_exact_size(Vec2::splat(3.5 * GRID), Sense::hover());
@@ -80,19 +82,19 @@ fn heading(
             .on_hover_text(word!(language, "Close (Esc)", "Fechar (Esc)"))
             .clicked()
             {
-                asked = Some(InspectorAction::Close);
+                action = Some(InspectorAction::Close);
             }
             ui.add_enabled_ui(inspected.is_some(), |ui| {
                 let name = word!(language, "Copy as text", "Copiar como texto");
                 let has_room = ui.available_width() > 20.0 * GRID;
                 let icon = (!has_room).then_some(Icon::Copy);
                 if button(ui, icon, name, has_room, Emphasis::Quiet).on_hover_text(name).clicked() {
-                    asked = Some(InspectorAction::Copy);
+                    action = Some(InspectorAction::Copy);
                 }
             });
         });
     });
-    asked
+    action
 }
 
 fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) -> Option<InspectorAction> {
@@ -106,11 +108,11 @@ fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
         }
     }
     ui.add_space(GRID);
-    if ui.available_width() < WIDE {
-        let asked = rays(ui, inspected, inks, language);
+    if ui.available_width() < MIN_TWO_COLUMNS_PT {
+        let action = rays(ui, inspected, inks, language);
         ui.add_space(GRID);
         ray(ui, inspected, inks, language);
-        return asked;
+        return action;
     }
     let whole = ui.available_rect_before_wrap();
     let split = whole.left() + (0.4 * whole.width()).round();
@@ -121,14 +123,14 @@ fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
     left.inner
 }
 
-/// The tree of rays, of which one can be chosen.
+/// Shows the tree of rays; a click chooses a ray.
 fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) -> Option<InspectorAction> {
-    let mut asked = None;
+    let mut action = None;
     let (chosen, samples) = (inspected.chosen, inspected.samples.len());
     ui.horizontal(|ui| {
         title(ui, word!(language, "Its rays", "Seus raios"), inks.look);
         if samples > 1 {
-            asked = sample_buttons(ui, chosen.sample, samples, inks.look, language);
+            action = sample_buttons(ui, chosen.sample, samples, inks.look, language);
         }
     });
     let tree = inspected.ray_tree(ui.available_width(), language);
@@ -137,15 +139,15 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
     let rect = drawing(ui, name, &names.join("; "), (&tree.marks, tree.height), inks);
     for spot in tree.spots {
         let at = rect.min + Vec2::from(spot.at);
-        let place = Rect::from_center_size(at, Vec2::splat(2.0 * RaySpot::REACH));
-        let response = ui.interact(place, ui.scope_id().with(("ray", spot.ray)), Sense::click());
+        let rect = Rect::from_center_size(at, Vec2::splat(2.0 * RaySpot::REACH));
+        let response = ui.interact(rect, ui.scope_id().with(("ray", spot.ray)), Sense::click());
         let is_chosen = spot.ray == chosen.ray;
         response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_chosen, &spot.name));
         if response.hovered() || response.has_focus() {
             ui.painter().circle_stroke(at, RaySpot::REACH + 2.0, Stroke::new(1.5, inks.look.accent));
         }
         if response.on_hover_text(&spot.name).clicked() {
-            asked = Some(InspectorAction::Choose(ChosenRay { ray: spot.ray, ..chosen }));
+            action = Some(InspectorAction::Choose(ChosenRay { ray: spot.ray, ..chosen }));
         }
     }
     if inspected.sample().rays.len() > 1 {
@@ -153,16 +155,16 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
             ui,
             word!(
                 language,
-                "P from the eye, R reflected (dashed), T through a surface; the broader, the more it counts. Click one.",
-                "P do observador, R refletido (tracejado), T através de superfície; quanto mais largo, mais conta. \
-                 Clique num."
+                "P: from the eye; R: reflected (dashed); T: transmitted. A broad line counts more. Click a ray.",
+                "P: do observador; R: refletido (tracejado); T: transmitido. Uma linha larga conta mais. \
+                Clique num raio."
             ),
         );
     }
-    asked
+    action
 }
 
-/// From one sample to the next.
+/// Shows the buttons for the previous and the next sample.
 fn sample_buttons(
     ui: &mut Ui,
     sample: usize,
@@ -170,23 +172,23 @@ fn sample_buttons(
     look: Look,
     language: Language,
 ) -> Option<InspectorAction> {
-    let mut asked = None;
+    let mut action = None;
     let mut step = |ui: &mut Ui, name, words, to: Option<usize>| {
         ui.add_enabled_ui(to.is_some(), |ui| {
             if widgets::named_button(ui, None, name, Some(words), Emphasis::Quiet).clicked() {
-                asked = to.map(|sample| InspectorAction::Choose(ChosenRay { sample, ray: 0 }));
+                action = to.map(|sample| InspectorAction::Choose(ChosenRay { sample, ray: 0 }));
             }
         });
     };
-    step(ui, word!(language, "Sample before", "Amostra anterior"), "<", sample.checked_sub(1));
+    step(ui, word!(language, "Previous sample", "Amostra anterior"), "<", sample.checked_sub(1));
     let which = sample + 1;
     let text = say!(language, "sample {which} of {samples}", "amostra {which} de {samples}");
     ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
     step(ui, word!(language, "Next sample", "Próxima amostra"), ">", Some(which).filter(|next| *next < samples));
-    asked
+    action
 }
 
-/// The chosen ray: the terms of its equation, and what it passes.
+/// Shows the chosen ray: the terms of its equation, and its spans through the solids.
 fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) {
     let which = inspected.chosen.ray + 1;
     ui.horizontal(|ui| title(ui, &say!(language, "Ray {which}", "Raio {which}"), inks.look));
@@ -195,15 +197,15 @@ fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) 
     let name = word!(language, "Terms of the equation", "Termos da equação");
     drawing(ui, name, &inspected.term_words(language), (&terms.marks, terms.height), inks);
     ui.add_space(GRID);
-    let spans = inspected.spans(ui.available_width(), MOST_ROWS, language);
+    let spans = inspected.spans(ui.available_width(), MAX_SPAN_ROWS, language);
     let name = word!(language, "Spans along the ray", "Trechos ao longo do raio");
     drawing(ui, name, &inspected.span_words(language), (&spans.marks, spans.height), inks);
 }
 
-/// A display list as high as it is; returns its place.
-fn drawing(ui: &mut Ui, name: &str, words: &str, (marks, height): (&[Mark], f32), inks: &Inks<'_>) -> Rect {
+/// Paints a display list of this height; returns its rectangle. `text` is its content for screen readers.
+fn drawing(ui: &mut Ui, name: &str, text: &str, (marks, height): (&[Mark], f32), inks: &Inks<'_>) -> Rect {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    widgets::describe(&response, name, || words.to_owned());
+    widgets::describe(&response, name, || text.to_owned());
     paint(&ui.painter_at(rect.expand(4.0)), rect.min, marks, inks);
     rect
 }

@@ -1,4 +1,4 @@
-//! The panels around a run.
+//! The parts of the main page, in the order of their imports: `timeline` uses `nodes`.
 
 pub mod inspector;
 pub mod narration;

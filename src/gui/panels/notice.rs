@@ -1,4 +1,4 @@
-//! A sentence that floats over the panels: what was done, what went wrong, what can be done about it.
+//! Notices that float over the panels: messages, errors, and the progress of loading and exporting.
 
 use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, ProgressBar, RichText, Stroke, Ui};
 
@@ -9,76 +9,77 @@ use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, say, word};
 use crate::view::fraction;
 
-/// What was pressed.
+/// Action of a notice's button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Click {
-    /// Away with it.
+pub enum NoticeAction {
+    /// Closes the notice.
     Close,
-    /// Read the scene's file again.
+    /// Reads the file of the scene again.
     Reload,
 }
 
-/// Shows a notice with its lower right corner at `at`, and returns what was pressed.
-pub fn show(notice: &Notice, ctx: &Context, at: Pos2, language: Language) -> Option<Click> {
+/// Shows a notice with its lower right corner at `at`. Returns the action of the pressed button.
+pub fn show(notice: &Notice, ctx: &Context, at: Pos2, language: Language) -> Option<NoticeAction> {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
         let colour = if notice.kind == NoticeKind::Trouble { look.trouble } else { look.text };
         let text = RichText::new(&notice.text).font(theme::regular(theme::BODY)).color(colour);
         ui.scope(|ui| {
             let buttons = if notice.kind == NoticeKind::Changed { 17.0 } else { 6.0 };
-            ui.set_max_width(widest(ui) - buttons * GRID);
+            ui.set_max_width(max_width(ui) - buttons * GRID);
             ui.add(Label::new(text).wrap());
         });
         let name = word!(language, "Reload", "Recarregar");
         let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Emphasis::Primary).clicked();
         let close = word!(language, "Close notice", "Fechar aviso");
         let close = button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked();
-        if reload { Some(Click::Reload) } else { close.then_some(Click::Close) }
+        if reload { Some(NoticeAction::Reload) } else { close.then_some(NoticeAction::Close) }
     })
 }
 
-/// Says that something is being read and compiled.
+/// Shows that the file `name` is being read and compiled.
 pub fn loading(ctx: &Context, at: Pos2, name: &str, language: Language) {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
-        let text = say!(language, "{name} is being read and compiled …", "{name} está sendo lida e compilada …");
+        let text = say!(language, "Reading and compiling {name} …", "Lendo e compilando {name} …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
 
-/// Says what is being made, for how many seconds already, and what part of it is done; returns whether that is to end.
-pub fn making(ctx: &Context, at: Pos2, (name, secs, part): (&str, f64, f64), language: Language) -> bool {
+/// Shows the progress of an export: file name, elapsed seconds, and the share that is done. Returns whether Cancel was
+/// pressed.
+pub fn export_progress(ctx: &Context, at: Pos2, (name, secs, share): (&str, f64, f64), language: Language) -> bool {
     let look = Look::of(ctx);
     floating(ctx, at, |ui| {
-        let text = say!(language, "{name} is being made", "{name} está sendo feito");
+        let text = say!(language, "Writing {name}", "Gravando {name}");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
-        let done = fraction(part);
-        let done = left(secs, part, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
+        let done = fraction(share);
+        let done = time_left(secs, share, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
         ui.visuals_mut().extreme_bg_color = look.hairline;
-        let bar = ProgressBar::new(part as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
+        let bar = ProgressBar::new(share as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
         ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
         button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
     })
 }
 
-/// How long it will still take, as soon as that can be told.
-fn left(secs: f64, part: f64, language: Language) -> Option<String> {
-    let left = (secs / part - secs).ceil();
-    if secs < 1.5 || part < 0.01 || left < 1.0 {
+/// Returns a text of the time that is left; `None` while there is too little to estimate it from.
+fn time_left(secs: f64, share: f64, language: Language) -> Option<String> {
+    let left = (secs / share - secs).ceil();
+    if secs < 1.5 || share < 0.01 || left < 1.0 {
         return None;
     }
     let minutes = (left / 60.0).round();
     Some(if left < 90.0 {
-        say!(language, "about {left} s left", "faltam uns {left} s")
+        say!(language, "about {left} s left", "faltam cerca de {left} s")
     } else {
-        say!(language, "about {minutes} min left", "faltam uns {minutes} min")
+        say!(language, "about {minutes} min left", "faltam cerca de {minutes} min")
     })
 }
 
-/// Over everything else, so that nothing moves away under somebody's hand when it comes or goes: its lower right corner
-/// is here.
+/// Shows content in a frame over all panels, with its lower right corner at `at`. It floats so that its appearance
+/// moves no widget under the pointer.
 fn floating<T>(ctx: &Context, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T {
     let look = Look::of(ctx);
     let frame = Frame::NONE.fill(look.raised).stroke(Stroke::new(1.0, look.hairline)).corner_radius(8.0);
@@ -89,12 +90,12 @@ fn floating<T>(ctx: &Context, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T
     shown.inner
 }
 
-/// How wide a notice can be.
-fn widest(ui: &Ui) -> f32 {
+/// Returns the greatest width of a notice.
+fn max_width(ui: &Ui) -> f32 {
     (ui.ctx().content_rect().width() - 8.0 * GRID).min(72.0 * GRID)
 }
 
-/// Says, over everything, that a file can be dropped.
+/// Covers the window with the text that a file can be dropped.
 pub fn drop_here(ui: &Ui, language: Language) {
     let look = Look::of(ui.ctx());
     let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));
@@ -102,7 +103,7 @@ pub fn drop_here(ui: &Ui, language: Language) {
     painter.rect_filled(area, 0.0, look.ground.gamma_multiply(0.85));
     let frame = area.shrink(3.0 * GRID);
     painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
-    let text = word!(language, "Drop a scene or a recorded run", "Soltar uma cena ou uma execução gravada");
+    let text = word!(language, "Drop a scene, a lesson or a recorded run", "Solte uma cena, lição ou execução gravada");
     painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
 }
 
@@ -111,12 +112,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_takes_long_says_how_long_still() {
+    fn time_left_is_estimated_from_the_share() {
         let language = Language::English;
-        assert_eq!(left(10.0, 0.25, language).as_deref(), Some("about 30 s left"));
-        assert_eq!(left(60.0, 0.25, language).as_deref(), Some("about 3 min left"));
+        assert_eq!(time_left(10.0, 0.25, language).as_deref(), Some("about 30 s left"));
+        assert_eq!(time_left(60.0, 0.25, language).as_deref(), Some("about 3 min left"));
         assert_eq!(
-            [left(1.0, 0.25, language), left(10.0, 0.0, language), left(10.0, 1.0, language)],
+            [time_left(1.0, 0.25, language), time_left(10.0, 0.0, language), time_left(10.0, 1.0, language)],
             [None, None, None]
         );
     }

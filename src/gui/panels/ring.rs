@@ -1,4 +1,4 @@
-//! The ring.
+//! The ring of machines, with its tooltips and menus.
 
 use egui::{Align2, Painter, Rect, Sense, Ui};
 
@@ -16,49 +16,50 @@ use crate::view::{
     message_at, node_name, node_words, parent_words, ring, ring_at, time_words,
 };
 
-/// Shows the ring as large as it gets. A click on a node selects it; whatever the pointer is on says more.
-pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
+/// Shows the ring as large as possible. A click selects a machine or a message, the right button opens its menu, and a
+/// tooltip describes what is under the pointer.
+pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highlight: &Highlight) {
     let language = session.language();
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
     widgets::describe(&response, word!(language, "The ring", "O anel"), || {
-        let told = |node| {
-            let (name, does) = (node_name(node), activity_word(state.activity(node, now), language));
-            say!(language, "{name} is {does}", "{name} está {does}")
+        let text = |node| {
+            let (name, activity) = (node_name(node), activity_word(state.activity(node, now), language));
+            format!("{name}: {activity}")
         };
-        let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| told(node)).collect();
+        let nodes: Vec<_> = (0..).zip(state.nodes()).map(|(node, _)| text(node)).collect();
         nodes.join(", ")
     });
     let look = Look::of(ui.ctx());
     let inks = Inks { look, nodes: &stage.colours };
     let painter = ui.painter_at(rect.expand(4.0));
-    let drawn = RingOverlay {
+    let overlay = RingOverlay {
         summary: stage.result().copied(),
-        selected: focus.node(),
-        highlighted: lit.nodes.clone(),
-        message: lit.message,
+        selected: selection.node(),
+        highlighted: highlight.nodes.clone(),
+        message: highlight.message,
     };
     let layout = RingLayout::new(state.nodes().len(), rect.size().into(), language);
-    paint(&painter, rect.min, &ring(&layout, state, &drawn, now, language), &inks);
+    paint(&painter, rect.min, &ring(&layout, state, &overlay, now, language), &inks);
 
     let pointed = response.hover_pos().map(|at| -> Point { (at - rect.min).into() });
     let spot = pointed.and_then(|at| ring_at(&layout, at));
     let message = pointed.and_then(|at| message_at(&layout, state, now, at));
     if response.clicked() {
         match (message, spot) {
-            (Some(message), _) => focus.toggle(Subject::Message(message.id)),
-            (None, Some(RingSpot::Node(node))) => focus.toggle(Subject::Node(node)),
-            (None, _) => focus.selected = None,
+            (Some(message), _) => selection.toggle(Subject::Message(message.id)),
+            (None, Some(RingSpot::Node(node))) => selection.toggle(Subject::Node(node)),
+            (None, _) => selection.selected = None,
         }
     }
     match (message, spot) {
-        (Some(message), _) => focus.hover(Subject::Message(message.id)),
-        (None, Some(RingSpot::Node(node))) => focus.hover(Subject::Node(node)),
+        (Some(message), _) => selection.hover(Subject::Message(message.id)),
+        (None, Some(RingSpot::Node(node))) => selection.hover(Subject::Node(node)),
         (None, _) => {}
     }
-    // Messages fly over everything else.
-    let more = match (message, spot) {
+    // Messages are drawn on top, so they come first.
+    let tooltip = match (message, spot) {
         (Some(message), _) => Some((flight_words(message, language), Vec::new())),
         (None, Some(RingSpot::Node(node))) => {
             let name = node_name(node);
@@ -70,17 +71,17 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
         (None, None) => None,
     };
     if response.secondary_clicked() {
-        let subject = match (message, spot) {
+        let menu = match (message, spot) {
             (Some(message), _) => Some(RingMenu::Message(MessageInMenu::new(message, language))),
             (None, Some(RingSpot::Node(node))) => Some(RingMenu::Node(node)),
             (None, _) => None,
         };
-        ui.data_mut(|data| data.insert_temp(response.id, subject));
+        ui.data_mut(|data| data.insert_temp(response.id, menu));
     }
     if state.finished().is_none() {
-        corner(&painter, rect, drawing_notes(state, language), look);
+        small_print_corner(&painter, rect, drawing_notes(state, language), look);
     }
-    // For a room there is no bar at the top that tells it.
+    // Presentation mode has no top bar with the time.
     if Look::is_strong(painter.ctx()) {
         let time = time_words(stage.lasted(), stage.grain(), language);
         let font = theme::strong(theme::LARGE);
@@ -91,32 +92,32 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
         Some(RingMenu::Message(message)) => message_menu::on(&response, session, &message, look),
         None => {}
     }
-    if let Some((title, lines)) = more {
-        response.on_hover_ui_at_pointer(|ui| widgets::more_words(ui, &title, &lines, look));
+    if let Some((title, lines)) = tooltip {
+        response.on_hover_ui_at_pointer(|ui| widgets::tooltip_table(ui, &title, &lines, look));
     }
 }
 
-/// What the menu is about.
+/// Subject of the ring's context menu.
 #[derive(Clone)]
 enum RingMenu {
     Node(NodeId),
     Message(MessageInMenu),
 }
 
-/// What there is to know of the drawing itself, in its lower right corner.
-fn corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
+/// Paints the notes on the drawing in its lower right corner, as many lines as fit.
+fn small_print_corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
     let galley = |line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet);
     let galleys: Vec<_> = lines.into_iter().map(galley).collect();
-    // Where the corner is narrow the second line would run into the lowest node's label.
+    // In a narrow corner the second line would overlap the label of the lowest machine.
     let room = rect.width() / 2.0 - 64.0;
-    // And where it is low, a third line into the label above that; where it is very low, any line.
-    let most = match rect.height() {
+    // In a low one the third line would overlap the label above it, and in a very low one every line.
+    let max_lines = match rect.height() {
         height if height < 200.0 => 0,
         height if height < 360.0 => 2,
         _ => usize::MAX,
     };
     let mut corner = rect.right_bottom();
-    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(most) {
+    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(max_lines) {
         corner.y -= galley.size().y;
         painter.galley(corner - egui::vec2(galley.size().x, 0.0), galley, look.quiet);
     }

@@ -1,4 +1,4 @@
-//! The run's time in the user's hand: steps, how fast it goes, a line to drag along, and what is worth jumping to.
+//! The time bar: steps, playback rate, the line to drag, and the list of landmarks.
 
 use std::time::Duration;
 
@@ -12,57 +12,62 @@ use crate::gui::input::rate_menu;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, named_button, next_of, popup_frame};
+use crate::gui::widgets::{Emphasis, button, cycle, named_button, popup_frame};
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{Landmark, Marker, MarkerKind, StepUnit, condition_strokes, landmarks, time_words};
 
-/// How high the panel is.
-pub const HEIGHT: f32 = 4.0 * GRID;
+/// Height of the panel, in points.
+pub const HEIGHT_PT: f32 = 4.0 * GRID;
 
-/// By what one steps, and what was found in the run.
+/// The time bar.
 pub struct TimePanel {
     step: StepUnit,
-    /// What was found when the list was opened.
-    found: Vec<Landmark>,
-    /// The version of the run's lanes that it was found in, and the language.
-    found_in: (u64, Language),
-    /// The list is to be opened or closed.
-    toggles: bool,
-    is_finding: bool,
+    /// Landmarks of the run, found when the list was opened.
+    landmarks: Vec<Landmark>,
+    /// Version of the lanes, and language, of the landmarks.
+    landmarks_key: (u64, Language),
+    /// Whether the next frame opens or closes the list.
+    toggles_list: bool,
+    is_list_open: bool,
 }
 
 impl Default for TimePanel {
     fn default() -> Self {
-        let found_in = (0, Language::default());
-        Self { step: StepUnit::Event, found: Vec::new(), found_in, toggles: false, is_finding: false }
+        Self {
+            step: StepUnit::Event,
+            landmarks: Vec::new(),
+            landmarks_key: (0, Language::default()),
+            toggles_list: false,
+            is_list_open: false,
+        }
     }
 }
 
 impl TimePanel {
-    /// Opens or closes the list of what is worth jumping to.
+    /// Opens or closes the list of landmarks.
     pub fn toggle_find(&mut self) {
-        self.toggles = true;
+        self.toggles_list = true;
     }
 
-    /// Closes that list; returns what leads to what stands at this place of it.
-    pub fn choose(&mut self, place: usize) -> Option<UserCommand> {
+    /// Closes the list; returns the jump to the landmark at this index.
+    pub fn choose(&mut self, index: usize) -> Option<UserCommand> {
         self.toggle_find();
-        self.found.get(place).map(|mark| UserCommand::Jump(mark.records, mark.subject))
+        self.landmarks.get(index).map(|mark| UserCommand::Jump(mark.records, mark.subject))
     }
 
-    /// Whether that list is open, or about to be.
+    /// Whether the list is open, or opens in the next frame.
     pub fn is_finding(&self) -> bool {
-        self.is_finding || self.toggles
+        self.is_list_open || self.toggles_list
     }
 
-    /// Shows the panel and returns what was pressed.
+    /// Shows the panel. Returns the command of the pressed button.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, shows_timeline: bool) -> Option<UserCommand> {
         let language = session.language();
         let look = Look::of(ui.ctx());
         let mut pressed = None;
         ui.horizontal(|ui| {
-            ui.set_height(HEIGHT);
+            ui.set_height(HEIGHT_PT);
             ui.spacing_mut().item_spacing.x = GRID / 2.0;
             let can = session.stage().phase != Phase::Preparing;
             ui.add_enabled_ui(can, |ui| {
@@ -73,102 +78,103 @@ impl TimePanel {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
-                let weight = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
-                let words = (ui.available_width() > 760.0).then_some(word!(language, "Timeline", "Linha do tempo"));
+                let emphasis = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
+                let text = (ui.available_width() > 760.0).then_some(word!(language, "Timeline", "Linha do tempo"));
                 let name = word!(language, "Show the timeline", "Mostrar a linha do tempo");
                 let hint = word!(
                     language,
-                    "Who did what and when, in place of the machines (T)",
-                    "Quem fez o quê e quando, no lugar das máquinas (T)"
+                    "Show what each machine did and when, or the machines again (T)",
+                    "Mostrar o que cada máquina fez e quando, ou de novo as máquinas (T)"
                 );
-                let timeline = named_button(ui, Some(Icon::Lanes), name, words, weight);
+                let timeline = named_button(ui, Some(Icon::Lanes), name, text, emphasis);
                 if timeline.on_hover_text(hint).clicked() {
                     pressed = Some(UserCommand::Timeline);
                 }
                 pressed = pressed.or(live(ui, session.stage(), look, language));
                 ui.add_space(GRID);
                 let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-                pressed = pressed.or(arrows(ui, &response, self.step));
+                pressed = pressed.or(arrow_keys(ui, &response, self.step));
                 line(ui, rect, response, session, look);
             });
         });
         pressed
     }
 
-    /// Back, by what, and on.
+    /// Shows the buttons of the steps: back, unit, forward.
     fn steps(&mut self, ui: &mut Ui, language: Language) -> Option<UserCommand> {
         let step = self.step;
         let mut pressed = None;
-        let (name, [back_keys, on_keys]) = (step.name(language), ['←', '→'].map(|arrow| keys(step, arrow)));
+        let (name, [back_keys, forward_keys]) = (step.name(language), ['←', '→'].map(|arrow| keys(step, arrow)));
         let back =
             button(ui, Some(Icon::StepBack), word!(language, "Step back", "Passo atrás"), false, Emphasis::Quiet);
-        let hint = say!(language, "Back by one {name} ({back_keys})", "Voltar: {name} ({back_keys})");
+        let hint = say!(language, "To the previous {name} ({back_keys})", "Voltar: {name} ({back_keys})");
         if back.on_hover_text(hint).clicked() {
-            pressed = Some(UserCommand::StepUnit(step, false));
+            pressed = Some(UserCommand::Step(step, false));
         }
-        let by =
-            named_button(ui, None, word!(language, "What a step is", "O que é um passo"), Some(name), Emphasis::Quiet);
+        let unit =
+            named_button(ui, None, word!(language, "Unit of a step", "Unidade do passo"), Some(name), Emphasis::Quiet);
         let hint = word!(
             language,
-            "Event: a message, or a hand on the run. Atom: one is traced. Lap: a machine's own offer goes off. Press to \
-             change",
-            "Evento: uma mensagem, ou uma intervenção. Átomo: um é calculado. Volta: a oferta de uma máquina parte. \
-             Pressionar para mudar"
+            "Event: a message or a change by the user. Atom: an atom is traced. Lap: a machine makes an offer. Press to \
+            change",
+            "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina faz uma oferta. \
+            Pressione para mudar"
         );
-        if by.on_hover_text(hint).clicked() {
-            self.step = next_of(&StepUnit::ALL, step);
+        if unit.on_hover_text(hint).clicked() {
+            self.step = cycle(&StepUnit::ALL, step);
         }
-        let on = button(ui, Some(Icon::StepOn), word!(language, "Step on", "Passo adiante"), false, Emphasis::Quiet);
-        let hint = say!(language, "On by one {name} ({on_keys})", "Avançar: {name} ({on_keys})");
-        if on.on_hover_text(hint).clicked() {
-            pressed = Some(UserCommand::StepUnit(step, true));
+        let forward =
+            button(ui, Some(Icon::StepOn), word!(language, "Step forward", "Passo adiante"), false, Emphasis::Quiet);
+        let hint = say!(language, "To the next {name} ({forward_keys})", "Avançar: {name} ({forward_keys})");
+        if forward.on_hover_text(hint).clicked() {
+            pressed = Some(UserCommand::Step(step, true));
         }
         pressed
     }
 
-    /// What is worth jumping to.
+    /// Shows the button and the list of landmarks.
     fn find(&mut self, ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
         let language = session.language();
-        let weight = if self.is_finding { Emphasis::On } else { Emphasis::Quiet };
+        let emphasis = if self.is_list_open { Emphasis::On } else { Emphasis::Quiet };
         let hint = word!(
             language,
-            "The first offer, the biggest transfer … (F)",
-            "A primeira oferta, a maior transferência … (F)"
+            "Jump to the first offer, the biggest transfer … (F)",
+            "Ir à primeira oferta, à maior transferência … (F)"
         );
-        let find = button(ui, None, word!(language, "Find", "Achar"), true, weight).on_hover_text(hint);
+        let find = button(ui, None, word!(language, "Find", "Achar"), true, emphasis).on_hover_text(hint);
         let id = Popup::default_response_id(&find);
-        if std::mem::take(&mut self.toggles) {
+        if std::mem::take(&mut self.toggles_list) {
             Popup::toggle_id(ui.ctx(), id);
         }
-        let was_open = self.is_finding;
+        let was_open = self.is_list_open;
         let popup = Popup::from_toggle_button_response(&find).frame(popup_frame(ui.ctx()));
         let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClick).show(|ui| {
-            let known = (session.stage().lanes().version(), language);
-            if !was_open || self.found_in != known {
-                (self.found, self.found_in) = (landmarks(&session.stage().log, language), known);
-                let told = session.stage().told_length();
-                self.found.retain(|mark| mark.at <= told);
+            let key = (session.stage().lanes().version(), language);
+            if !was_open || self.landmarks_key != key {
+                (self.landmarks, self.landmarks_key) = (landmarks(&session.stage().log, language), key);
+                let shown_length = session.stage().told_length();
+                self.landmarks.retain(|mark| mark.at <= shown_length);
             }
             ui.set_width(54.0 * GRID);
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
             let mut chosen = None;
-            for (place, mark) in self.found.iter().enumerate() {
-                if entry(ui, (place + 1, mark), session.stage().grain(), look, language).clicked() {
+            for (index, mark) in self.landmarks.iter().enumerate() {
+                if entry(ui, (index + 1, mark), session.stage().grain(), look, language).clicked() {
                     chosen = Some(UserCommand::Jump(mark.records, mark.subject));
                 }
             }
-            if self.found.is_empty() {
-                let text = word!(language, "Nothing has happened yet", "Nada aconteceu ainda");
+            if self.landmarks.is_empty() {
+                let text = word!(language, "There is nothing to find yet", "Ainda não há nada para achar");
                 ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
             }
             chosen
         });
-        self.is_finding = shown.is_some();
+        self.is_list_open = shown.is_some();
         shown.and_then(|shown| shown.inner)
     }
 }
 
-/// The key for a step.
+/// Returns the keys of a step.
 fn keys(step: StepUnit, arrow: char) -> String {
     match step {
         StepUnit::Event => arrow.to_string(),
@@ -177,7 +183,7 @@ fn keys(step: StepUnit, arrow: char) -> String {
     }
 }
 
-/// A line of the list: what it is, and when.
+/// Shows a landmark of the list: its number, its text and its time.
 fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look, language: Language) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.5 * GRID), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &mark.words));
@@ -195,27 +201,27 @@ fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look,
     response
 }
 
-/// Back to what happens now, or to the end.
+/// Shows the button that follows the run or shows its end.
 fn live(ui: &mut Ui, stage: &Stage, look: Look, language: Language) -> Option<UserCommand> {
     let runs = matches!(stage.phase, Phase::Running | Phase::Preparing);
     let (name, hint) = if runs {
-        word!(language, ("Live", "What happens now (L)"), ("Ao vivo", "O que acontece agora (L)"))
+        word!(language, ("Live", "Show the present (L)"), ("Ao vivo", "Mostrar o presente (L)"))
     } else {
-        word!(language, ("End", "The end of the run (L)"), ("Fim", "O fim da execução (L)"))
+        word!(language, ("End", "Show the end of the run (L)"), ("Fim", "Mostrar o fim da execução (L)"))
     };
-    let is_there = if runs { stage.is_live() } else { stage.shows_end() };
-    let weight = if is_there { Emphasis::On } else { Emphasis::Quiet };
+    let is_on = if runs { stage.is_live() } else { stage.shows_end() };
+    let emphasis = if is_on { Emphasis::On } else { Emphasis::Quiet };
     let icon = if runs { Icon::Live } else { Icon::End };
-    let response = button(ui, Some(icon), name, true, weight).on_hover_text(hint);
-    // A run that has left the shown time behind is not to be forgotten.
-    if runs && !is_there {
+    let response = button(ui, Some(icon), name, true, emphasis).on_hover_text(hint);
+    // A dot reminds the user that the run is ahead of the shown time.
+    if runs && !is_on {
         ui.painter().circle_filled(response.rect.right_top() + vec2(-4.0, 4.0), 3.0, look.accent);
     }
     response.clicked().then_some(UserCommand::Live)
 }
 
-/// Whoever has come to the line with the keyboard makes steps by its arrows.
-fn arrows(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserCommand> {
+/// Returns the step of an arrow key while the line has the keyboard focus.
+fn arrow_keys(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserCommand> {
     if !response.has_focus() {
         return None;
     }
@@ -223,10 +229,10 @@ fn arrows(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserCommand> {
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let pressed = |key| ui.input(|input| input.key_pressed(key));
     let forward = pressed(Key::ArrowRight);
-    (forward || pressed(Key::ArrowLeft)).then_some(UserCommand::StepUnit(step, forward))
+    (forward || pressed(Key::ArrowLeft)).then_some(UserCommand::Step(step, forward))
 }
 
-/// The line along which one drags, with what stands out.
+/// Shows the line to drag along, with its markers.
 fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Look) {
     let language = session.language();
     let length = session.stage().told_length();
@@ -264,45 +270,45 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     painter.rect_filled(rail, 2.0, look.hairline);
     painter.rect_filled(rail.with_max_x(x(now)), 2.0, look.accent.gamma_multiply(0.8));
     let mut last_retired = f32::NEG_INFINITY;
-    let shown = |sign: &&Marker| !stage.hides_later || sign.at <= now;
-    for sign in stage.signs().all().iter().filter(shown) {
-        // Many retire at about one time.
-        if matches!(sign.kind, MarkerKind::Retired(_)) {
-            if x(sign.at) < last_retired + 7.0 {
+    let shown = |marker: &&Marker| !stage.hides_later || marker.at <= now;
+    for marker in stage.signs().all().iter().filter(shown) {
+        // Many machines retire at about the same time: overlapping markers are left out.
+        if matches!(marker.kind, MarkerKind::Retired(_)) {
+            if x(marker.at) < last_retired + 7.0 {
                 continue;
             }
-            last_retired = x(sign.at);
+            last_retired = x(marker.at);
         }
-        draw_sign(painter, pos2(x(sign.at), rail.center().y), sign, stage, look);
+        draw_marker(painter, pos2(x(marker.at), rail.center().y), marker, stage, look);
     }
     let handle = pos2(x(now), rail.center().y);
-    let grown = if response.hovered() || response.dragged() { 8.0 } else { 6.5 };
-    painter.circle(handle, grown, look.accent, Stroke::new(2.0, look.text));
+    let handle_radius = if response.hovered() || response.dragged() { 8.0 } else { 6.5 };
+    painter.circle(handle, handle_radius, look.accent, Stroke::new(2.0, look.text));
     if response.has_focus() {
-        painter.circle_stroke(handle, grown + 3.0, Stroke::new(1.5, look.accent));
+        painter.circle_stroke(handle, handle_radius + 3.0, Stroke::new(1.5, look.accent));
     }
     if let Some(at) = response.hover_pos().filter(|_| length > Time::ZERO) {
         let pointed = time_at(at);
         let reach = Duration::from_secs_f64(length.secs() * f64::from(6.0 / rail.width().max(1.0)));
-        let mut words = vec![time_words(pointed, grain * 0.1, language)];
-        words.extend(
+        let mut lines = vec![time_words(pointed, grain * 0.1, language)];
+        lines.extend(
             stage
                 .signs()
                 .near(pointed, reach)
                 .into_iter()
                 .filter(shown)
                 .take(3)
-                .map(|sign| sign.happening.sentence(language)),
+                .map(|marker| marker.happening.sentence(language)),
         );
-        response.on_hover_text_at_pointer(words.join("\n"));
+        response.on_hover_text_at_pointer(lines.join("\n"));
     }
 }
 
-/// A sign above or below the line: a wedge for a speed, bars for a pause, a ring for a machine that retired.
-fn draw_sign(painter: &Painter, at: Pos2, sign: &Marker, stage: &Stage, look: Look) {
+/// Paints a marker above or below the line: a wedge for a speed, bars for a pause, a circle for a retired machine.
+fn draw_marker(painter: &Painter, at: Pos2, marker: &Marker, stage: &Stage, look: Look) {
     let own = |node: u16| stage.colours.get(usize::from(node)).map_or(look.text, |&rgb| theme::colour(rgb));
     let above = at - vec2(0.0, 9.0);
-    match sign.kind {
+    match marker.kind {
         MarkerKind::Speed(node) => {
             let corners = vec![above + vec2(-4.0, -4.0), above + vec2(4.0, -4.0), above + vec2(0.0, 3.0)];
             painter.add(Shape::convex_polygon(corners, own(node), Stroke::NONE));
@@ -314,9 +320,9 @@ fn draw_sign(painter: &Painter, at: Pos2, sign: &Marker, stage: &Stage, look: Lo
             }
         }
         MarkerKind::Condition(node, condition) => {
-            const REACH: f32 = 3.6;
+            const HALF_SIZE_PT: f32 = 3.6;
             for stroke in condition_strokes(condition) {
-                let points = stroke.map(|point| above + REACH * egui::Vec2::from(point));
+                let points = stroke.map(|point| above + HALF_SIZE_PT * egui::Vec2::from(point));
                 painter.line_segment(points, Stroke::new(1.75, own(node)));
             }
         }

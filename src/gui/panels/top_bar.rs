@@ -1,4 +1,4 @@
-//! The bar at the top: what runs, how long, and what to press.
+//! The top bar: scene, run, time and main buttons.
 
 use egui::{Align, Color32, Label, Layout, RichText, TextStyle, Ui};
 
@@ -12,50 +12,49 @@ use crate::runlog::Driver;
 use crate::sentence::shown;
 use crate::view::{Sharing, count, time_words};
 
-/// What is open, and so shown as pressed.
+/// Which pages and panels are open; their buttons are shown as pressed.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Open {
-    /// The scenes.
+pub struct OpenPages {
+    /// The Scenes page.
     pub scenes: bool,
-    /// Speed against accuracy.
+    /// The Accuracy page.
     pub accuracy: bool,
-    /// Runs beside each other.
+    /// The Compare page.
     pub compare: bool,
-    /// The lessons.
+    /// The list of lessons, or a lesson.
     pub learn: bool,
-    /// What can be set.
+    /// The settings.
     pub setup: bool,
-    /// Saving.
+    /// The save bar.
     pub save: bool,
 }
 
-/// Shows the bar and returns what was pressed.
-pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<UserCommand> {
+/// Shows the bar. Returns the command of the pressed button.
+pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserCommand> {
     let language = session.language();
     let look = Look::of(ui.ctx());
     let width = ui.available_width();
-    let worded = worded(ui, width, language);
-    // All buttons have room for their words.
-    let wide = worded == WORDED;
+    let labelled = labelled_buttons(ui, width, language);
+    let is_wide = labelled == FLEXIBLE_BUTTONS;
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
         ui.label(RichText::new("anel").font(theme::strong(theme::LARGE)).color(look.text));
         ui.add_space(GRID);
         let name = session.header().scene.as_str();
-        let shown: String = name.chars().take(if wide { 24 } else { 14 }).collect();
+        let shown: String = name.chars().take(if is_wide { 24 } else { 14 }).collect();
         let scenes = word!(language, "Scenes", "Cenas");
         let shown = if shown.is_empty() { scenes } else { &shown };
-        let weight = if open.scenes { Emphasis::On } else { Emphasis::Quiet };
-        // Buttons and time come first.
+        let emphasis = if open.scenes { Emphasis::On } else { Emphasis::Quiet };
+        // In a narrow bar the other buttons and the time need the room.
         let shown = Some(shown).filter(|_| width > 860.0);
-        if named_button(ui, Some(Icon::Scenes), scenes, shown, weight).on_hover_text(hint(session)).clicked() {
+        if named_button(ui, Some(Icon::Scenes), scenes, shown, emphasis).on_hover_text(hint(session)).clicked() {
             clicked = Some(UserCommand::Scenes);
         }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
-            clicked = clicked.or(buttons(ui, session, worded, open));
-            ui.add_space(if wide { 2.0 * GRID } else { GRID });
+            clicked = clicked.or(buttons(ui, session, labelled, open));
+            ui.add_space(if is_wide { 2.0 * GRID } else { GRID });
             let time = time_words(session.stage().lasted(), session.stage().grain(), language);
             let font = theme::strong(theme::LARGE);
             let needed = ui.painter().layout_no_wrap(time.clone(), font.clone(), look.text).size().x;
@@ -66,29 +65,33 @@ pub fn show(ui: &mut Ui, session: &Session, open: Open) -> Option<UserCommand> {
                 ui.label(quiet(state.into(), look.quiet));
             }
             ui.add_space(2.0 * GRID);
-            // What is left over between name and time.
+            // The room that is left between name and time.
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let what = what(ui, session);
-                ui.add(Label::new(quiet(what, look.quiet)).truncate());
+                let run = run_text(ui, session);
+                ui.add(Label::new(quiet(run, look.quiet)).truncate());
             });
         });
     });
     clicked
 }
 
-/// What the scene's button does, and what is said of the run.
+/// Returns the tooltip of the scene's button: what it does, and title, memo and computer of the run.
 fn hint(session: &Session) -> String {
     let language = session.language();
-    let open = word!(language, "Open a scene or a recorded run (O)", "Abrir uma cena ou uma execução gravada (O)");
+    let open = word!(
+        language,
+        "Open a scene, a lesson or a recorded run (O)",
+        "Abrir uma cena, lição ou execução gravada (O)"
+    );
     let first = std::iter::once(open);
     first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 
-/// How many buttons have words only where there is room for them.
-const WORDED: usize = 5;
+/// Number of buttons that have a text only where there is room for it.
+const FLEXIBLE_BUTTONS: usize = 5;
 
-/// Those buttons, first those that keep their words longest.
-fn names(language: Language) -> [&'static str; WORDED] {
+/// Returns the texts of the flexible buttons; in a narrowing bar the last one loses its text first.
+fn names(language: Language) -> [&'static str; FLEXIBLE_BUTTONS] {
     word!(
         language,
         ["Learn", "Compare", "Set up", "Save…", "Accuracy"],
@@ -96,44 +99,45 @@ fn names(language: Language) -> [&'static str; WORDED] {
     )
 }
 
-/// How many of them have words in a bar of this width.
-fn worded(ui: &Ui, width: f32, language: Language) -> usize {
-    // What all else needs.
+/// Returns how many of the flexible buttons have a text in a bar of this width.
+fn labelled_buttons(ui: &Ui, width: f32, language: Language) -> usize {
+    // Everything else needs this width.
     let mut room = width - word!(language, 886.0, 906.0);
     let font = TextStyle::Button.resolve(ui.style());
     let has_room = |name: &&str| {
-        let words = ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
-        room -= words.size().x + 2.0 * GRID;
+        let galley = ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
+        room -= galley.size().x + 2.0 * GRID;
         room >= 0.0
     };
     names(language).into_iter().take_while(has_room).count()
 }
 
-/// From right to left; so many have words.
-fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<UserCommand> {
+/// Shows the buttons from right to left; the first `labelled` flexible ones have a text. Returns the command of the
+/// pressed button.
+fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> Option<UserCommand> {
     let language = session.language();
     let mut clicked = None;
     let [learn, compare, set_up, save, accuracy] = names(language);
-    let words = |name| names(language)[..worded].contains(&name);
-    let mut press = |icon, name, words, weight, command, hint: &str| {
-        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+    let has_text = |name| names(language)[..labelled].contains(&name);
+    let mut press = |icon, name, has_text, emphasis, command, hint: &str| {
+        if button(ui, Some(icon), name, has_text, emphasis).on_hover_text(hint).clicked() {
             clicked = Some(command);
         }
     };
     let shown = |open: bool| if open { Emphasis::On } else { Emphasis::Quiet };
-    let hint = word!(language, "Which key does what (F1)", "Que tecla faz o quê (F1)");
+    let hint = word!(language, "List of all keys (F1)", "Lista de todas as teclas (F1)");
     press(Icon::Help, word!(language, "Help", "Ajuda"), false, Emphasis::Quiet, UserCommand::Help, hint);
     let other = language.other();
     let switch = named_button(ui, None, other.name(), Some(other.short_name()), Emphasis::Quiet);
     if switch.on_hover_text(word!(language, "Em português (Shift L)", "In English (Shift L)")).clicked() {
         clicked = Some(UserCommand::Language);
     }
-    let mut press = |icon, name, words, weight, command, hint: &str| {
-        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+    let mut press = |icon, name, has_text, emphasis, command, hint: &str| {
+        if button(ui, Some(icon), name, has_text, emphasis).on_hover_text(hint).clicked() {
             clicked = Some(command);
         }
     };
-    let hint = word!(language, "Dark or light (D)", "Escuro ou claro (D)");
+    let hint = word!(language, "Dark or light colours (D)", "Cores escuras ou claras (D)");
     press(
         Icon::Contrast,
         word!(language, "Dark or light", "Escuro ou claro"),
@@ -142,67 +146,70 @@ fn buttons(ui: &mut Ui, session: &Session, worded: usize, open: Open) -> Option<
         UserCommand::Theme,
         hint,
     );
-    let hint = word!(language, "Save a picture, or the run (S)", "Salvar uma imagem, ou a execução (S)");
-    press(Icon::Save, save, words(save), shown(open.save), UserCommand::Save, hint);
-    let hint = word!(language, "What other qualities cost (A)", "O que custam outras qualidades (A)");
-    press(Icon::Chart, accuracy, words(accuracy), shown(open.accuracy), UserCommand::Accuracy, hint);
+    let hint = word!(language, "Save a picture or the run (S)", "Salvar uma imagem ou a execução (S)");
+    press(Icon::Save, save, has_text(save), shown(open.save), UserCommand::Save, hint);
+    let hint =
+        word!(language, "Measure error and time of other qualities (A)", "Medir erro e tempo de outras qualidades (A)");
+    press(Icon::Chart, accuracy, has_text(accuracy), shown(open.accuracy), UserCommand::Accuracy, hint);
     let hint = word!(language, "Lessons with questions (N)", "Lições com perguntas (N)");
-    press(Icon::Learn, learn, words(learn), shown(open.learn), UserCommand::Learn, hint);
-    let hint = word!(language, "The same run by other strategies (K)", "A mesma execução com outras estratégias (K)");
-    press(Icon::Compare, compare, words(compare), shown(open.compare), UserCommand::Compare, hint);
-    let hint = word!(language, "Machines, picture, strategy (E)", "Máquinas, imagem, estratégia (E)");
-    press(Icon::Sliders, set_up, words(set_up), shown(open.setup), UserCommand::Setup, hint);
+    press(Icon::Learn, learn, has_text(learn), shown(open.learn), UserCommand::Learn, hint);
+    let hint =
+        word!(language, "Compare the run with other strategies (K)", "Comparar a execução com outras estratégias (K)");
+    press(Icon::Compare, compare, has_text(compare), shown(open.compare), UserCommand::Compare, hint);
+    let hint = word!(language, "Set machines, strategy and picture (E)", "Ajustar máquinas, estratégia e imagem (E)");
+    press(Icon::Sliders, set_up, has_text(set_up), shown(open.setup), UserCommand::Setup, hint);
     ui.add_enabled_ui(session.history().can_undo(), |ui| {
         let button = button(ui, Some(Icon::Undo), word!(language, "Undo", "Desfazer"), false, Emphasis::Quiet);
         let hint = word!(
             language,
-            "Take back the last change of a speed or of what is set (Ctrl Z)",
+            "Undo the last change of a speed or a setting (Ctrl Z)",
             "Desfazer a última mudança de velocidade ou de ajuste (Ctrl Z)"
         );
         if button.on_hover_text(hint).clicked() {
             clicked = Some(UserCommand::Undo);
         }
     });
-    let mut press = |icon, name, words, weight, command, hint: &str| {
-        if button(ui, Some(icon), name, words, weight).on_hover_text(hint).clicked() {
+    let mut press = |icon, name, has_text, emphasis, command, hint: &str| {
+        if button(ui, Some(icon), name, has_text, emphasis).on_hover_text(hint).clicked() {
             clicked = Some(command);
         }
     };
-    // The two to press first keep their words.
-    let over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
-    let weight = |first: bool| if first { Emphasis::Primary } else { Emphasis::Quiet };
+    // The two main buttons always have a text.
+    let is_over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
+    let emphasis = |is_main: bool| if is_main { Emphasis::Primary } else { Emphasis::Quiet };
     let hint = if session.is_recorded() {
         word!(
             language,
-            "From its beginning (R); Set up can make it live",
-            "Do início (R); em Ajustar pode tornar-se ao vivo"
+            "Play the recorded run from its beginning (R). Set up can make it live",
+            "Repetir a execução gravada do início (R). Ajustar pode executá-la ao vivo"
         )
     } else {
-        word!(language, "A new run, with what is set (R)", "Uma nova execução, com o que está ajustado (R)")
+        word!(
+            language,
+            "Start a new run with the present settings (R)",
+            "Iniciar uma nova execução com os ajustes atuais (R)"
+        )
     };
-    let (name, weight_now) = (word!(language, "Restart", "Reiniciar"), weight(over && session.stage().shows_end()));
-    press(Icon::Restart, name, true, weight_now, UserCommand::Restart, hint);
+    let name = word!(language, "Restart", "Reiniciar");
+    press(Icon::Restart, name, true, emphasis(is_over && session.stage().shows_end()), UserCommand::Restart, hint);
     let stage = session.stage();
     let (icon, name) = match stage.goes_on() {
         _ if stage.is_at_end() => (Icon::Play, word!(language, "Play again", "Repetir")),
         true => (Icon::Pause, word!(language, "Pause", "Pausar")),
         false if stage.phase == Phase::Preparing => (Icon::Pause, word!(language, "Pause", "Pausar")),
-        false => (Icon::Play, word!(language, "Go on", "Continuar")),
+        false => (Icon::Play, word!(language, "Resume", "Continuar")),
     };
     let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
     ui.add_enabled_ui(can, |ui| {
-        let button = button(ui, Some(icon), name, true, weight(!over || !stage.shows_end()));
-        if button
-            .on_hover_text(word!(language, "Stand still or go on (space)", "Parar ou continuar (espaço)"))
-            .clicked()
-        {
+        let button = button(ui, Some(icon), name, true, emphasis(!is_over || !stage.shows_end()));
+        if button.on_hover_text(word!(language, "Pause or resume (space)", "Pausar ou continuar (espaço)")).clicked() {
             clicked = Some(UserCommand::Pause);
         }
     });
     clicked
 }
 
-/// What is to be said before the shown time.
+/// Returns the text before the shown time; `None` while the run is live.
 fn time_state(session: &Session) -> Option<&'static str> {
     let language = session.language();
     let stage = session.stage();
@@ -212,18 +219,18 @@ fn time_state(session: &Session) -> Option<&'static str> {
         (true, false, true) => Some(word!(language, "earlier", "antes")),
         (false, false, true) => Some(word!(language, "again", "de novo")),
         (_, false, false) if stage.shows_end() => None,
-        (_, false, false) => Some(word!(language, "stands at", "parado em")),
+        (_, false, false) => Some(word!(language, "stopped at", "parado em")),
     }
 }
 
-/// What runs, in as many words as fit.
-fn what(ui: &Ui, session: &Session) -> String {
+/// Describes the run in one line: recorded or not, title, strategy, machines, and as much about the picture as fits.
+fn run_text(ui: &Ui, session: &Session) -> String {
     let language = session.language();
     let header = session.header();
     let machines = Sharing::of(header).machines(header.speeds.len(), language);
-    let virtually =
+    let virtual_time =
         if header.driver == Driver::Sim { word!(language, " · virtual time", " · tempo virtual") } else { "" };
-    let machines = format!("{machines}{virtually}");
+    let machines = format!("{machines}{virtual_time}");
     let title = &header.caption.title;
     let machines = if title.is_empty() { machines } else { format!("“{}” · {machines}", shown(title, 60)) };
     let machines = if session.is_recorded() {

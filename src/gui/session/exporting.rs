@@ -1,4 +1,4 @@
-//! The job that makes what takes its time: pictures of another size, films, drawings, tables.
+//! The job that exports what takes long: pictures of another size, animations, drawings, tables.
 
 use std::fs::File;
 use std::io::{self, BufWriter};
@@ -8,23 +8,23 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::Session;
 use super::job_result::JobResult;
-use super::jobs::told;
+use super::jobs::save_message;
 use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::say;
-use crate::output::{OutputError, write_whole};
+use crate::output::write_whole;
 use crate::picture::{Frame, Quality, Size, write_png};
 use crate::runlog::RunLog;
 use crate::scene::Scene;
 use crate::tracer::Tracer;
 
-/// What is made of what is shown.
+/// A file to make from the run on the stage or from compared runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Export {
-    /// The picture, traced anew.
+    /// The picture, traced again at this size and quality.
     Picture(Size, Quality),
-    /// The ring or the timeline: as PNG if the file is named so, else as SVG.
+    /// The ring or the timeline: PNG if the file name says so, else SVG.
     Drawing(Drawing),
     /// The run as an animation.
     Film(Film),
@@ -32,99 +32,101 @@ pub enum Export {
     Table,
     /// The records for Perfetto.
     Chrome,
-    /// Where the time of compared runs went: as PNG if the file is named so, else as SVG.
+    /// The time budgets of compared runs as bars: PNG if the file name says so, else SVG.
     Bars(Comparison),
     /// Compared runs as CSV.
     Rows(Comparison),
 }
 
-/// What is being made.
+/// The export in progress.
 pub(super) struct ExportJob {
     job: u64,
     name: String,
-    since: f64,
-    part: f64,
-    /// Dropping it ends the job.
+    /// egui's clock at the start, in seconds.
+    started: f64,
+    /// Share that is done, 0 to 1.
+    share: f64,
+    /// Dropping it cancels the job.
     _cancel: CancelOnDrop,
 }
 
-/// What the job is made of.
+/// Error of a cancelled job. The session ignores its result, so nobody reads it.
+const CANCELLED: &str = "cancelled";
+
+/// Input of the job.
 struct ExportSource {
     log: RunLog,
-    /// The picture, if all that is known of it is there.
+    /// The picture as far as it is traced; `None` if it has to be traced for the export.
     frame: Option<Frame>,
 }
 
-/// What a job needs besides its source: how to tell the part that is done, and whether to end.
+/// Progress and cancellation of an export.
 #[derive(Clone, Copy)]
 struct ExportContext<'a> {
-    tell: &'a (dyn Fn(f64) + Sync),
+    /// Takes the share that is done, 0 to 1.
+    progress: &'a (dyn Fn(f64) + Sync),
     cancel: &'a CancelToken,
 }
 
 impl Session {
-    /// Makes it in the background and writes it to `path`.
+    /// Starts the job that makes the file `path`.
     pub fn export(&mut self, path: PathBuf, export: Export) {
         let language = self.language;
-        if let Some(ExportJob { name, .. }) = &self.making {
+        if let Some(ExportJob { name, .. }) = &self.export_job {
             return self.trouble(say!(
                 language,
-                "{name} is still being made: cancel it first",
-                "{name} ainda está sendo feito: cancele antes"
+                "{name} is still being written. Wait, or cancel it first",
+                "{name} ainda está sendo gravado. Espere, ou cancele antes"
             ));
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        // The picture of a recorded run is traced again while it is shown.
-        let is_known = !self.is_recorded() || self.stage.performer.has_ended();
-        let source = ExportSource { log: self.stage.log.clone(), frame: is_known.then(|| self.stage.frame.clone()) };
+        // The picture of a recorded run may still be being traced.
+        let has_picture = !self.is_recorded() || self.stage.performer.has_ended();
+        let source = ExportSource { log: self.stage.log.clone(), frame: has_picture.then(|| self.stage.frame.clone()) };
         let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
         let cancel = owner.token();
-        // What was said of the file before would cover how far this one is.
+        // An older notice would hide the progress.
         self.notice = None;
-        self.making = Some(ExportJob { job, name, since: self.clock, part: 0.0, _cancel: owner });
-        let failed = move |why| JobResult::Made(job, Err(why));
-        self.jobs.start_many(language, "export", failed, move |tell| {
+        self.export_job = Some(ExportJob { job, name, started: self.clock, share: 0.0, _cancel: owner });
+        let failed = move |why| JobResult::Exported(job, Err(why));
+        self.jobs.start_many(language, "export", failed, move |send| {
             let percent = AtomicU32::new(0);
-            let tell_part = |part: f64| {
-                let now = (100.0 * part) as u32;
-                // The window need not hear more often.
+            let progress = |share: f64| {
+                let now = (100.0 * share) as u32;
+                // One message for each percent is enough for the window.
                 if percent.fetch_max(now, Ordering::Relaxed) < now {
-                    tell(JobResult::Progress(job, part));
+                    send(JobResult::Progress(job, share));
                 }
             };
-            let made = source.make(&path, export, ExportContext { tell: &tell_part, cancel: &cancel });
-            tell(JobResult::Made(job, made.and_then(|written| told(&path, written, language))));
+            let result = source.write(&path, export, ExportContext { progress: &progress, cancel: &cancel });
+            send(JobResult::Exported(job, save_message(&path, result, language)));
         });
     }
 
-    /// What is being made, how many seconds already, and what part of it is done.
-    pub fn making(&self) -> Option<(&str, f64, f64)> {
-        self.making.as_ref().map(|making| (&*making.name, self.clock - making.since, making.part))
+    /// Returns the name of the file that is being exported, the elapsed seconds, and the share that is done (0 to 1).
+    pub fn export_progress(&self) -> Option<(&str, f64, f64)> {
+        self.export_job.as_ref().map(|export| (&*export.name, self.clock - export.started, export.share))
     }
 
-    /// Gives up what is being made; nothing of it is kept.
-    pub fn stop_making(&mut self) {
+    /// Cancels the export; no part of the file stays.
+    pub fn cancel_export(&mut self) {
         let language = self.language;
-        if let Some(ExportJob { name, .. }) = self.making.take() {
-            self.note(say!(
-                language,
-                "Cancelled: nothing of {name} was kept",
-                "Cancelado: nada de {name} foi guardado"
-            ));
+        if let Some(ExportJob { name, .. }) = self.export_job.take() {
+            self.note(say!(language, "Cancelled: {name} was not saved", "Cancelado: {name} não foi salvo"));
         }
     }
 
-    pub(super) fn progress(&mut self, job: u64, part: f64) {
-        if let Some(making) = self.making.as_mut().filter(|making| making.job == job) {
-            making.part = part;
+    pub(super) fn take_progress(&mut self, job: u64, share: f64) {
+        if let Some(export) = self.export_job.as_mut().filter(|export| export.job == job) {
+            export.share = share;
         }
     }
 
-    pub(super) fn made(&mut self, job: u64, made: Result<String, String>) {
-        // What was given up may end later.
-        if self.making.take_if(|making| making.job == job).is_some() {
-            match made {
-                Ok(said) => self.note(said),
+    pub(super) fn take_exported(&mut self, job: u64, result: Result<String, String>) {
+        // A cancelled job may still report its end.
+        if self.export_job.take_if(|export| export.job == job).is_some() {
+            match result {
+                Ok(message) => self.note(message),
                 Err(why) => self.trouble(why),
             }
         }
@@ -132,20 +134,20 @@ impl Session {
 }
 
 impl ExportSource {
-    /// Makes it and writes it.
+    /// Makes the file.
     ///
     /// # Errors
-    /// A sentence, if it cannot be made; within it what writing came to.
-    fn make(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<Result<(), OutputError>, String> {
-        let ExportContext { tell, cancel } = context;
+    /// A sentence, if the picture cannot be traced or the file cannot be written.
+    fn write(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<(), String> {
+        let ExportContext { progress, cancel } = context;
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
-        Ok(match export {
+        let written = match export {
             Export::Picture(size, quality) => {
                 let tracer = self.tracer(size, quality)?;
-                let rgb = trace_strips(&tracer, tell, cancel).map_err(|error| error.to_string())?;
-                write_png(path, size, &rgb.ok_or("it was stopped")?)
+                let rgb = trace_strips(&tracer, progress, cancel).map_err(|error| error.to_string())?;
+                write_png(path, size, &rgb.ok_or(CANCELLED)?)
             }
             Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
             Export::Bars(comparison) => write(&|file| comparison.write_bars(file, is_png)),
@@ -153,31 +155,32 @@ impl ExportSource {
             Export::Film(film) => {
                 let frame = match &self.frame {
                     Some(frame) => frame.clone(),
-                    None => self.traced(cancel)?,
+                    None => self.trace(cancel)?,
                 };
                 write(&|file| {
-                    film.write(file, log, &frame, &mut |part| {
-                        tell(part);
+                    film.write(file, log, &frame, &mut |share| {
+                        progress(share);
                         !cancel.is_cancelled()
                     })
                 })
             }
             Export::Table => write(&|file| write_csv(file, log)),
             Export::Chrome => write(&|file| write_chrome(file, log)),
-        })
+        };
+        written.map_err(|error| error.to_string())
     }
 
     fn tracer(&self, size: Size, quality: Quality) -> Result<Arc<Tracer>, String> {
-        // The text has the camera of what is shown.
+        // The header's scene text has the camera of the shown picture.
         let scene = Scene::parse(&self.log.header.scene_text).map_err(|error| error.to_string())?;
         Ok(Arc::new(Tracer::new(&scene, size, quality)))
     }
 
-    fn traced(&self, cancel: &CancelToken) -> Result<Frame, String> {
+    fn trace(&self, cancel: &CancelToken) -> Result<Frame, String> {
         let header = &self.log.header;
         let tracer = self.tracer(header.size, header.quality)?;
         let traced = TracedPicture::unless_cancelled(&tracer, header.division, &|_| {}, cancel);
-        let picture = traced.map_err(|error| error.to_string())?.ok_or("it was stopped")?;
+        let picture = traced.map_err(|error| error.to_string())?.ok_or(CANCELLED)?;
         Ok(Frame::of(header.size, &picture.pixels))
     }
 }

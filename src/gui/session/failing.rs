@@ -1,4 +1,4 @@
-//! Machines that are made to fail, or well again, or to join, while a run goes on.
+//! Commands that let machines fail, recover or join, and that delay messages.
 
 use std::time::Duration;
 
@@ -8,27 +8,27 @@ use crate::scenario::Command;
 use crate::view::{NodeState, Sharing};
 
 impl Session {
-    /// How a node's machine is: of a recorded run at the shown moment, else now.
+    /// Returns the condition of a machine: of a recorded run at the shown moment, else now.
     pub fn condition(&self, node: NodeId) -> Condition {
         self.machine(node).map_or(Condition::Well, |machine| machine.condition)
     }
 
-    /// Whether a node's seat is empty, so that its machine may join.
+    /// Whether this is a spare machine that has not joined yet.
     pub fn is_spare(&self, node: NodeId) -> bool {
         self.machine(node).is_some_and(|machine| machine.spare)
     }
 
-    /// Whether anything can become of machines: the run goes on, and is no recorded one.
+    /// Whether conditions can be set: in a live run that has not ended, unless rayon shares the work.
     pub fn can_fail(&self) -> bool {
         !self.is_recorded() && self.stage.phase == Phase::Running && self.sharing() != Sharing::Stealing
     }
 
-    /// Whether losses are mended.
+    /// Whether the run recovers lost atoms (the remedy *leases*).
     pub fn mends_losses(&self) -> bool {
         self.header().remedies().has(Remedy::Leases)
     }
 
-    /// Something becomes of a machine.
+    /// Sets a machine's condition, in a run that allows it.
     pub fn set_condition(&mut self, node: NodeId, condition: Condition) {
         if self.can_fail() {
             self.return_to_present();
@@ -36,7 +36,7 @@ impl Session {
         }
     }
 
-    /// What is on its way from one party to another is held up.
+    /// Delays the messages that are on their way between two parties.
     pub fn delay(&mut self, (from, to): (Party, Party), by: Duration) {
         if self.can_fail() {
             self.return_to_present();
@@ -44,7 +44,7 @@ impl Session {
         }
     }
 
-    /// A machine becomes so, or well again if it is so already.
+    /// Sets a machine's condition, or sets it to well if it has that condition already or is spare.
     pub fn toggle_condition(&mut self, node: NodeId, condition: Condition) {
         let is_so = self.condition(node) == condition || self.is_spare(node);
         self.set_condition(node, if is_so { Condition::Well } else { condition });

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::super::settings::Settings;
 use super::Notice;
 use super::job_result::{FileChange, Prepared, Recorded};
-use super::opening::Opening;
+use super::opening::{Opening, unreadable_scene};
 use super::performer::RunSource;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
@@ -19,7 +19,7 @@ use crate::sentence::shown;
 use crate::view::{Layer, RunView, picture_pixels};
 
 impl Session {
-    /// Shows what has been read already.
+    /// Shows a scene, run or lesson that is already read.
     pub fn show(&mut self, opening: Opening) {
         let name = match &opening {
             Opening::Scene(opened) => opened.name.clone(),
@@ -29,7 +29,7 @@ impl Session {
         self.load(name, move || Ok(opening));
     }
 
-    /// Reads a file, or a built-in scene, and shows it; what is shown now stays until then, or if it cannot be read.
+    /// Reads a file or a built-in scene and shows it. Until then, and if that fails, the present run stays.
     pub fn open(&mut self, argument: &str) {
         let language = self.language;
         let name =
@@ -38,16 +38,16 @@ impl Session {
             let log = log.display();
             return self.trouble(say!(
                 language,
-                "Not opened. The run's records will be written to {log} (--log)",
-                "Não aberto. Os registros da execução serão escritos em {log} (--log)"
+                "Not opened: the option --log will overwrite {log}. Open another file",
+                "Não aberto: a opção --log vai sobrescrever {log}. Abra outro arquivo"
             ));
         }
-        self.moving = None;
+        self.camera_move = None;
         let argument = argument.to_owned();
         self.load(name, move || Opening::read(&argument));
     }
 
-    /// Reads the scene's file again.
+    /// Reads the file of the scene again.
     pub fn reload(&mut self) {
         self.notice = None;
         if !self.is_recorded()
@@ -57,16 +57,16 @@ impl Session {
         }
     }
 
-    /// Traces a recorded run's picture anew, by living nodes.
+    /// Starts a live run with the scene and the settings of the recorded one.
     pub fn make_live(&mut self) {
         let language = self.language;
         let header = &self.stage.log.header;
-        let settings = Settings::of(header, self.settings.tempo);
+        let settings = Settings::of(header, self.settings.pace);
         if let Err(why) = settings.check(language) {
             return self.trouble(say!(
                 language,
-                "This run cannot be made live here: {why}",
-                "Esta execução não pode tornar-se ao vivo aqui: {why}"
+                "The window cannot make this run live. {why}",
+                "A janela não pode executar isto ao vivo. {why}"
             ));
         }
         match Opened::from_text(&header.scene, &header.scene_text) {
@@ -74,15 +74,12 @@ impl Session {
                 self.settings = settings;
                 self.show(Opening::Scene(Arc::new(opened)));
             }
-            Err(error) => self.trouble(say!(
-                language,
-                "The run's own scene cannot be read: {error}",
-                "A cena da própria execução não pode ser lida: {error}"
-            )),
+            Err(error) => self.trouble(unreadable_scene(&error, language)),
         }
     }
 
-    /// Writes the picture, as far as it is, in the background: the render (`blend` 0), a layer (1) or a blend.
+    /// Writes the picture, as far as it is traced, in the background. The layer's share is 0 (the render alone) to 1
+    /// (the layer alone).
     pub fn save_picture(&mut self, path: PathBuf, look: (Layer, f32)) {
         let language = self.language;
         self.note_saving(&path);
@@ -91,20 +88,20 @@ impl Session {
         self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, look), language);
     }
 
-    /// The picture, as far as it is, as it can be put elsewhere at once.
+    /// Returns the picture, as far as it is traced, for the clipboard.
     pub fn copied_picture(&self, look: (Layer, f32)) -> egui::ColorImage {
         let Stage { frame, colours, .. } = &self.stage;
         let size = [frame.size().width() as usize, frame.size().height() as usize];
         egui::ColorImage::from_rgb(size, &picture_pixels(frame, self.stage.latest(), colours, look))
     }
 
-    /// Writes the run, as far as it is, in the background, under this title and with this memo.
+    /// Writes the run so far in the background, with a title and a memo.
     pub fn save_run(&mut self, path: PathBuf, title: &str, memo: &str) {
         let language = self.language;
         self.note_saving(&path);
         let caption = &mut self.stage.log.header.caption;
         (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
-        // A recorded run that begins again is called so, too.
+        // The recorded run keeps them when it starts again.
         if let Some(recorded) = &mut self.recorded {
             Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
         }
@@ -118,9 +115,9 @@ impl Session {
         self.note(say!(language, "Saving {path} …", "Salvando {path} …"));
     }
 
-    /// Writes the run's records to where the user asked for them, if so, before the window closes. A failure is told on
-    /// standard error, since there is no other place for it any more.
-    pub fn keep_log(&self) {
+    /// Writes the run's records to the file of `--log`, if given, before the window closes. Reports a failure on
+    /// standard error, since the window is gone.
+    pub fn save_log_on_exit(&self) {
         if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer)
             && let Err(error) = self.stage.log.save(path)
         {
@@ -128,23 +125,23 @@ impl Session {
         }
     }
 
-    /// Plays a recorded run from its beginning.
+    /// Shows a recorded run from its beginning.
     pub(super) fn play(&mut self, recorded: Recorded) {
         let language = self.language;
         let caption = &recorded.log.header.caption;
-        let said: Vec<&str> = [&*caption.title, &*caption.memo].into_iter().filter(|said| !said.is_empty()).collect();
-        if !said.is_empty() {
-            self.note(shown(&said.join(" — "), 400));
+        let texts: Vec<&str> = [&*caption.title, &*caption.memo].into_iter().filter(|text| !text.is_empty()).collect();
+        if !texts.is_empty() {
+            self.note(shown(&texts.join(" — "), 400));
         }
         self.jobs.watch(None, language);
         let retrace = Retrace::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
-        let (log, known) = (RunLog::clone(&recorded.log), RunView::clone(&recorded.known));
-        let stage = Stage::recorded(RunSource::Recorded(retrace), log, known, self.ground);
+        let (log, view) = (RunLog::clone(&recorded.log), RunView::clone(&recorded.view));
+        let stage = Stage::recorded(RunSource::Recorded(retrace), log, view, self.ground);
         self.set_stage(stage, recorded.preview.clone());
         self.recorded = Some(recorded);
     }
 
-    /// Writes the records in the background to where the user asked for them, if so.
+    /// Writes the records in the background to the file of `--log`, if given.
     pub(super) fn write_log(&self) {
         let language = self.language;
         if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer) {
@@ -155,7 +152,7 @@ impl Session {
     fn load(&mut self, name: String, read: impl FnOnce() -> Result<Opening, String> + Send + 'static) {
         let language = self.language;
         let job = self.jobs.prepare(read, &self.settings, language);
-        self.loading = Some(Loading { job, name, since: self.clock });
+        self.loading = Some(Loading { job, name, started: self.clock });
     }
 
     pub(super) fn show_scene(&mut self, prepared: Prepared) {
@@ -165,17 +162,17 @@ impl Session {
             self.remember(path.to_string_lossy().into_owned());
         }
         self.jobs.watch(path, language);
-        if !self.is_moving() {
-            self.home = Some(prepared.opened.scene.camera);
+        if !self.is_camera_moving() {
+            self.scene_camera = Some(prepared.opened.scene.camera);
         }
         self.prepared = Some(prepared);
         self.recorded = None;
         self.restart();
     }
 
-    pub(super) fn could_not_open(&mut self, why: String) {
+    pub(super) fn report_unopened(&mut self, why: String) {
         let language = self.language;
-        self.moving = None;
+        self.camera_move = None;
         if self.stage.phase == Phase::Preparing {
             self.open("ten-objects");
         }
@@ -187,35 +184,35 @@ impl Session {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         self.notice = Some(match change {
             FileChange::Written => {
-                let text = say!(language, "{name} has changed on the disk", "{name} mudou no disco");
+                let text = say!(language, "{name} has changed on disk", "{name} mudou no disco");
                 Notice::changed(text, self.clock)
             }
             FileChange::Gone => {
                 let text = say!(
                     language,
-                    "{name} is gone from the disk; what is open stays as it is",
-                    "{name} sumiu do disco; o que está aberto fica como está"
+                    "{name} was deleted or moved; the open scene stays as it is",
+                    "{name} foi apagado ou movido; a cena aberta fica como está"
                 );
                 Notice::trouble(text, self.clock)
             }
         });
     }
 
-    /// The files that were opened last.
+    /// Returns the files that were opened last, the latest first.
     pub fn recent(&self) -> &[String] {
         &self.recent
     }
 
-    /// The files that were opened in an earlier window.
+    /// Sets the files that were opened in earlier windows.
     pub fn set_recent(&mut self, recent: Vec<String>) {
         self.recent = recent;
     }
 
-    /// The file was opened last.
+    /// Puts the file first among the recent ones.
     fn remember(&mut self, file: String) {
-        const MOST: usize = 8;
+        const MAX_RECENT: usize = 8;
         self.recent.retain(|other| *other != file);
         self.recent.insert(0, file);
-        self.recent.truncate(MOST);
+        self.recent.truncate(MAX_RECENT);
     }
 }

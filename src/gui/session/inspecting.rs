@@ -1,80 +1,80 @@
-//! The pixel that is inspected. It is traced once more in the background, one job at a time: while somebody moves over many
-//! pixels, only the last one asked for is traced next.
+//! The inspected pixel, traced again in the background. Only one job runs at a time; of the pixels that are requested
+//! meanwhile only the last one is traced next.
 
 use std::sync::Arc;
 
 use super::Session;
 use crate::view::{ChosenRay, Inspected};
 
-/// The pixel that is inspected, if there is one.
+/// State of the inspector.
 #[derive(Default)]
 pub(super) struct Inspecting {
-    /// What was asked for last.
-    asked: Option<InspectedRay>,
-    /// What is known, which may be of what was asked for before.
-    known: Option<Box<Inspected>>,
+    /// The pixel and ray requested last; `None` while the inspector is closed.
+    requested: Option<InspectedRay>,
+    /// The last result, which may belong to an earlier request.
+    result: Option<Box<Inspected>>,
     is_busy: bool,
-    /// Something was asked for since the job began.
-    again: bool,
+    /// Whether there was a request since the job began.
+    is_stale: bool,
 }
 
-/// A pixel, and which of its rays; its first unless that is said.
+/// A pixel and one of its rays; `None` is its first.
 #[derive(Clone, Copy)]
 struct InspectedRay {
-    place: [u32; 2],
-    chosen: Option<ChosenRay>,
+    pixel: [u32; 2],
+    ray: Option<ChosenRay>,
 }
 
 impl Session {
-    /// Inspects a pixel of the picture, by its column and row.
-    pub fn inspect(&mut self, place: [u32; 2]) {
-        self.inspecting.asked = Some(InspectedRay { place, chosen: None });
-        self.look_again();
+    /// Inspects the pixel at this column and row.
+    pub fn inspect(&mut self, pixel: [u32; 2]) {
+        self.inspecting.requested = Some(InspectedRay { pixel, ray: None });
+        self.inspect_again();
     }
 
-    /// Inspects the pixel so far to the right and below, if there is one.
+    /// Moves the inspected pixel by this many columns and rows, at most to the edge of the picture.
     pub fn inspect_beside(&mut self, by: [i32; 2]) {
         let size = self.header().size;
-        if let Some(asked) = self.inspecting.asked {
-            let [x, y] = [0, 1].map(|axis| asked.place[axis].saturating_add_signed(by[axis]));
+        if let Some(requested) = self.inspecting.requested {
+            let [x, y] = [0, 1].map(|axis| requested.pixel[axis].saturating_add_signed(by[axis]));
             self.inspect([x.min(size.width() - 1), y.min(size.height() - 1)]);
         }
     }
 
-    /// Looks along another ray of the pixel.
-    pub fn choose_ray(&mut self, chosen: ChosenRay) {
-        if let Some(asked) = &mut self.inspecting.asked {
-            asked.chosen = Some(chosen);
-            self.look_again();
+    /// Inspects another ray of the pixel.
+    pub fn choose_ray(&mut self, ray: ChosenRay) {
+        if let Some(requested) = &mut self.inspecting.requested {
+            requested.ray = Some(ray);
+            self.inspect_again();
         }
     }
 
-    /// Nobody looks any more.
+    /// Closes the inspector.
     pub fn stop_inspecting(&mut self) {
-        (self.inspecting.asked, self.inspecting.known) = (None, None);
+        (self.inspecting.requested, self.inspecting.result) = (None, None);
     }
 
-    /// The place of the pixel that is inspected.
-    pub fn inspected_place(&self) -> Option<[u32; 2]> {
-        self.inspecting.asked.map(|asked| asked.place)
+    /// Returns column and row of the inspected pixel.
+    pub fn inspected_pixel(&self) -> Option<[u32; 2]> {
+        self.inspecting.requested.map(|requested| requested.pixel)
     }
 
-    /// What is known of it; a moment after another was asked for, what is known of the one before.
+    /// Returns the last result; until the job of a new request ends, it belongs to an earlier one.
     pub fn inspected(&self) -> Option<&Inspected> {
-        self.inspecting.known.as_deref()
+        self.inspecting.result.as_deref()
     }
 
-    /// Whether what is known is not yet what was asked for.
-    pub fn is_looking(&self) -> bool {
+    /// Whether a job is tracing the requested pixel.
+    pub fn is_inspecting(&self) -> bool {
         self.inspecting.is_busy
     }
 
-    /// Traces the pixel once more: another was asked for, or the picture is another.
-    pub(super) fn look_again(&mut self) {
+    /// Traces the requested pixel, after a new request or in a new picture.
+    pub(super) fn inspect_again(&mut self) {
         let language = self.language;
-        let Some(InspectedRay { place, chosen }) = self.inspecting.asked else { return };
+        let Some(InspectedRay { pixel, ray }) = self.inspecting.requested else { return };
         if self.inspecting.is_busy {
-            self.inspecting.again = true;
+            self.inspecting.is_stale = true;
             return;
         }
         let live = || self.prepared.as_ref().map(|prepared| (&prepared.tracer, &prepared.opened));
@@ -85,10 +85,10 @@ impl Session {
         self.inspecting.is_busy = true;
         self.jobs.inspect(
             move || {
-                let inspected = Inspected::new(&tracer, &opened.scene, place)?;
-                // In another picture the pixel may have fewer rays.
-                let along = chosen.and_then(|chosen| inspected.choose(&tracer, chosen));
-                Some(along.unwrap_or(inspected))
+                let inspected = Inspected::new(&tracer, &opened.scene, pixel)?;
+                // In a new picture the pixel may not have this ray.
+                let chosen = ray.and_then(|ray| inspected.choose(&tracer, ray));
+                Some(chosen.unwrap_or(inspected))
             },
             language,
         );
@@ -96,18 +96,18 @@ impl Session {
 
     pub(super) fn take_inspected(&mut self, inspected: Option<Box<Inspected>>) {
         self.inspecting.is_busy = false;
-        let again = std::mem::take(&mut self.inspecting.again);
-        if self.inspecting.asked.is_none() {
+        let is_stale = std::mem::take(&mut self.inspecting.is_stale);
+        if self.inspecting.requested.is_none() {
             return;
         }
         match inspected {
-            Some(inspected) => self.inspecting.known = Some(inspected),
-            // The picture has become smaller.
-            None if !again => self.stop_inspecting(),
+            Some(inspected) => self.inspecting.result = Some(inspected),
+            // A smaller picture may not have the pixel.
+            None if !is_stale => self.stop_inspecting(),
             None => {}
         }
-        if again {
-            self.look_again();
+        if is_stale {
+            self.inspect_again();
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What background jobs return to the window.
+//! Results of the background jobs.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,82 +16,82 @@ use crate::study::accuracy::{Point, Reference};
 use crate::tracer::{SceneStats, Tracer};
 use crate::view::{ComparedRun, Inspected, RunView};
 
-/// What a job has come to.
+/// Result of a job; the number is the job's.
 pub enum JobResult {
-    /// The job of this number has read and compiled what was asked for, or says why not.
+    /// A scene, run or lesson is read and compiled, or a sentence says why not.
     Ready(u64, Result<Ready, String>),
-    /// A file is written: a sentence says where, or why not.
+    /// A file is written: a sentence with its path, or the reason why not.
     Saved(Result<String, String>),
-    /// What the job of this number makes is done to this part, 0 to 1.
+    /// Share of an export that is done, 0 to 1.
     Progress(u64, f64),
-    /// What the job of this number makes is made: a sentence says where, or why not.
-    Made(u64, Result<String, String>),
-    /// The user has chosen a file in the system's dialog; `None` if not.
+    /// An export has ended: a sentence with the file's path, or the reason why it failed.
+    Exported(u64, Result<String, String>),
+    /// The file dialog has closed; `None` if it was cancelled or is not available.
     Chosen(Purpose, Option<PathBuf>),
-    /// A small picture of a scene, by the scene's name or path; or why there is none.
+    /// The thumbnail of a scene, by the scene's name or path, or the reason why there is none.
     Thumbnail(String, Result<Thumbnail, String>),
-    /// The job of this number has found out something about speed and accuracy.
+    /// A part of the measurement of speed and accuracy.
     Found(u64, Finding),
-    /// What has come of a comparison, and the number of its job.
-    CompareResult(u64, CompareResult),
-    /// A lesson that was opened, to be prepared.
-    ToTeach(Arc<Lesson>),
-    /// A lesson, or a sentence that says why it cannot be shown, and the number of its job.
-    Lesson(u64, Result<PreparedLesson, String>),
-    /// A pixel, with all that is known of it; nothing if there is no such pixel.
+    /// A part of a comparison.
+    Compared(u64, CompareResult),
+    /// A lesson was opened; its runs still have to be prepared.
+    LessonOpened(Arc<Lesson>),
+    /// A lesson is prepared, or a sentence says why it cannot be shown.
+    LessonPrepared(u64, Result<PreparedLesson, String>),
+    /// The inspected pixel; `None` if the picture has no such pixel.
     Inspected(Option<Box<Inspected>>),
-    /// What is about seen by a camera that was moved.
+    /// A coarse picture from a moved camera.
     CameraPreview(CameraPreview),
-    /// The file that is open has changed, or is gone.
+    /// The open file has changed or was deleted.
     FileChanged(PathBuf, FileChange),
 }
 
-/// What a path is asked for.
+/// Purpose of a file dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// To be opened.
+    /// Open a scene, a run or a lesson.
     Open,
-    /// A lesson, to be taken.
+    /// Open a lesson.
     Learn,
-    /// To be written.
+    /// Choose the file to write.
     Save,
 }
 
-/// What happened to a file.
+/// Change of a watched file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileChange {
-    /// Somebody has written to it.
+    /// Its content has changed.
     Written,
-    /// It is not there any more.
+    /// It was deleted or moved.
     Gone,
 }
 
-/// What can be shown at once.
+/// What a job has read and compiled.
 pub enum Ready {
-    /// A scene, compiled.
+    /// A compiled scene.
     Scene(Prepared),
-    /// A recorded run, and what traces its picture again.
+    /// A recorded run and its tracer.
     Run(Recorded),
-    /// A lesson, to be prepared.
+    /// A lesson.
     Lesson(Arc<Lesson>),
 }
 
-/// A scene, compiled for a picture.
+/// A scene compiled for a picture.
 #[derive(Clone)]
 pub struct Prepared {
     /// The scene.
     pub opened: Arc<Opened>,
-    /// What traces it.
+    /// Its tracer.
     pub tracer: Arc<Tracer>,
-    /// What its picture will about look like.
+    /// Coarse picture, all pixels in scan order.
     pub preview: Arc<[Rgb]>,
-    /// Of the picture that it is compiled for.
+    /// Size of the picture that it is compiled for.
     pub size: Size,
-    /// Of the picture that it is compiled for.
+    /// Quality of the picture that it is compiled for.
     pub quality: Quality,
-    /// The estimated CPU time of the whole picture, traced by threads that rest after each atom.
+    /// Estimated CPU time of the whole picture, traced by threads that sleep after each atom.
     pub(super) cpu: Duration,
-    /// The estimated time of the whole picture in virtual time.
+    /// Estimated time of the whole picture in virtual time.
     pub(super) virtual_time: Duration,
 }
 
@@ -102,27 +102,27 @@ pub struct Recorded {
     pub log: Arc<RunLog>,
     /// Its scene.
     pub opened: Arc<Opened>,
-    /// What traces its picture again.
+    /// Tracer of its picture.
     pub tracer: Arc<Tracer>,
-    /// What its picture will about look like.
+    /// Coarse picture, all pixels in scan order.
     pub preview: Arc<[Rgb]>,
-    /// What is known of all of it.
-    pub known: Arc<RunView>,
+    /// The view of the complete run.
+    pub view: Arc<RunView>,
 }
 
 impl Prepared {
-    /// Whether it is compiled for the picture that is set.
+    /// Whether it is compiled for the picture of these settings.
     pub fn is_for(&self, settings: &Settings) -> bool {
         (self.size, self.quality) == (settings.size, settings.quality)
     }
 
-    /// The estimated time of the whole picture on the reference machine at full pace.
+    /// Returns the estimated time of the whole picture on the reference machine at full pace.
     pub fn work(&self, driver: Driver) -> Duration {
         if driver == Driver::Sim { self.virtual_time } else { self.cpu }
     }
 }
 
-/// A small picture.
+/// Small picture of a scene.
 pub struct Thumbnail {
     /// Its size.
     pub size: Size,
@@ -130,72 +130,72 @@ pub struct Thumbnail {
     pub rgb: Vec<u8>,
 }
 
-/// A picture that is traced once for all trials of it.
+/// A picture that is traced once for all trials of a comparison.
 pub struct TracedOnce {
     /// All pixels in scan order.
     pub pixels: Vec<Colour>,
-    /// What each costs the reference machine, by its rays.
+    /// Cost of each pixel on the reference machine, computed from its rays.
     pub costs: PixelCosts,
 }
 
-/// How well strategies do with more and more machines.
+/// Speedup and efficiency of the strategies over the number of machines.
 pub struct Growth {
-    /// By strategy: what comes of more and more machines.
-    pub of: Vec<(Strategy, Vec<GrowthPoint>)>,
-    /// How long one machine at full speed takes.
+    /// For each strategy its points by number of machines.
+    pub curves: Vec<(Strategy, Vec<GrowthPoint>)>,
+    /// Makespan of one machine at full speed.
     pub alone: Duration,
-    /// The last machine is a slow one.
+    /// Speed of the last machine, if it is slow.
     pub slow: Option<f64>,
 }
 
-/// A run of so many machines.
+/// Result of one run.
 #[derive(Clone, Copy, Debug)]
 pub struct GrowthPoint {
-    /// How many.
+    /// Number of machines.
     pub machines: usize,
-    /// How many times as long one machine at full speed would take.
+    /// Makespan of one machine at full speed / makespan of this run.
     pub speedup: f64,
-    /// The ideal makespan over this one.
+    /// Ideal makespan / makespan.
     pub efficiency: f64,
 }
 
-/// What has come of a comparison.
+/// A part of a comparison.
 pub enum CompareResult {
     /// The traced picture.
     Picture(Arc<TracedOnce>),
-    /// A trial, by its number.
+    /// The run of a trial, by the number of its column.
     Run(u64, Box<ComparedRun>),
-    /// How strategies do with more machines.
+    /// Speedup and efficiency over the number of machines.
     Growth(Growth),
-    /// Nothing comes, for this reason.
+    /// The job failed for this reason.
     Failed(String),
 }
 
-/// What has been found out about speed and accuracy.
+/// A part of the measurement of speed and accuracy.
 pub enum Finding {
-    /// What the scene needs, and how many rays there are on each level of its trees of rays.
+    /// Statistics of the compiled scene, and the number of rays on each level of the trees of rays.
     Needs(SceneStats, Vec<u64>),
-    /// So many of the [`Reference::STEPS`] pictures of the reference have been begun.
+    /// Number of the reference's [`Reference::STEPS`] pictures that have been begun.
     Begun(usize),
-    /// What pictures are compared with.
+    /// The reference picture.
     Reference(Reference),
-    /// The quality at this place is measured; its picture comes only the first time.
+    /// The quality at this index is measured. Its picture comes only with its first measurement.
     Point(usize, Point, Option<Frame>),
-    /// Nothing more comes; a sentence says why, if that is too soon.
+    /// The measurement has ended; a sentence gives the reason, if it failed.
     Over(Result<(), String>),
 }
 
-/// A lesson whose runs have been run.
+/// A lesson with its runs.
 pub struct PreparedLesson {
-    /// What it says.
+    /// The text of the lesson.
     pub lesson: Arc<Lesson>,
-    /// Its runs, by name.
+    /// Its runs by name.
     pub(super) runs: Vec<(String, Recorded)>,
-    /// By step: what its claims came to.
+    /// For each step the values of its claims.
     pub values: Vec<Vec<Option<f64>>>,
 }
 
-/// What is about seen by a camera that moves.
+/// A coarse picture from a moved camera.
 pub struct CameraPreview {
     /// Width and height.
     pub size: Size,

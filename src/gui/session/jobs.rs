@@ -1,5 +1,4 @@
-//! What is done in the background, so that nothing ever blocks the window. Each job is a thread of its own, with a name,
-//! and ends by itself.
+//! Background jobs, so that nothing blocks the window. Each job is a named thread that ends by itself.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,37 +11,36 @@ use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
 use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
-use crate::output::OutputError;
 use crate::picture::{Size, write_png};
 use crate::runlog::RunLog;
 use crate::scene::Opened;
 use crate::view::Inspected;
 
-/// Starts jobs and gets what they come to.
+/// Starts jobs and collects their results.
 pub struct Jobs {
     ctx: egui::Context,
     sender: Sender<JobResult>,
     receiver: Receiver<JobResult>,
-    next: u64,
-    /// Dropping it ends the watch.
+    last_number: u64,
+    /// Dropping it ends the watch of the open file.
     watch: Option<Sender<()>>,
-    /// Dropping it ends the measurement.
+    /// Dropping it cancels the measurement.
     pub(super) measuring: Option<CancelOnDrop>,
 }
 
 impl Jobs {
-    /// No job yet; `ctx` is woken by those that end.
+    /// Creates the collection of no jobs. A job that sends a result repaints `ctx`.
     pub fn new(ctx: egui::Context) -> Self {
         let (sender, receiver) = unbounded();
-        Self { ctx, sender, receiver, next: 0, watch: None, measuring: None }
+        Self { ctx, sender, receiver, last_number: 0, watch: None, measuring: None }
     }
 
-    /// What jobs have come to since.
-    pub fn done(&self) -> Vec<JobResult> {
+    /// Returns the results since the last call.
+    pub fn results(&self) -> Vec<JobResult> {
         self.receiver.try_iter().collect()
     }
 
-    /// Writes a picture of these pixels.
+    /// Writes a PNG of these pixels (three bytes each).
     pub fn save_picture(
         &self,
         path: PathBuf,
@@ -51,17 +49,17 @@ impl Jobs {
         language: Language,
     ) {
         self.start(language, "save", move || {
-            JobResult::Saved(told(&path, write_png(&path, size, &pixels()), language))
+            JobResult::Saved(save_message(&path, write_png(&path, size, &pixels()), language))
         });
     }
 
     /// Writes a run file.
     pub fn save_run(&self, path: PathBuf, log: RunLog, language: Language) {
-        self.start(language, "save", move || JobResult::Saved(told(&path, log.save(&path), language)));
+        self.start(language, "save", move || JobResult::Saved(save_message(&path, log.save(&path), language)));
     }
 
-    /// Asks with the system's own dialog. Without such a dialog the answer is the same as cancelling.
-    pub fn choose(&self, purpose: Purpose, at: PathBuf, language: Language) {
+    /// Shows the system's file dialog. If there is none, the result is the same as after cancelling.
+    pub fn choose_file(&self, purpose: Purpose, at: PathBuf, language: Language) {
         let [scenes, lessons, all] =
             word!(language, ["Scenes and runs", "Lessons", "All"], ["Cenas e execuções", "Lições", "Todos"]);
         self.start(language, "file dialog", move || {
@@ -79,28 +77,28 @@ impl Jobs {
         });
     }
 
-    /// Makes small pictures of these scenes, one after the other.
+    /// Traces thumbnails of these scenes, one after the other.
     pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
         self.start_many(
             language,
             "thumbnails",
             |why| JobResult::Saved(Err(why)),
-            move |tell| {
+            move |send| {
                 for scene in scenes {
-                    let made =
+                    let picture =
                         Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
-                    tell(JobResult::Thumbnail(scene, made));
+                    send(JobResult::Thumbnail(scene, picture));
                 }
             },
         );
     }
 
-    /// Traces a pixel once more, to be looked at.
-    pub fn inspect(&self, look: impl FnOnce() -> Option<Inspected> + Send + 'static, language: Language) {
-        self.start(language, "inspect", move || JobResult::Inspected(look().map(Box::new)));
+    /// Traces a pixel for the inspector.
+    pub fn inspect(&self, trace: impl FnOnce() -> Option<Inspected> + Send + 'static, language: Language) {
+        self.start(language, "inspect", move || JobResult::Inspected(trace().map(Box::new)));
     }
 
-    /// Watches this file instead of the one before.
+    /// Watches this file instead of the last one.
     pub fn watch(&mut self, path: Option<PathBuf>, language: Language) {
         self.watch = None;
         let Some(path) = path else { return };
@@ -110,31 +108,32 @@ impl Jobs {
             language,
             "watch",
             |why| JobResult::Saved(Err(why)),
-            move |tell| {
-                let mut known = stamp(&path);
-                while stopped.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+            move |send| {
+                let mut last = stamp(&path);
+                while stopped.recv_timeout(WATCH_INTERVAL) == Err(RecvTimeoutError::Timeout) {
                     let now = stamp(&path);
-                    if now != known {
-                        known = now;
+                    if now != last {
+                        last = now;
                         let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
-                        tell(JobResult::FileChanged(path.clone(), change));
+                        send(JobResult::FileChanged(path.clone(), change));
                     }
                 }
             },
         );
     }
 
-    /// A number that no job had before.
+    /// Returns a new job number.
     pub(super) fn number(&mut self) -> u64 {
-        self.next += 1;
-        self.next
+        self.last_number += 1;
+        self.last_number
     }
 
+    /// Starts a job that has one result.
     pub(super) fn start(&self, language: Language, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
-        self.start_many(language, name, |why| JobResult::Saved(Err(why)), move |tell| tell(job()));
+        self.start_many(language, name, |why| JobResult::Saved(Err(why)), move |send| send(job()));
     }
 
-    /// Starts a thread for a job that tells several things, or tells what it `failed` with.
+    /// Starts a job that sends several results. `failed` makes the result if its thread cannot be started.
     pub(super) fn start_many(
         &self,
         language: Language,
@@ -143,30 +142,37 @@ impl Jobs {
         job: impl FnOnce(&(dyn Fn(JobResult) + Sync)) + Send + 'static,
     ) {
         let (sender, ctx) = (self.sender.clone(), self.ctx.clone());
-        let tell = move |done| {
+        let send = move |result| {
             // The window may have closed meanwhile.
-            let _ = sender.send(done);
+            let _ = sender.send(result);
             ctx.request_repaint();
         };
-        if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&tell)) {
-            let why =
-                say!(language, "No thread could be started: {error}", "Nenhuma thread pôde ser iniciada: {error}");
+        if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || job(&send)) {
+            let why = say!(
+                language,
+                "No thread could be started ({error}). Close other programs and try again",
+                "Nenhuma thread pôde ser iniciada ({error}). Feche outros programas e tente de novo"
+            );
             let _ = self.sender.send(failed(why));
         }
     }
 }
 
-/// How often a file that is watched is looked at.
-const LOOK: Duration = Duration::from_millis(700);
+/// Interval at which a watched file is checked.
+const WATCH_INTERVAL: Duration = Duration::from_millis(700);
 
-/// What a file looked like; `None` if there is none.
+/// Returns the modification time and the length of a file; `None` if it does not exist.
 fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {
     fs::metadata(path).ok().map(|data| (data.modified().ok(), data.len()))
 }
 
-/// Puts into a sentence how saving went.
-pub(super) fn told(path: &Path, saved: Result<(), OutputError>, language: Language) -> Result<String, String> {
-    let shown = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let shown = shown.display();
-    saved.map(|()| say!(language, "Saved to {shown}", "Salvo em {shown}")).map_err(|error| error.to_string())
+/// Turns the result of saving into a sentence.
+pub(super) fn save_message(
+    path: &Path,
+    result: Result<(), impl ToString>,
+    language: Language,
+) -> Result<String, String> {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let path = path.display();
+    result.map(|()| say!(language, "Saved to {path}", "Salvo em {path}")).map_err(|error| error.to_string())
 }

@@ -1,5 +1,5 @@
-//! One run after the other, as the window sees them. Here, and nowhere else in `gui`, are threads, channels and clocks:
-//! those of runs behind [`RunSource`], those of everything else in [`jobs`].
+//! The run on the stage, the settings and the background jobs. This is the only module of `gui` with threads, channels
+//! and clocks: those of runs are behind [`RunSource`], all others in [`jobs`].
 
 mod comparing;
 mod exporting;
@@ -51,36 +51,37 @@ use performer::RunSource;
 pub use stage::{Phase, Stage};
 pub use teaching::PreparingLesson;
 
-/// What the window shows, what is set, and what goes on in the background.
+/// The run on the stage, the settings and the background jobs.
 pub struct Session {
     stage: Stage,
     settings: Settings,
     history: UndoHistory,
-    /// The scene that live runs trace, once there is one.
+    /// The scene of live runs; `None` until the first one is compiled.
     prepared: Option<Prepared>,
-    /// The run that is played again, if that is what is shown.
+    /// The recorded run, if one is on the stage.
     recorded: Option<Recorded>,
     loading: Option<Loading>,
     inspecting: Inspecting,
-    /// The scene's own camera.
-    home: Option<Camera>,
-    moving: Option<CameraMove>,
-    /// Looks from a moved camera that have not come back.
+    /// The camera of the scene file.
+    scene_camera: Option<Camera>,
+    camera_move: Option<CameraMove>,
+    /// Number of preview jobs in progress.
     camera_jobs: usize,
     jobs: Jobs,
-    /// Runs that were asked to end and have threads that have not.
+    /// Runs that were told to stop and whose threads have not all ended.
     ending: Vec<RunSource>,
-    begun: usize,
-    /// Measurements that have not ended, although they may have been asked to.
+    runs_begun: usize,
+    /// Number of measurements that have not ended, cancelled ones included.
     measurements: usize,
     notice: Option<Notice>,
-    making: Option<ExportJob>,
-    /// Where each run's records are written when it ends.
+    export_job: Option<ExportJob>,
+    /// File for the records of each run (`--log`).
     log_path: Option<PathBuf>,
-    /// The files that were opened last, the latest first.
+    /// Recently opened files, the latest first.
     recent: Vec<String>,
+    /// Background colour of the picture.
     ground: Rgb,
-    /// While a hand drags the run's time: whether that stood still before.
+    /// While the time is dragged: whether it was stopped before.
     dragged_from: Option<bool>,
     /// The language of the window.
     language: Language,
@@ -88,15 +89,16 @@ pub struct Session {
     clock: f64,
 }
 
-/// Something that is being read and compiled.
+/// The scene, run or lesson that is being read and compiled.
 struct Loading {
     job: u64,
     name: String,
-    since: f64,
+    /// egui's clock at the start, in seconds.
+    started: f64,
 }
 
 impl Session {
-    /// An empty stage; something has to be opened.
+    /// Creates a session with an empty stage; the caller has to open a scene.
     pub fn new(settings: Settings, log_path: Option<PathBuf>, ctx: &egui::Context, ground: Rgb) -> Self {
         let header = settings.header("", "", Duration::ZERO, cores());
         Self {
@@ -107,15 +109,15 @@ impl Session {
             recorded: None,
             loading: None,
             inspecting: Inspecting::default(),
-            home: None,
-            moving: None,
+            scene_camera: None,
+            camera_move: None,
             camera_jobs: 0,
             jobs: Jobs::new(ctx.clone()),
             ending: Vec::new(),
-            begun: 0,
+            runs_begun: 0,
             measurements: 0,
             notice: None,
-            making: None,
+            export_job: None,
             log_path,
             recent: Vec::new(),
             ground,
@@ -125,7 +127,7 @@ impl Session {
         }
     }
 
-    /// The language of the window.
+    /// Returns the language of the window.
     pub fn language(&self) -> Language {
         self.language
     }
@@ -135,7 +137,7 @@ impl Session {
         self.language = language;
     }
 
-    /// Ends the run and starts it anew with what is set now; a recorded run begins again.
+    /// Ends the run and starts a new one with the present settings. A recorded run starts again.
     pub fn restart(&mut self) {
         if let Some(recorded) = self.recorded.clone() {
             return self.play(recorded);
@@ -143,13 +145,13 @@ impl Session {
         match &self.prepared {
             Some(prepared) if prepared.is_for(&self.settings) => self.begin(prepared.clone()),
             Some(prepared) => self.show(Opening::Scene(Arc::clone(&prepared.opened))),
-            // The first scene is still being prepared; what is set then counts.
+            // The first scene is still being compiled; its run will start with the settings of that time.
             None => {}
         }
     }
 
-    /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns what the user has chosen in
-    /// the system's dialogs, small pictures, and what was measured.
+    /// Updates the stage and handles the results of jobs since the last call; `clock` is egui's, in seconds. Returns
+    /// the results that are for the pages and the save bar.
     pub fn tick(&mut self, clock: f64) -> Vec<JobResult> {
         self.clock = clock;
         if self.stage.tick(clock) {
@@ -160,41 +162,41 @@ impl Session {
             self.notice = None;
         }
         let mut others = Vec::new();
-        for done in self.jobs.done() {
-            match done {
+        for result in self.jobs.results() {
+            match result {
                 JobResult::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
                     self.loading = None;
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
                         Ok(Ready::Run(recorded)) => self.play(recorded),
-                        Ok(Ready::Lesson(lesson)) => others.push(JobResult::ToTeach(lesson)),
-                        Err(why) => self.could_not_open(why),
+                        Ok(Ready::Lesson(lesson)) => others.push(JobResult::LessonOpened(lesson)),
+                        Err(why) => self.report_unopened(why),
                     }
                 }
-                // Something else was asked for meanwhile.
+                // Another file was opened meanwhile.
                 JobResult::Ready(..) => {}
-                JobResult::Saved(Ok(said)) => self.note(said),
+                JobResult::Saved(Ok(message)) => self.note(message),
                 JobResult::Saved(Err(why)) => self.trouble(why),
-                JobResult::Progress(job, part) => self.progress(job, part),
-                JobResult::Made(job, made) => self.made(job, made),
+                JobResult::Progress(job, share) => self.take_progress(job, share),
+                JobResult::Exported(job, result) => self.take_exported(job, result),
                 JobResult::FileChanged(path, change) => self.file_changed(&path, change),
                 JobResult::Found(job, finding) => {
                     self.measurements -= usize::from(matches!(finding, Finding::Over(_)));
                     others.push(JobResult::Found(job, finding));
                 }
                 JobResult::Inspected(inspected) => self.take_inspected(inspected),
-                JobResult::CameraPreview(moved) => self.take_moved(moved),
-                done @ (JobResult::Chosen(..)
+                JobResult::CameraPreview(preview) => self.take_camera_preview(preview),
+                result @ (JobResult::Chosen(..)
                 | JobResult::Thumbnail(..)
-                | JobResult::CompareResult(..)
-                | JobResult::ToTeach(..)
-                | JobResult::Lesson(..)) => others.push(done),
+                | JobResult::Compared(..)
+                | JobResult::LessonOpened(..)
+                | JobResult::LessonPrepared(..)) => others.push(result),
             }
         }
         others
     }
 
-    /// Changes what is set: at once, or by starting the run anew if that is needed. What is impossible is said in words.
+    /// Changes the settings, and restarts the run if the change needs it. Shows a notice if a value is impossible.
     pub fn change(&mut self, gesture: Gesture, change: impl FnOnce(&mut Settings)) {
         let language = self.language;
         let mut settings = self.settings.clone();
@@ -205,40 +207,40 @@ impl Session {
         if let Err(why) = settings.check(language) {
             return self.trouble(why);
         }
-        self.history.keep(self.settings.clone(), gesture);
+        self.history.push(self.settings.clone(), gesture);
         let before = self.apply(settings);
         if self.settings.needs_restart(&before) {
             let now = self.settings.difference(&before, language);
-            self.note(say!(language, "Started anew: {now}", "Reiniciada: {now}"));
+            self.note(say!(language, "Restarted with: {now}", "Reiniciada com: {now}"));
         }
     }
 
-    /// The hand has let go of what it changed.
-    pub fn let_go(&mut self) {
-        self.history.let_go();
+    /// Ends the present gesture: the next change is undone separately.
+    pub fn end_gesture(&mut self) {
+        self.history.end_gesture();
     }
 
-    /// Takes the last change back.
+    /// Undoes the last change of the settings.
     pub fn undo(&mut self) {
         let language = self.language;
         if let Some(settings) = self.history.undo(&self.settings) {
             let before = self.apply(settings);
             let now = self.settings.difference(&before, language);
-            self.note(say!(language, "Undone; now {now}", "Desfeito; agora {now}"));
+            self.note(say!(language, "Undone. Now: {now}", "Desfeito. Agora: {now}"));
         }
     }
 
-    /// Makes the change that was taken back.
+    /// Makes the undone change again.
     pub fn redo(&mut self) {
         let language = self.language;
         if let Some(settings) = self.history.redo(&self.settings) {
             let before = self.apply(settings);
             let now = self.settings.difference(&before, language);
-            self.note(say!(language, "Done again; now {now}", "Refeito; agora {now}"));
+            self.note(say!(language, "Redone. Now: {now}", "Refeito. Agora: {now}"));
         }
     }
 
-    /// Lets a machine go on or stand still.
+    /// Pauses or resumes a machine.
     pub fn toggle_node_pause(&mut self, node: NodeId) {
         self.return_to_present();
         if let Some(paused) = self.stage.paused_nodes.get_mut(usize::from(node))
@@ -249,47 +251,47 @@ impl Session {
         }
     }
 
-    /// What is shown.
+    /// Returns the run on the stage.
     pub fn stage(&self) -> &Stage {
         &self.stage
     }
 
-    /// What is shown, to draw it.
+    /// Returns the run on the stage, to seek in it or to draw its picture.
     pub fn stage_mut(&mut self) -> &mut Stage {
         &mut self.stage
     }
 
-    /// What is set.
+    /// Returns the settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// What the run was asked to do.
+    /// Returns the header of the run on the stage.
     pub fn header(&self) -> &Header {
         &self.stage.log.header
     }
 
-    /// The scene that live runs trace, compiled.
+    /// Returns the compiled scene of live runs.
     pub fn prepared(&self) -> Option<&Prepared> {
         self.prepared.as_ref()
     }
 
-    /// The scene that live runs trace.
+    /// Returns the scene of live runs.
     pub fn opened(&self) -> Option<&Opened> {
         self.prepared.as_ref().map(|prepared| &*prepared.opened)
     }
 
-    /// Whether what is shown is a recorded run.
+    /// Whether a recorded run is on the stage.
     pub fn is_recorded(&self) -> bool {
         self.recorded.is_some()
     }
 
-    /// The run's clock, the same for a whole frame.
+    /// Returns the shown time; it does not change within a frame.
     pub fn now(&self) -> Time {
         self.stage.now()
     }
 
-    /// The speed that a node has or is about to have.
+    /// Returns the speed of a machine: in a live run the one that is set, else the recorded one at the shown time.
     pub fn speed(&self, node: NodeId) -> f64 {
         let index = usize::from(node);
         let recorded = || self.stage.state().nodes().get(index).map_or(0.0, |node| node.speed);
@@ -300,7 +302,7 @@ impl Session {
         }
     }
 
-    /// Whether a node stands still, or is about to.
+    /// Whether a machine is paused: in a live run now, in a recorded one at the shown time.
     pub fn is_node_paused(&self, node: NodeId) -> bool {
         let index = usize::from(node);
         if self.is_recorded() {
@@ -310,62 +312,62 @@ impl Session {
         }
     }
 
-    /// What was set before, and after.
+    /// Returns the undo history.
     pub fn history(&self) -> &UndoHistory {
         &self.history
     }
 
-    /// Jobs, for dialogs and small pictures.
+    /// Returns the jobs, to start file dialogs and thumbnails.
     pub fn jobs(&self) -> &Jobs {
         &self.jobs
     }
 
-    /// What is being read and compiled, and for how many seconds.
+    /// Returns the name of what is being read and compiled, and the elapsed seconds.
     pub fn loading(&self) -> Option<(&str, f64)> {
-        self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.since))
+        self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.started))
     }
 
-    /// What is to be read below the top bar.
+    /// Returns the present notice.
     pub fn notice(&self) -> Option<&Notice> {
         self.notice.as_ref()
     }
 
-    /// Away with it.
+    /// Closes the notice.
     pub fn close_notice(&mut self) {
         self.notice = None;
     }
 
-    /// Closes it, unless it asks something that goes for the next run as well.
+    /// Closes the notice if it is about the present run only.
     pub fn end_notice(&mut self) {
         self.notice.take_if(|notice| notice.is_of_the_run());
     }
 
-    /// Something was done.
+    /// Shows a notice that disappears by itself.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notice = Some(Notice::note(text, self.clock));
     }
 
-    /// Something cannot be done.
+    /// Shows an error, which stays until it is closed.
     pub fn trouble(&mut self, text: impl Into<String>) {
         self.notice = Some(Notice::trouble(text, self.clock));
     }
 
-    /// How many runs have begun, for tests.
+    /// Returns how many runs have begun.
     pub fn runs_begun(&self) -> usize {
-        self.begun
+        self.runs_begun
     }
 
-    /// How many runs were asked to end and have not, for tests.
+    /// Returns how many stopped runs still have threads.
     pub fn runs_ending(&self) -> usize {
         self.ending.len()
     }
 
-    /// How many measurements have not ended, although they may have been asked to, for tests.
+    /// Returns how many measurements have not ended, cancelled ones included; for tests.
     pub fn measurements(&self) -> usize {
         self.measurements
     }
 
-    /// Sets everything that differs, and returns what was set before.
+    /// Applies new settings to the run, restarting it if needed. Returns the settings before.
     fn apply(&mut self, settings: Settings) -> Settings {
         self.return_to_present();
         let before = std::mem::replace(&mut self.settings, settings);
@@ -395,16 +397,16 @@ impl Session {
     }
 
     fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
-        self.retire();
-        self.begun += 1;
+        self.stop_run();
+        self.runs_begun += 1;
         self.stage = stage;
         self.stage.show_preview(preview);
-        self.look_again();
-        self.camera_has_settled();
+        self.inspect_again();
+        self.end_camera_move();
     }
 
-    /// Lets whoever performs end in their own time.
-    fn retire(&mut self) {
+    /// Stops the run on the stage without waiting for its threads.
+    fn stop_run(&mut self) {
         let last = std::mem::replace(&mut self.stage.performer, RunSource::Nobody);
         last.stop();
         if !last.has_ended() {

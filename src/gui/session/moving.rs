@@ -1,4 +1,4 @@
-//! The camera in the user's hand: a coarse picture follows it, and when it rests the run starts anew from there.
+//! Camera moves: a coarse preview follows the camera, and when it rests the run restarts from its position.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -7,88 +7,89 @@ use super::Session;
 use super::job_result::{CameraPreview, JobResult};
 use super::jobs::Jobs;
 use super::opening::Opening;
-use super::preview::{guess, with_preview};
+use super::preview::{preview_pixels, with_preview};
 use crate::language::{Language, word};
 use crate::picture::{Quality, Size};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Tracer;
 
-/// A camera that was moved, and what is seen by it.
+/// A moved camera and its preview.
 pub(super) struct CameraMove {
     camera: Camera,
     /// egui's clock when it moved last, in seconds.
-    since: f64,
+    moved: f64,
     is_busy: bool,
-    /// The camera was moved since the job began.
-    again: bool,
-    /// The run that starts anew from there is being prepared.
+    /// Whether the camera was moved since the job began.
+    is_stale: bool,
+    /// Whether the run from the new position is being prepared.
     is_settled: bool,
-    shown: Option<Arc<CameraPreview>>,
+    preview: Option<Arc<CameraPreview>>,
 }
 
-/// A camera that rests for so long, in seconds, is where it is meant to be.
-const REST: f64 = 0.4;
+/// Seconds without movement after which the run restarts from the camera's position.
+const SETTLE_S: f64 = 0.4;
 
-/// The job looks at the picture as finely as this time allows, and always once.
-const LOOK: Duration = Duration::from_millis(30);
+/// Time limit of a preview; its first, coarsest step is always made.
+const PREVIEW_TIME: Duration = Duration::from_millis(30);
 
 impl Session {
-    /// Moves the camera; a recorded run keeps its own.
+    /// Moves the camera. In a recorded run it only shows a notice.
     pub fn move_camera(&mut self, change: impl FnOnce(&Camera) -> Camera) {
         if self.is_recorded() {
             return self.refuse_camera();
         }
         let Some(prepared) = &self.prepared else { return };
-        let before = self.moving.as_ref().map_or(prepared.opened.scene.camera, |moving| moving.camera);
+        let before = self.camera_move.as_ref().map_or(prepared.opened.scene.camera, |moving| moving.camera);
         let camera = change(&before);
-        let shown = self.moving.take().and_then(|moving| moving.shown);
-        let (is_busy, again) = (self.camera_jobs > 0, self.camera_jobs > 0);
-        self.moving = Some(CameraMove { camera, since: self.clock, is_busy, again, is_settled: false, shown });
-        self.look_from_there();
+        let preview = self.camera_move.take().and_then(|moving| moving.preview);
+        let (is_busy, is_stale) = (self.camera_jobs > 0, self.camera_jobs > 0);
+        self.camera_move =
+            Some(CameraMove { camera, moved: self.clock, is_busy, is_stale, is_settled: false, preview });
+        self.preview_camera();
     }
 
-    /// Says why the camera of a recorded run cannot be moved.
+    /// Shows the notice that the camera of a recorded run cannot be moved.
     pub fn refuse_camera(&mut self) {
         let language = self.language;
         self.note(word!(
             language,
-            "A recorded run keeps its camera: make it live first, under Set up (E)",
-            "Uma execução gravada mantém sua câmera: antes, executar ao vivo, em Ajustar (E)"
+            "The camera of a recorded run is fixed. Open Set up (E) and press Make it live",
+            "A câmera de uma execução gravada é fixa. Abra Ajustar (E) e pressione Executar ao vivo"
         ));
     }
 
-    /// Goes back to the scene's own camera.
-    pub fn camera_home(&mut self) {
-        if let Some(home) = self.home.filter(|_| self.is_camera_away()) {
+    /// Moves the camera back to that of the scene.
+    pub fn reset_camera(&mut self) {
+        if let Some(home) = self.scene_camera.filter(|_| self.is_camera_moved()) {
             self.move_camera(|_| home);
         }
     }
 
-    /// Whether the scene is seen by another camera than its own.
-    pub fn is_camera_away(&self) -> bool {
+    /// Whether the camera is not that of the scene.
+    pub fn is_camera_moved(&self) -> bool {
         if self.is_recorded() {
             return false;
         }
-        let now = self.moving.as_ref().map(|moving| moving.camera);
+        let now = self.camera_move.as_ref().map(|moving| moving.camera);
         let now = now.or_else(|| self.prepared.as_ref().map(|prepared| prepared.opened.scene.camera));
-        self.home.zip(now).is_some_and(|(home, now)| home.eye != now.eye || home.look_at != now.look_at)
+        self.scene_camera.zip(now).is_some_and(|(home, now)| home.eye != now.eye || home.look_at != now.look_at)
     }
 
-    /// What is about seen by a camera that moves.
-    pub fn moved(&self) -> Option<&Arc<CameraPreview>> {
-        self.moving.as_ref().and_then(|moving| moving.shown.as_ref())
+    /// Returns the preview of the moving camera.
+    pub fn camera_preview(&self) -> Option<&Arc<CameraPreview>> {
+        self.camera_move.as_ref().and_then(|moving| moving.preview.as_ref())
     }
 
-    /// Whether the camera moves, or the run from there is being prepared.
-    pub fn is_moving(&self) -> bool {
-        self.moving.is_some()
+    /// Whether the camera moves, or the run from its new position is being prepared.
+    pub fn is_camera_moving(&self) -> bool {
+        self.camera_move.is_some()
     }
 
-    /// Once the camera rests and no hand `holds` it, the run starts anew from there.
-    pub fn settle_camera(&mut self, holds: bool) {
+    /// Restarts the run from the camera's position once it rests and is not dragged.
+    pub fn settle_camera(&mut self, is_dragged: bool) {
         let language = self.language;
-        let Some(moving) = self.moving.as_mut().filter(|moving| !moving.is_settled) else { return };
-        if holds || self.clock - moving.since < REST {
+        let Some(moving) = self.camera_move.as_mut().filter(|moving| !moving.is_settled) else { return };
+        if is_dragged || self.clock - moving.moved < SETTLE_S {
             return;
         }
         moving.is_settled = true;
@@ -99,57 +100,62 @@ impl Session {
                 self.show(Opening::Scene(Arc::new(opened)));
                 self.note(word!(
                     language,
-                    "Seen from elsewhere: the run starts anew",
-                    "Vista de outro lugar: a execução reinicia"
+                    "Restarted from the new camera position",
+                    "Reiniciada da nova posição da câmera"
                 ));
             }
             None => {
-                self.moving = None;
-                self.trouble(word!(language, "The camera cannot go there", "A câmera não pode ir para lá"));
+                self.camera_move = None;
+                self.trouble(word!(
+                    language,
+                    "The camera cannot go there. Choose another position",
+                    "A câmera não pode ir para lá. Escolha outra posição"
+                ));
             }
         }
     }
 
-    /// The stage is another: what is seen there is the picture itself.
-    pub(super) fn camera_has_settled(&mut self) {
-        if self.moving.as_ref().is_some_and(|moving| moving.is_settled) {
-            self.moving = None;
+    /// Ends a settled camera move: the picture of the new run replaces the preview.
+    pub(super) fn end_camera_move(&mut self) {
+        if self.camera_move.as_ref().is_some_and(|moving| moving.is_settled) {
+            self.camera_move = None;
         }
     }
 
-    pub(super) fn take_moved(&mut self, moved: CameraPreview) {
+    pub(super) fn take_camera_preview(&mut self, preview: CameraPreview) {
         self.camera_jobs -= 1;
-        if let Some(moving) = &mut self.moving {
+        if let Some(moving) = &mut self.camera_move {
             moving.is_busy = false;
-            moving.shown = Some(Arc::new(moved));
-            if std::mem::take(&mut moving.again) {
-                self.look_from_there();
+            moving.preview = Some(Arc::new(preview));
+            if std::mem::take(&mut moving.is_stale) {
+                self.preview_camera();
             }
         }
     }
 
-    fn look_from_there(&mut self) {
+    /// Starts a preview from the moved camera, or notes that one is needed when the present job ends.
+    fn preview_camera(&mut self) {
         let language = self.language;
-        let (Some(moving), Some(prepared)) = (&mut self.moving, &self.prepared) else { return };
+        let (Some(moving), Some(prepared)) = (&mut self.camera_move, &self.prepared) else { return };
         if moving.is_busy {
-            moving.again = true;
+            moving.is_stale = true;
             return;
         }
         moving.is_busy = true;
         self.camera_jobs += 1;
         let scene = Scene { camera: moving.camera, ..prepared.opened.scene.clone() };
-        self.jobs.look(scene, prepared.size, prepared.quality, language);
+        self.jobs.preview(scene, prepared.size, prepared.quality, language);
     }
 }
 
 impl Jobs {
-    /// Looks at the scene, coarsely and then as finely as there is time.
-    fn look(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
-        self.start(language, "camera", move || JobResult::CameraPreview(look(&scene, size, quality)));
+    /// Traces a coarse preview of the scene, as fine as the time limit allows.
+    fn preview(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
+        self.start(language, "camera", move || JobResult::CameraPreview(preview(&scene, size, quality)));
     }
 }
 
-fn look(scene: &Scene, size: Size, quality: Quality) -> CameraPreview {
+fn preview(scene: &Scene, size: Size, quality: Quality) -> CameraPreview {
     let tracer = Tracer::new(scene, size, Quality { samples: 1, ..quality });
-    CameraPreview { size, pixels: guess(&with_preview(tracer, 1, LOOK)) }
+    CameraPreview { size, pixels: preview_pixels(&with_preview(tracer, 1, PREVIEW_TIME)) }
 }

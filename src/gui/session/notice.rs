@@ -1,52 +1,52 @@
-//! Messages to the user: what was done, what went wrong, what can be done about it.
+//! Notices to the user: what was done, or an error with the next step.
 
-/// A message to the user.
+/// A notice to the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
     /// One sentence.
     pub text: String,
-    /// When it goes away, and what can be done about it.
+    /// Determines how long it stays and its buttons.
     pub kind: NoticeKind,
-    /// When it came, by egui's clock in seconds.
-    since: f64,
+    /// egui's clock when it appeared, in seconds.
+    shown_at: f64,
 }
 
-/// What a notice is about.
+/// Kind of a notice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeKind {
-    /// It goes away by itself.
+    /// Something was done; disappears by itself.
     Note,
-    /// It stays until it is closed.
+    /// An error; stays until it is closed.
     Trouble,
-    /// The scene's file has changed: it can be read again.
+    /// The file of the scene has changed; offers to reload it.
     Changed,
 }
 
 impl Notice {
-    /// For how long a note can be read, in seconds.
-    const READ: f64 = 8.0;
+    /// Seconds for which a note is shown.
+    const NOTE_S: f64 = 8.0;
 
-    /// Something was done.
-    pub fn note(text: impl Into<String>, since: f64) -> Self {
-        Self { text: text.into(), kind: NoticeKind::Note, since }
+    /// Creates a note about something that was done.
+    pub fn note(text: impl Into<String>, now: f64) -> Self {
+        Self { text: text.into(), kind: NoticeKind::Note, shown_at: now }
     }
 
-    /// Something cannot be done.
-    pub fn trouble(text: impl Into<String>, since: f64) -> Self {
-        Self { text: text.into(), kind: NoticeKind::Trouble, since }
+    /// Creates an error.
+    pub fn trouble(text: impl Into<String>, now: f64) -> Self {
+        Self { text: text.into(), kind: NoticeKind::Trouble, shown_at: now }
     }
 
-    /// The file of the scene has changed.
-    pub fn changed(text: impl Into<String>, since: f64) -> Self {
-        Self { text: text.into(), kind: NoticeKind::Changed, since }
+    /// Creates a notice that the file of the scene has changed.
+    pub fn changed(text: impl Into<String>, now: f64) -> Self {
+        Self { text: text.into(), kind: NoticeKind::Changed, shown_at: now }
     }
 
-    /// For how many more seconds it is to be shown; `None` if until it is closed.
+    /// Returns the seconds until it disappears; `None` if it stays until it is closed.
     pub fn remains(&self, now: f64) -> Option<f64> {
-        (self.kind == NoticeKind::Note).then(|| (self.since + Self::READ - now).max(0.0))
+        (self.kind == NoticeKind::Note).then(|| (self.shown_at + Self::NOTE_S - now).max(0.0))
     }
 
-    /// Whether it is about a run that is over when another one begins.
+    /// Whether it is about the present run only, so that a new run closes it.
     pub fn is_of_the_run(&self) -> bool {
         self.kind != NoticeKind::Changed
     }
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn notes_go_away_and_troubles_stay() {
+    fn notes_disappear_and_errors_stay() {
         let note = Notice::note("Saved", 10.0);
         assert_eq!([note.remains(10.0), note.remains(15.0), note.remains(99.0)], [Some(8.0), Some(3.0), Some(0.0)]);
         assert_eq!(Notice::trouble("No", 10.0).remains(99.0), None);

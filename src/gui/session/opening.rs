@@ -1,28 +1,30 @@
-//! What can be opened: a scene, a recorded run, or a lesson.
+//! Reading of scenes, recorded runs and lessons.
 
+use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::language::{Language, say};
 use crate::lesson::{self, Lesson};
 use crate::runlog::{RunLog, is_run_file};
 use crate::scene::Opened;
 
-/// What the window shows.
+/// A scene, a recorded run or a lesson, read and checked.
 #[derive(Clone, Debug)]
 pub enum Opening {
-    /// A scene, to be traced.
+    /// A scene.
     Scene(Arc<Opened>),
-    /// A recorded run, to be played again.
+    /// A recorded run.
     Run(Arc<RunLog>),
-    /// A lesson, to be taken.
+    /// A lesson.
     Lesson(Arc<Lesson>),
 }
 
 impl Opening {
-    /// Reads the file of a scene, a run or a lesson, or the built-in scene of that name.
+    /// Reads a file of a scene, a run or a lesson, or the built-in scene of that name.
     ///
     /// # Errors
-    /// A sentence that names the file, and the line and column of a mistake in it.
+    /// A sentence with the file's name, and the line and column of a mistake in it.
     pub fn read(argument: &str) -> Result<Self, String> {
         let path = Path::new(argument);
         if is_run_file(path) {
@@ -36,4 +38,13 @@ impl Opening {
         let opened = Opened::new(argument).map_err(|error| error.to_string())?;
         Ok(Self::Scene(Arc::new(opened)))
     }
+}
+
+/// Says that the scene in a run file cannot be read.
+pub(super) fn unreadable_scene(error: &impl Display, language: Language) -> String {
+    say!(
+        language,
+        "The scene in the run file cannot be read ({error}). Record the run again",
+        "A cena no arquivo da execução não pode ser lida ({error}). Grave a execução de novo"
+    )
 }

@@ -1,22 +1,23 @@
-//! Whoever performs what the window shows: nodes that trace, or whoever traces a recorded run's picture again.
+//! Source of the records and pixels on the stage: the threads of a live run, or a recorded run whose picture is traced
+//! again.
 
 use crossbeam_channel::Receiver;
 
 use crate::driver::{Retrace, Run, Update};
 use crate::scenario::Command;
 
-/// Whoever performs a run.
+/// Source of a run's records and pixels.
 pub enum RunSource {
-    /// Nobody yet: the first scene is still being prepared.
+    /// None yet: the first scene is still being compiled.
     Nobody,
-    /// Nodes as threads.
+    /// A live run in threads.
     Live(Run),
-    /// All records are there; the picture is traced again.
+    /// A recorded run, whose picture is traced again.
     Recorded(Retrace),
 }
 
 impl RunSource {
-    /// What has happened since, oldest first.
+    /// Returns the channel of updates, oldest first.
     pub fn updates(&self) -> Option<&Receiver<Update>> {
         match self {
             Self::Nobody => None,
@@ -25,7 +26,7 @@ impl RunSource {
         }
     }
 
-    /// Stops the run's clock, or lets it go on.
+    /// Pauses or resumes the clock of a live run.
     pub fn set_paused(&self, paused: bool) {
         match (self, paused) {
             (Self::Live(run), true) => run.pause(),
@@ -34,7 +35,7 @@ impl RunSource {
         }
     }
 
-    /// Asks all threads to end, without waiting for them.
+    /// Tells all threads to end, without waiting for them.
     pub fn stop(&self) {
         match self {
             Self::Nobody => {}
@@ -52,14 +53,14 @@ impl RunSource {
         }
     }
 
-    /// Executes a command on a live run; a recorded run does not change any more.
+    /// Executes a command on a live run; a recorded run ignores it.
     pub fn command(&self, command: Command) {
         if let Self::Live(run) = self {
             run.command(command);
         }
     }
 
-    /// Lets the run's own clock go so many times as fast, if it is one of virtual time.
+    /// Sets the rate of the run's clock (run seconds per wall second) in virtual time.
     pub fn set_rate(&self, rate: f64) {
         if let Self::Live(run) = self {
             run.set_rate(rate);

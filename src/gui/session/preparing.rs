@@ -1,4 +1,4 @@
-//! The job that reads and compiles what is to be shown.
+//! The job that reads and compiles a scene, a run or a lesson.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -6,8 +6,8 @@ use std::time::Duration;
 use super::super::settings::Settings;
 use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
-use super::opening::Opening;
-use super::preview::{FINEST, PREVIEW, guess, with_preview};
+use super::opening::{Opening, unreadable_scene};
+use super::preview::{PREVIEW_STEP, PREVIEW_TIME, preview_pixels, with_preview};
 use crate::driver::{RAY_COST, probe};
 use crate::language::{Language, say};
 use crate::picture::Size;
@@ -16,7 +16,7 @@ use crate::tracer::Tracer;
 use crate::view::RunView;
 
 impl Jobs {
-    /// Reads and compiles what `read` gives; returns the job's number.
+    /// Starts the job that reads with `read` and compiles the result. Returns the job's number.
     pub fn prepare(
         &mut self,
         read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
@@ -28,29 +28,23 @@ impl Jobs {
         self.start(language, "prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
-                    let tracer = Arc::new(with_preview(Tracer::new(&opened.scene, size, quality), FINEST, PREVIEW));
-                    let found = probe(&tracer, division, PROBE);
-                    let cpu = found.whole_with_rests(&tracer, division);
-                    let virtual_time = RAY_COST.mul_f64(found.rays as f64);
-                    let preview = guess(&tracer);
+                    let tracer = Tracer::new(&opened.scene, size, quality);
+                    let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
+                    let estimate = probe(&tracer, division, PROBE_TIME);
+                    let cpu = estimate.whole_with_rests(&tracer, division);
+                    let virtual_time = RAY_COST.mul_f64(estimate.rays as f64);
+                    let preview = preview_pixels(&tracer);
                     Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
                 }
                 Opening::Run(log) => {
                     check_size(log.header.size, language)?;
                     let opened = Opened::from_text(&log.header.scene, &log.header.scene_text);
-                    let unread = |error| {
-                        say!(
-                            language,
-                            "The run's own scene cannot be read: {error}",
-                            "A cena da própria execução não pode ser lida: {error}"
-                        )
-                    };
-                    let opened = opened.map_err(unread)?;
+                    let opened = opened.map_err(|error| unreadable_scene(&error, language))?;
                     let tracer = Tracer::new(&opened.scene, log.header.size, log.header.quality);
-                    let tracer = Arc::new(with_preview(tracer, FINEST, PREVIEW));
-                    let known = Arc::new(RunView::of(&log));
-                    let preview = guess(&tracer);
-                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, known }))
+                    let tracer = Arc::new(with_preview(tracer, PREVIEW_STEP, PREVIEW_TIME));
+                    let view = Arc::new(RunView::of(&log));
+                    let preview = preview_pixels(&tracer);
+                    Ok(Ready::Run(Recorded { log, opened: Arc::new(opened), tracer, preview, view }))
                 }
                 Opening::Lesson(lesson) => Ok(Ready::Lesson(lesson)),
             });
@@ -60,18 +54,18 @@ impl Jobs {
     }
 }
 
-/// How much of a picture is traced to know what the whole will cost.
-const PROBE: Duration = Duration::from_millis(120);
+/// Time for which a picture is traced to estimate the cost of the whole.
+const PROBE_TIME: Duration = Duration::from_millis(120);
 
-/// Whether a window can hold a recorded picture.
+/// Checks that the window can show a recorded picture of this size.
 fn check_size(size: Size, language: Language) -> Result<(), String> {
-    let most = Settings::LONGEST_SIDE * Settings::LONGEST_SIDE;
-    if size.pixels() <= most {
+    let max = Settings::MAX_SIDE_PX * Settings::MAX_SIDE_PX;
+    if size.pixels() <= max {
         return Ok(());
     }
     Err(say!(
         language,
-        "This run's picture of {size} pixels is too large for the window, which shows up to {most} pixels",
-        "A imagem desta execução, de {size} pixels, é grande demais para a janela, que mostra até {most} pixels"
+        "The run's picture has {size} pixels; the window shows up to {max}. Record the run with a smaller picture",
+        "A imagem da execução tem {size} pixels; a janela mostra até {max}. Grave a execução com uma imagem menor"
     ))
 }

@@ -1,4 +1,4 @@
-//! What is shown: one run, and everything that is known of it, at the moment that is looked at.
+//! The run on the stage, at the shown time.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,30 +16,30 @@ use crate::view::{
     StepUnit, Subject, Summary, step,
 };
 
-/// A run, and everything that is known of it.
+/// A run with its records, its picture and the shown time.
 pub struct Stage {
-    /// Whoever performs it.
+    /// Source of records and pixels.
     pub performer: RunSource,
-    /// How far it is.
+    /// Whether it runs.
     pub phase: Phase,
-    /// Whether its clock stands still because it was asked to.
+    /// Whether the user has paused its clock.
     pub paused: bool,
-    /// Which machines were asked to stand still.
+    /// Whether the user has paused each machine.
     pub paused_nodes: Vec<bool>,
-    /// Its records so far.
+    /// Header and records so far.
     pub log: RunLog,
-    /// Which moment of it is shown.
+    /// The shown time and its rate.
     pub time: Playback,
-    /// Whether what comes after that moment is hidden: who is asked what will happen is not told before.
+    /// Whether everything after the shown time is hidden, as in a lesson, which asks what will happen.
     pub hides_later: bool,
     /// The picture in linear light.
     pub frame: Frame,
     /// The nodes' colours.
     pub colours: Vec<Rgb>,
     known: RunView,
-    /// An earlier moment, if that is shown.
+    /// Snapshot of the shown moment, unless that is the latest.
     earlier: Option<Snapshot>,
-    /// What is shown is known to be that after so many records, although others have the same time.
+    /// Number of records before the shown moment after a step; several records can have the same time.
     stepped_to: Option<usize>,
     past: SnapshotCache,
     canvas: Canvas,
@@ -48,27 +48,27 @@ pub struct Stage {
     ticked: Option<f64>,
 }
 
-/// How far a run is.
+/// Phase of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// There is no run yet.
     Preparing,
-    /// It goes on, or could.
+    /// It runs or is paused.
     Running,
-    /// Nothing more happens.
+    /// It has ended.
     Finished,
-    /// It cannot go on; a sentence says why.
+    /// It failed; a sentence gives the reason.
     Failed(String),
 }
 
-/// After a run's end time goes on for as long as its last messages are drawn.
+/// Time for which the clock continues after the end of a run, so that its last messages arrive on the screen.
 const LINGER: Duration = Duration::from_millis(1500);
 
-/// In one frame no more time goes by than this: whoever comes back to a window wants to see what he missed.
+/// Most time that passes in one frame. A window that was hidden continues where it was.
 const LONGEST_FRAME: Duration = Duration::from_millis(100);
 
 impl Stage {
-    /// The beginning of a run that goes on.
+    /// Creates the stage of a live run.
     pub fn new(performer: RunSource, header: Header, ground: Rgb) -> Self {
         let colours = node_colours(header.speeds.len());
         Self {
@@ -91,11 +91,11 @@ impl Stage {
         }
     }
 
-    /// A run that was recorded, from its beginning; `known` is what is known of all of it.
+    /// Creates the stage of a recorded run at its beginning; `known` is the view of the complete run.
     pub fn recorded(performer: RunSource, log: RunLog, known: RunView, ground: Rgb) -> Self {
         let result = Summary::of(&log);
         let mut time = Playback::from_start();
-        // A run of no time would be over before anybody looked.
+        // A short run is shown slower, or it would end at once.
         let length = known.latest.state.head().secs();
         time.set_rate(RATES.iter().rposition(|&rate| rate <= 1.0 && length >= 6.0 * rate).unwrap_or_default());
         let plain = Self::new(performer, log.header.clone(), ground);
@@ -104,17 +104,17 @@ impl Stage {
         stage
     }
 
-    /// Shows what is known of the picture beforehand where nothing is traced yet.
+    /// Shows the coarse preview where nothing is traced yet.
     pub fn show_preview(&mut self, preview: Arc<[Rgb]>) {
         self.canvas.preview(preview, &shown(&self.earlier, &self.known).state);
     }
 
-    /// Takes in what has happened since the last call; `clock` is egui's, in seconds. Returns whether the run has just come
-    /// to its end.
+    /// Applies the updates since the last call and advances the shown time; `clock` is egui's, in seconds. Returns
+    /// whether the run has just ended.
     pub fn tick(&mut self, clock: f64) -> bool {
         let passed = Duration::try_from_secs_f64(clock - self.ticked.unwrap_or(clock)).unwrap_or_default();
         self.ticked = Some(clock);
-        // One batch for the log, which would else sort its end for each party's.
+        // The log sorts its end once for all parties' records.
         let (mut told, mut ends) = (Vec::new(), false);
         while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
             match update {
@@ -148,88 +148,88 @@ impl Stage {
         ends
     }
 
-    /// The time that is shown.
+    /// Returns the shown time.
     pub fn now(&self) -> Time {
         self.time.now()
     }
 
-    /// What is known of the run at the shown time.
+    /// Returns the state of the run at the shown time.
     pub fn state(&self) -> &RunState {
         &self.shown().state
     }
 
-    /// The sentences at the shown time.
+    /// Returns the narrator at the shown time.
     pub fn narrator(&self) -> &Narrator {
         &self.shown().narrator
     }
 
-    /// What stands out in its time.
+    /// Returns the markers on the time line.
     pub fn signs(&self) -> &Markers {
         &self.known.markers
     }
 
-    /// What each machine did and when, all of it.
+    /// Returns the lanes of the whole run so far.
     pub fn lanes(&self) -> &Lanes {
         &self.known.lanes
     }
 
-    /// What is known of something, whatever moment is shown.
+    /// Returns the details of a subject, independent of the shown time.
     pub fn dossier(&mut self, about: Subject, language: Language) -> Details {
         Details::of(about, &self.log, &self.known.lanes, &mut self.past, language)
     }
 
-    /// How many records lie before what is shown.
+    /// Returns the number of records before the shown moment.
     pub fn records_shown(&self) -> usize {
         self.shown().records()
     }
 
-    /// The record to which somebody stepped, which is the last that is shown.
+    /// Returns the record that the last step led to; it is the last one shown.
     pub fn stepped_to(&self) -> Option<&Record> {
         self.log.records().get(self.stepped_to?.checked_sub(1)?)
     }
 
-    /// What is known of the run by now, whatever is shown.
+    /// Returns the latest state of the run, independent of the shown time.
     pub fn latest(&self) -> &RunState {
         &self.known.latest.state
     }
 
-    /// Whether everything that is known is shown.
+    /// Whether the latest state is shown.
     pub fn shows_end(&self) -> bool {
         self.earlier.is_none()
     }
 
-    /// What the run amounts to, where its end is shown.
+    /// Returns the summary of the run while its end is shown.
     pub fn result(&self) -> Option<&Summary> {
         self.result.as_ref().filter(|_| self.shows_end())
     }
 
-    /// The picture as it is shown, after what it is to look like.
+    /// Returns the canvas of the picture, drawn with this layer and its share (0 to 1).
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
         self.canvas.set_look(look, ground, &shown(&self.earlier, &self.known).state);
         &mut self.canvas
     }
 
-    /// The shown time, which stops when the picture is complete or nothing more happens.
+    /// Returns the shown time, at most the length of the run.
     pub fn lasted(&self) -> Time {
         self.now().min(self.length())
     }
 
-    /// How long the run is, so far.
+    /// Returns the length of the run so far.
     pub fn length(&self) -> Time {
         let is_over = matches!(self.phase, Phase::Finished | Phase::Failed(_));
         let end = is_over.then(|| self.known.latest.state.head());
         self.known.latest.state.finished().or(end).unwrap_or_else(|| self.clock())
     }
 
-    /// How exactly times are to be told, as a rate at which time goes: the shorter the run and the slower it is shown, the
-    /// more exactly.
+    /// Returns the precision of times in texts, as a playback rate: the shorter the run and the slower its playback,
+    /// the more decimals.
     pub fn grain(&self) -> f64 {
-        // A run that goes on is not told ever less exactly.
+        // The precision does not change while the run gets longer.
         let by_length = if self.phase == Phase::Running { 1.0 } else { self.length().secs() / 2.0 };
         self.time.rate().min(by_length).clamp(1e-9, 1.0)
     }
 
-    /// Whether the shown time goes on by itself.
+    /// Whether the shown time advances.
     pub fn goes_on(&self) -> bool {
         match self.phase {
             Phase::Running if self.time.is_live() => !self.paused,
@@ -238,17 +238,17 @@ impl Stage {
         }
     }
 
-    /// Whether the end of a run that is over is shown.
+    /// Whether the run has ended and its end is shown.
     pub fn is_at_end(&self) -> bool {
         self.phase == Phase::Finished && self.now() >= self.length()
     }
 
-    /// Whether what happens in the run is seen at once.
+    /// Whether the shown time follows the run.
     pub fn is_live(&self) -> bool {
         self.time.is_live()
     }
 
-    /// Shows another moment.
+    /// Shows the run at `time`; `stands` stops the shown time there.
     pub fn seek(&mut self, time: Time, stands: bool) {
         self.stepped_to = None;
         if time >= self.clock() && self.phase == Phase::Running {
@@ -259,25 +259,25 @@ impl Stage {
         self.show_now();
     }
 
-    /// Shows what happened next or before, and stands still there. Returns whether there is such a thing.
+    /// Shows the next or the last event, atom or lap and stops there. Returns whether there is one.
     pub fn step(&mut self, by: StepUnit, forward: bool) -> bool {
         let Some(records) = step(&self.log, self.records_shown(), by, forward) else { return false };
         self.show_after(records);
         true
     }
 
-    /// Shows the moment after so many records, and stands still there.
+    /// Shows the moment after this many records and stops there.
     pub fn show_after(&mut self, records: usize) {
         let at =
             records.checked_sub(1).and_then(|last| self.log.records().get(last)).map_or(Time::ZERO, |last| last.at);
-        // What is still drawn on its way when the picture is complete would stand still there for good.
+        // At the end the last messages have to arrive on the screen.
         let is_end = records >= self.log.records().len() && self.known.latest.state.finished().is_some();
         self.time.seek(if is_end { self.clock() } else { at }, true);
         self.stepped_to = Some(records);
         self.show_now();
     }
 
-    /// Shows what happens as it happens, or, if nothing more does, the end.
+    /// Follows the run, or shows its end.
     pub fn follow(&mut self) {
         self.stepped_to = None;
         match self.phase {
@@ -287,12 +287,12 @@ impl Stage {
         self.show_now();
     }
 
-    /// Time goes faster or slower by so many of [`RATES`](crate::view::RATES).
+    /// Changes the playback rate by this many steps of [`RATES`](crate::view::RATES).
     pub fn change_rate(&mut self, by: isize) {
         self.set_rate(self.time.rate_index().saturating_add_signed(by));
     }
 
-    /// Time goes at one of [`RATES`](crate::view::RATES).
+    /// Sets the playback rate to this entry of [`RATES`](crate::view::RATES).
     pub fn set_rate(&mut self, index: usize) {
         self.time.set_rate(index);
         self.performer.set_rate(self.time.rate());
@@ -302,7 +302,7 @@ impl Stage {
         shown(&self.earlier, &self.known)
     }
 
-    /// How far the run's own clock has come.
+    /// Returns the time of the run's own clock.
     fn clock(&self) -> Time {
         let end = self.known.latest.state.head() + LINGER.mul_f64(self.time.rate().min(1.0));
         match (&self.performer, &self.phase) {
@@ -313,7 +313,7 @@ impl Stage {
         }
     }
 
-    /// In virtual time the run itself goes as fast as is asked.
+    /// Whether the run's own clock has the playback rate, as in virtual time.
     fn keeps_pace(&self) -> bool {
         matches!(self.performer, RunSource::Live(_)) && self.log.header.driver == Driver::Sim
     }
@@ -325,12 +325,12 @@ impl Stage {
         let same = self.log.add(told);
         self.past.forget_after(same);
         if self.earlier.as_ref().is_some_and(|moment| moment.records() > same) {
-            // Told anew by the next look at it.
+            // The next show_now() builds it again.
             (self.earlier, self.stepped_to) = (Some(Snapshot::new(&self.log.header)), None);
         }
     }
 
-    /// Comes to the moment that the shown time asks for.
+    /// Brings snapshot and canvas to the shown time.
     fn show_now(&mut self) {
         if !self.time.is_paused() {
             self.stepped_to = None;
@@ -362,7 +362,7 @@ impl Stage {
     }
 }
 
-/// The moment that is shown: of its own, so that what is drawn of it can be changed meanwhile.
+/// Returns the shown snapshot. A function of the two fields, so that the canvas can be borrowed mutably beside it.
 fn shown<'a>(earlier: &'a Option<Snapshot>, known: &'a RunView) -> &'a Snapshot {
     earlier.as_ref().unwrap_or(&known.latest)
 }

@@ -1,4 +1,4 @@
-//! The job that runs a lesson's runs, and what shows them.
+//! The job that prepares the runs of a lesson, and the change between them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
-use super::preview::guess;
+use super::preview::preview_pixels;
 use crate::cancel::CancelToken;
 use crate::language::{Language, say};
 use crate::lesson::Lesson;
@@ -16,20 +16,20 @@ use crate::view::RunView;
 pub struct PreparingLesson {
     /// The job's number.
     pub job: u64,
-    /// How many pixels are traced.
+    /// Number of traced pixels.
     traced: Arc<AtomicU32>,
     pixels: u32,
 }
 
 impl PreparingLesson {
-    /// How far it is, 0 to 1.
+    /// Returns the share that is done, 0 to 1.
     pub fn share(&self) -> f32 {
         self.traced.load(Ordering::Relaxed) as f32 / self.pixels.max(1) as f32
     }
 }
 
 impl Session {
-    /// Runs a lesson's runs in the background.
+    /// Starts the job that runs the runs of a lesson.
     pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> PreparingLesson {
         let language = self.language;
         let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
@@ -38,23 +38,25 @@ impl Session {
     }
 
     /// Shows a run of a lesson from its beginning.
-    pub fn show_run_of(&mut self, taught: &PreparedLesson, name: &str) {
-        if let Some((_, recorded)) = taught.runs.iter().find(|(other, _)| other == name) {
-            // Whatever else was on its way to the stage comes too late.
-            (self.loading, self.moving) = (None, None);
+    pub fn show_lesson_run(&mut self, lesson: &PreparedLesson, name: &str) {
+        if let Some((_, recorded)) = lesson.runs.iter().find(|(other, _)| other == name) {
+            // Cancels what would replace it on the stage.
+            (self.loading, self.camera_move) = (None, None);
             self.play(recorded.clone());
         }
     }
 
-    /// The recorded run on the stage, if it is one.
+    /// Returns the recorded run on the stage, if there is one.
     pub fn recorded(&self) -> Option<Recorded> {
         self.recorded.clone()
     }
 
-    /// After a lesson: this recorded run, or what is set, from the beginning. What was opened meanwhile stays.
-    pub fn end_lesson(&mut self, taught: &PreparedLesson, before: Option<Recorded>) {
-        let is_taught = |shown: &Recorded| taught.runs.iter().any(|(_, run)| Arc::ptr_eq(&run.tracer, &shown.tracer));
-        if !self.recorded.as_ref().is_some_and(is_taught) {
+    /// After a lesson, shows the recorded run `before` it, or a new run with the settings. A run that was opened during
+    /// the lesson stays.
+    pub fn end_lesson(&mut self, lesson: &PreparedLesson, before: Option<Recorded>) {
+        let is_of_lesson =
+            |shown: &Recorded| lesson.runs.iter().any(|(_, run)| Arc::ptr_eq(&run.tracer, &shown.tracer));
+        if !self.recorded.as_ref().is_some_and(is_of_lesson) {
             return;
         }
         match before {
@@ -73,22 +75,27 @@ impl Jobs {
         let number = self.number();
         self.start(language, "lesson", move || {
             let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
-            // A lesson's pictures are small, and soon traced.
+            // The pictures of a lesson are small, so the job cannot be cancelled.
             let performed = lesson.perform(&done, &CancelToken::default());
-            let taught = performed.and_then(|performed| {
+            let prepared = performed.and_then(|performed| {
                 let performed = performed.unwrap_or_default();
                 lesson.has_moments(&performed)?;
                 let values = lesson.values(&performed);
                 let recorded = performed.into_iter().map(|(name, run)| {
-                    let known = Arc::new(RunView::of(&run.log));
-                    let preview = guess(&run.tracer);
-                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, known })
+                    let view = Arc::new(RunView::of(&run.log));
+                    let preview = preview_pixels(&run.tracer);
+                    (name, Recorded { log: run.log, opened: run.opened, tracer: run.tracer, preview, view })
                 });
                 Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
             });
-            let unshown =
-                |why| say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
-            JobResult::Lesson(number, taught.map_err(unshown))
+            let error = |why| {
+                say!(
+                    language,
+                    "The lesson cannot be shown. Correct its file: {why}",
+                    "A lição não pode ser mostrada. Corrija seu arquivo: {why}"
+                )
+            };
+            JobResult::LessonPrepared(number, prepared.map_err(error))
         });
         number
     }

@@ -1,63 +1,62 @@
-//! What was changed, in words.
+//! A short text of what changed between two settings.
 
 use super::Settings;
-use super::pace::Pace;
 use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::Quality;
 use crate::runlog::Driver;
 use crate::view::{fraction, remedies_words};
 
 impl Settings {
-    /// What these settings have that those `before` had not, in a few words.
+    /// Lists the values that differ from `before`, separated by commas; empty if none differs.
     pub fn difference(&self, before: &Self, language: Language) -> String {
-        let mut words: Vec<String> = self.other_machines(before, language).into_iter().collect();
-        let mut tell = |differs: bool, text: String| words.extend(differs.then_some(text));
+        let mut parts: Vec<String> = self.machines_difference(before, language).into_iter().collect();
+        let mut add = |differs: bool, text: String| parts.extend(differs.then_some(text));
         let size = self.size;
-        tell(size != before.size, format!("{size} pixels"));
-        other_quality(self.quality, before.quality, &mut tell, language);
+        add(size != before.size, format!("{size} pixels"));
+        quality_difference(self.quality, before.quality, &mut add, language);
         let atom = self.atom;
-        tell(atom != before.atom, say!(language, "atoms of {atom} pixels", "átomos de {atom} pixels"));
-        let (sharing, before_it) = (self.sharing(), before.sharing());
-        tell(sharing != before_it, sharing.name(language).to_lowercase());
+        add(atom != before.atom, say!(language, "atoms of {atom} pixels", "átomos de {atom} pixels"));
+        let (sharing, sharing_before) = (self.sharing(), before.sharing());
+        add(sharing != sharing_before, sharing.name(language).to_lowercase());
         let virtual_time = self.driver == Driver::Sim;
         let time = if virtual_time {
             word!(language, "virtual time", "tempo virtual")
         } else {
             word!(language, "real time", "tempo real")
         };
-        tell(virtual_time != (before.driver == Driver::Sim), time.into());
-        // A strategy brings its usual part with it.
+        add(virtual_time != (before.driver == Driver::Sim), time.into());
+        // A new strategy sets its usual part, which is not worth a word.
         let part = self.part;
-        let parts = if self.strategy.is_farm() {
+        let part_text = if self.strategy.is_farm() {
             say!(language, "{part} atoms in a part", "{part} átomos por parte")
         } else {
-            say!(language, "{part} atoms in a transfer at least", "{part} átomos por transferência, no mínimo")
+            say!(language, "at least {part} atoms in a transfer", "ao menos {part} átomos por transferência")
         };
-        tell(sharing == before_it && part != before.part, parts);
-        tell(sharing == before_it && self.remedies != before.remedies, remedies_words(self.remedies, language));
-        tell(self.tempo != before.tempo, Pace::words(self.tempo, language));
+        add(sharing == sharing_before && part != before.part, part_text);
+        add(sharing == sharing_before && self.remedies != before.remedies, remedies_words(self.remedies, language));
+        add(self.pace != before.pace, self.pace.text(language));
         let (latency, handling) = (self.latency, self.handling);
-        tell(latency != before.latency, say!(language, "{latency} ms a hop", "{latency} ms por salto"));
-        tell(
+        add(latency != before.latency, say!(language, "{latency} ms a hop", "{latency} ms por salto"));
+        add(
             handling != before.handling,
-            say!(language, "{handling} ms a message for the parent", "{handling} ms do pai por mensagem"),
+            say!(language, "the parent takes {handling} ms for a message", "o pai leva {handling} ms por mensagem"),
         );
         let bandwidth = match self.bandwidth {
-            0 => word!(language, "links of any speed", "enlaces sem limite").into(),
+            0 => word!(language, "links without a limit", "enlaces sem limite").into(),
             bandwidth => say!(language, "links of {bandwidth} kB/s", "enlaces de {bandwidth} kB/s"),
         };
-        tell(self.bandwidth != before.bandwidth, bandwidth);
+        add(self.bandwidth != before.bandwidth, bandwidth);
         let wire = if self.shared_wire {
-            word!(language, "one wire for all", "um cabo para todos")
+            word!(language, "one wire for all machines", "um cabo para todas as máquinas")
         } else {
-            word!(language, "a wire for each pair", "um cabo para cada par")
+            word!(language, "a wire for each pair of machines", "um cabo para cada par de máquinas")
         };
-        tell(self.shared_wire != before.shared_wire, wire.into());
-        words.join(", ")
+        add(self.shared_wire != before.shared_wire, wire.into());
+        parts.join(", ")
     }
 
-    /// How many machines there are now, or which have other speeds.
-    fn other_machines(&self, before: &Self, language: Language) -> Option<String> {
+    /// Describes the difference of the machines: their number, or else their speeds.
+    fn machines_difference(&self, before: &Self, language: Language) -> Option<String> {
         let (spares, nodes) = (self.spares.len(), self.speeds.len());
         if self.sharing() == before.sharing() && spares != before.spares.len() {
             return Some(match spares {
@@ -82,28 +81,29 @@ impl Settings {
                 Some(say!(language, "machine {name} at {speed}", "máquina {name} a {speed}"))
             }
             _ => {
-                let many = changed.len();
-                Some(say!(language, "other speeds for {many} machines", "outras velocidades de {many} máquinas"))
+                let count = changed.len();
+                Some(say!(language, "new speeds for {count} machines", "novas velocidades de {count} máquinas"))
             }
         }
     }
 }
 
-fn other_quality(quality: Quality, before: Quality, tell: &mut impl FnMut(bool, String), language: Language) {
+/// Adds the parts of the picture's quality that differ.
+fn quality_difference(quality: Quality, before: Quality, add: &mut impl FnMut(bool, String), language: Language) {
     let samples = quality.samples;
     let all = say!(language, "{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel");
-    tell(samples != before.samples, all);
+    add(samples != before.samples, all);
     let least = comma(language, quality.threshold.to_string());
     let threshold = match quality.threshold {
-        0.0 => word!(language, "all samples for every pixel", "todas as amostras em todo pixel").into(),
+        0.0 => word!(language, "all samples in every pixel", "todas as amostras em cada pixel").into(),
         _ => say!(language, "samples until the estimated error is {least}", "amostras até o erro estimado ser {least}"),
     };
-    tell(quality.threshold != before.threshold, threshold);
+    add(quality.threshold != before.threshold, threshold);
     let depth = quality.max_depth;
-    tell(depth != before.max_depth, say!(language, "{depth} levels of rays", "{depth} níveis de raios"));
+    add(depth != before.max_depth, say!(language, "{depth} levels of rays", "{depth} níveis de raios"));
     let cutoff = decimal(language, quality.cutoff, 4);
-    tell(
+    add(
         quality.cutoff != before.cutoff,
-        say!(language, "rays left out up to {cutoff}", "raios omitidos até {cutoff}"),
+        say!(language, "cutoff of weak rays {cutoff}", "limite de raios fracos {cutoff}"),
     );
 }

@@ -1,4 +1,4 @@
-//! What a run with these settings is asked to do, and which settings a run may have had.
+//! Conversion between settings and a run's header.
 
 use std::time::Duration;
 
@@ -10,8 +10,8 @@ use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::view::Sharing;
 
 impl Settings {
-    /// What a run with these settings is asked to do. The scene has a `name` and its file's `text`, `work` is the time of
-    /// the whole picture on the reference machine at full pace, `cores` are those of this computer.
+    /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the whole
+    /// picture on the reference machine at full pace; `cores` is the number of this computer's cores.
     pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
         let handling = Duration::from_millis(self.handling.into());
         let speeds: Vec<f64> = self.all_speeds().collect();
@@ -30,7 +30,7 @@ impl Settings {
                 remedies: self.remedies,
             },
             spares: self.spares.len() as NodeId,
-            pace: self.pace(work, cores),
+            pace: self.pace_fraction(work, cores),
             link: LinkSettings {
                 latency: self.latency_time(),
                 bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
@@ -44,8 +44,9 @@ impl Settings {
         }
     }
 
-    /// The settings that a run with this header may have had. Two threads a node are not offered here: one does the same.
-    pub fn of(header: &Header, tempo: Pace) -> Self {
+    /// Returns settings for a run like that of this header; `pace` is used if its pace was not full. The window does not
+    /// offer two threads a node, so these become one.
+    pub fn of(header: &Header, pace: Pace) -> Self {
         let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
         let own = header.speeds.len().saturating_sub(header.spares.into());
         let (speeds, spares) = header.speeds.split_at(own);
@@ -56,24 +57,26 @@ impl Settings {
             driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
             strategy: header.rules.strategy,
             part: header.rules.part,
-            tempo: if header.pace < 1.0 { tempo } else { Pace::Full },
+            pace: if header.pace < 1.0 { pace } else { Pace::Full },
             speeds: speeds.to_vec(),
             spares: spares.to_vec(),
             remedies: header.rules.remedies,
             latency: millis(header.link.latency),
             handling: millis(header.handling),
-            // A limit stays one, however low.
+            // 0 means no limit, so the lowest limit is 1.
             bandwidth: header.link.bandwidth.map_or(0, |bandwidth| (bandwidth * 1e-3).ceil().max(1.0) as u32),
             shared_wire: header.link.shared,
             ..Self::default()
         }
     }
 
-    pub(super) fn pace(&self, work: Duration, cores: usize) -> f64 {
-        // Machines that share badly take longer than those in a ring: that is to be seen.
+    /// Returns the fraction of a real core that the reference machine gets.
+    pub(super) fn pace_fraction(&self, work: Duration, cores: usize) -> f64 {
+        // The sum of all speeds is the power of a ring that shares perfectly. Other strategies take longer, which is the
+        // point of the demonstration; only the serial run, which uses one machine, gets its own sum.
         let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
         let all: Vec<f64> = self.all_speeds().collect();
-        let most = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&all, cores) };
-        self.tempo.pace(work, speeds.iter().sum(), most)
+        let max = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&all, cores) };
+        self.pace.fraction(work, speeds.iter().sum(), max)
     }
 }

@@ -1,4 +1,4 @@
-//! What the user has set: what a run is made from, and what acts on the run that goes on.
+//! The user's settings: the input of the next run, and what changes the present run at once.
 
 pub mod pace;
 pub mod speed_preset;
@@ -19,172 +19,181 @@ use crate::view::Sharing;
 use pace::Pace;
 use speed_preset::SpeedPreset;
 
-/// What the user has set. Speeds and latency act at once, everything else when a run starts.
+/// The user's settings. Speeds and latency take effect at once, all other values when a run starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
     /// Width and height of the picture.
     pub size: Size,
-    /// How good the picture is, with at most [`Settings::MOST_SAMPLES`].
+    /// Quality of the picture, with at most [`Settings::MAX_SAMPLES`].
     pub quality: Quality,
     /// Pixels in an atom.
     pub atom: u32,
-    /// Who executes the run: in real time, in virtual time, or rayon by its own rules.
+    /// Driver of the run: real time, virtual time, or rayon.
     pub driver: Driver,
-    /// How the atoms are shared, unless rayon shares them.
+    /// Strategy by which the atoms are shared; unused with rayon.
     pub strategy: Strategy,
-    /// In a ring, an offer is worth taking if it moves at least this many atoms. In a farm, the atoms of a part.
+    /// In a ring the fewest atoms of a transfer; in a farm the atoms of a part.
     pub part: u32,
-    /// How fast the reference machine is emulated.
-    pub tempo: Pace,
-    /// A machine a speed, as fractions of the reference machine.
+    /// Emulated speed of the reference machine.
+    #[serde(rename = "tempo")]
+    pub pace: Pace,
+    /// Speed of each machine, as a fraction of the reference machine, 0 to 1.
     pub speeds: Vec<f64>,
-    /// Machines that are off at first and may join, in a ring that adapts: a speed each, at most [`Settings::MOST_SPARES`].
+    /// Speed of each spare machine, at most [`Settings::MAX_SPARES`]. Spare machines are off at first and may join the
+    /// adaptive ring.
     pub spares: Vec<f64>,
-    /// What a ring that adapts does otherwise than the article's.
+    /// Remedies of the adaptive ring.
     pub remedies: Remedies,
-    /// What random speeds are made from.
+    /// Seed of random speeds.
     pub seed: u32,
-    /// How long a message travels, in milliseconds, at most [`Settings::MOST_LATENCY`].
+    /// Travel time of a message in milliseconds, at most [`Settings::MAX_LATENCY_MS`].
     pub latency: u32,
-    /// How long the parent is busy with each message, in milliseconds, at most [`Settings::MOST_HANDLING`].
+    /// Time that the parent takes for each message in milliseconds, at most [`Settings::MAX_HANDLING_MS`].
     pub handling: u32,
-    /// What a link carries, in kB a second, at most [`Settings::MOST_BANDWIDTH`]; 0 is unlimited.
+    /// Bandwidth of a link in kB/s, at most [`Settings::MAX_BANDWIDTH_KB_S`]; 0 is unlimited.
     pub bandwidth: u32,
-    /// Whether all share one wire; else each pair has one of its own.
+    /// Whether all machines share one wire; else each pair has its own.
     pub shared_wire: bool,
 }
 
 impl Settings {
-    /// What the window can draw and tell apart.
-    pub const MOST_NODES: usize = 32;
-    /// More of them would leave little room for the others.
-    pub const MOST_SPARES: usize = 4;
-    /// Beyond it nobody sees a difference.
-    pub const MOST_SAMPLES: u32 = 8;
-    /// In milliseconds.
-    pub const MOST_LATENCY: u32 = 2000;
-    /// In milliseconds.
-    pub const MOST_HANDLING: u32 = 1000;
-    /// In kB a second: a gigabit, beside which no limit is the same.
-    pub const MOST_BANDWIDTH: u32 = 125_000;
-    /// Of a side of the picture, in pixels.
-    pub const LONGEST_SIDE: u32 = 4096;
-    /// Of a run in the window, which keeps every record.
-    pub const MOST_ATOMS: u32 = 1 << 18;
-    /// Seconds that a run may be asked to last.
-    pub const LONGEST_RUN: u32 = 600;
+    /// Most machines that the window can show distinctly, spare ones included.
+    pub const MAX_NODES: usize = 32;
+    /// Most spare machines; they take room from the others.
+    pub const MAX_SPARES: usize = 4;
+    /// Most samples n of n × n a pixel; more make no visible difference.
+    pub const MAX_SAMPLES: u32 = 8;
+    /// Longest travel time of a message, in milliseconds.
+    pub const MAX_LATENCY_MS: u32 = 2000;
+    /// Longest time of the parent for a message, in milliseconds.
+    pub const MAX_HANDLING_MS: u32 = 1000;
+    /// Highest limit of a link, in kB/s: 1 Gbit/s, which acts like no limit.
+    pub const MAX_BANDWIDTH_KB_S: u32 = 125_000;
+    /// Longest side of the picture, in pixels.
+    pub const MAX_SIDE_PX: u32 = 4096;
+    /// Most atoms of a run; the window keeps all records in memory.
+    pub const MAX_ATOMS: u32 = 1 << 18;
+    /// Longest run that can be set, in seconds.
+    pub const MAX_RUN_S: u32 = 600;
 
-    /// How the picture is cut.
+    /// Returns the division of the picture into atoms.
     pub fn division(&self) -> Division {
         Division::new(self.size.pixels(), self.atom)
     }
 
+    /// Checks all values against their limits.
+    ///
     /// # Errors
-    /// A sentence that says which setting is impossible, and what would be possible.
+    /// A sentence with the wrong setting and its possible values.
     pub fn check(&self, language: Language) -> Result<(), String> {
-        let within = |what: &str, value: u32, least: u32, most: u32| {
-            let possible = (least..=most).contains(&value);
-            let why = || {
-                say!(
-                    language,
-                    "{what} can be {least} to {most}, not {value}",
-                    "{what}: pode ser de {least} a {most}, não {value}"
-                )
-            };
-            if possible { Ok(()) } else { Err(why()) }
+        let within = |name: &str, value: u32, min: u32, max: u32| {
+            if (min..=max).contains(&value) {
+                return Ok(());
+            }
+            Err(say!(
+                language,
+                "{name}: choose a value from {min} to {max} instead of {value}",
+                "{name}: escolha um valor de {min} a {max} em vez de {value}"
+            ))
         };
         Size::new(self.size.width(), self.size.height())?;
-        within(word!(language, "The width", "Largura"), self.size.width(), 16, Self::LONGEST_SIDE)?;
-        within(word!(language, "The height", "Altura"), self.size.height(), 16, Self::LONGEST_SIDE)?;
-        within(word!(language, "Samples", "Amostras"), self.quality.samples, 1, Self::MOST_SAMPLES)?;
+        within(word!(language, "Width", "Largura"), self.size.width(), 16, Self::MAX_SIDE_PX)?;
+        within(word!(language, "Height", "Altura"), self.size.height(), 16, Self::MAX_SIDE_PX)?;
+        within(word!(language, "Samples", "Amostras"), self.quality.samples, 1, Self::MAX_SAMPLES)?;
         self.quality.check()?;
-        let machines = word!(language, "The number of machines", "Número de máquinas");
+        let machines = word!(language, "Number of machines", "Número de máquinas");
         within(
             machines,
             self.speeds.len() as u32,
             1,
-            (Self::MOST_NODES - self.spares.len().min(Self::MOST_SPARES)) as u32,
+            (Self::MAX_NODES - self.spares.len().min(Self::MAX_SPARES)) as u32,
         )?;
-        let spares = word!(language, "The number of spare machines", "Número de máquinas de reserva");
-        within(spares, self.spares.len() as u32, 0, Self::MOST_SPARES as u32)?;
-        within(word!(language, "An atom's pixels", "Pixels de um átomo"), self.atom, 1, self.size.pixels())?;
-        within(word!(language, "A part", "Uma parte"), self.part, 1, Self::MOST_ATOMS)?;
-        within(word!(language, "The latency", "Latência"), self.latency, 0, Self::MOST_LATENCY)?;
-        let handling = word!(language, "The parent's time for a message", "Tempo do pai por mensagem");
-        within(handling, self.handling, 0, Self::MOST_HANDLING)?;
-        let bandwidth = word!(language, "A link's kB a second", "kB por segundo de um enlace");
-        within(bandwidth, self.bandwidth, 0, Self::MOST_BANDWIDTH)?;
-        if let Pace::Lasts(seconds) = self.tempo {
-            within(word!(language, "A run's seconds", "Segundos de uma execução"), seconds, 1, Self::LONGEST_RUN)?;
+        let spares = word!(language, "Number of spare machines", "Número de máquinas de reserva");
+        within(spares, self.spares.len() as u32, 0, Self::MAX_SPARES as u32)?;
+        within(word!(language, "Pixels in an atom", "Pixels num átomo"), self.atom, 1, self.size.pixels())?;
+        within(word!(language, "Atoms in a part", "Átomos numa parte"), self.part, 1, Self::MAX_ATOMS)?;
+        within(word!(language, "Latency in ms", "Latência em ms"), self.latency, 0, Self::MAX_LATENCY_MS)?;
+        let handling = word!(language, "Parent's time for a message in ms", "Tempo do pai por mensagem em ms");
+        within(handling, self.handling, 0, Self::MAX_HANDLING_MS)?;
+        let bandwidth = word!(language, "Bandwidth of a link in kB/s", "Banda de um enlace em kB/s");
+        within(bandwidth, self.bandwidth, 0, Self::MAX_BANDWIDTH_KB_S)?;
+        if let Pace::Lasts(seconds) = self.pace {
+            within(word!(language, "Seconds of the run", "Segundos da execução"), seconds, 1, Self::MAX_RUN_S)?;
         }
         if !self.all_speeds().all(|speed| (0.0..=1.0).contains(&speed)) {
-            return Err(word!(language, "A speed can be 0 to 100 %", "Uma velocidade pode ser de 0 a 100 %").into());
+            return Err(word!(
+                language,
+                "Speed: choose a value from 0 to 100 %",
+                "Velocidade: escolha um valor de 0 a 100 %"
+            )
+            .into());
         }
-        let (atoms, most) = (self.division().atoms(), Self::MOST_ATOMS);
-        if atoms > most {
+        let (atoms, max) = (self.division().atoms(), Self::MAX_ATOMS);
+        if atoms > max {
             let (size, atom) = (self.size, self.atom);
             return Err(say!(
                 language,
-                "{size} pixels in atoms of {atom} are {atoms} atoms; the window shows up to {most}: larger atoms, or a \
-                 smaller picture",
-                "{size} pixels em átomos de {atom} são {atoms} átomos; a janela mostra até {most}: átomos maiores, ou \
-                 imagem menor"
+                "{size} pixels in atoms of {atom} are {atoms} atoms; the window shows up to {max}. Choose larger atoms or a \
+                smaller picture",
+                "{size} pixels em átomos de {atom} são {atoms} átomos; a janela mostra até {max}. Escolha átomos maiores ou \
+                uma imagem menor"
             ));
         }
         Ok(())
     }
 
-    /// Whether a run with the `other` settings would have to start anew to have these.
+    /// Whether a run with the `other` settings must restart to get these.
     pub fn needs_restart(&self, other: &Self) -> bool {
-        let unlike = |a: &Self| {
-            let mut bare = a.clone();
-            bare.speeds = vec![0.0; a.speeds.len()];
-            bare.spares = vec![0.0; a.spares.len()];
-            (bare.latency, bare.seed) = (0, 0);
-            bare
+        // Without the values that take effect at once.
+        let fixed = |settings: &Self| {
+            let mut fixed = settings.clone();
+            fixed.speeds = vec![0.0; settings.speeds.len()];
+            fixed.spares = vec![0.0; settings.spares.len()];
+            (fixed.latency, fixed.seed) = (0, 0);
+            fixed
         };
-        unlike(self) != unlike(other)
+        fixed(self) != fixed(other)
     }
 
-    /// As many machines, at the speeds that they have; new ones run at full speed.
+    /// Sets the number of machines. Machines that stay keep their speeds; new ones run at full speed.
     pub fn set_nodes(&mut self, nodes: usize) {
-        self.speeds.resize(nodes.clamp(1, Self::MOST_NODES - self.spares.len()), 1.0);
+        self.speeds.resize(nodes.clamp(1, Self::MAX_NODES - self.spares.len()), 1.0);
     }
 
-    /// As many spare machines, if there is room for them.
+    /// Sets the number of spare machines, within the limits.
     pub fn set_spares(&mut self, spares: usize) {
-        self.spares.resize(spares.min(Self::MOST_SPARES).min(Self::MOST_NODES - self.speeds.len()), 1.0);
+        self.spares.resize(spares.min(Self::MAX_SPARES).min(Self::MAX_NODES - self.speeds.len()), 1.0);
     }
 
-    /// The speeds of all machines, the spare ones last.
+    /// Iterates over the speeds of all machines, spare ones last.
     pub fn all_speeds(&self) -> impl Iterator<Item = f64> {
         self.speeds.iter().chain(&self.spares).copied()
     }
 
-    /// Gives a machine a speed; it may be a spare one.
+    /// Sets the speed of a machine, which may be a spare one.
     pub fn set_speed(&mut self, node: NodeId, speed: f64) {
-        if let Some(known) = self.speeds.iter_mut().chain(&mut self.spares).nth(node.into()) {
-            *known = speed;
+        if let Some(old) = self.speeds.iter_mut().chain(&mut self.spares).nth(node.into()) {
+            *old = speed;
         }
     }
 
-    /// Gives every machine a speed.
+    /// Sets the speeds of all machines but the spare ones.
     pub fn set_preset(&mut self, preset: SpeedPreset) {
         self.speeds = preset.speeds(self.speeds.len(), self.seed.into());
     }
 
-    /// Whether the machines have these speeds.
+    /// Whether the machines have the speeds of the preset.
     pub fn has_preset(&self, preset: SpeedPreset) -> bool {
         self.speeds == preset.speeds(self.speeds.len(), self.seed.into())
     }
 
-    /// How the atoms are shared.
+    /// Returns who shares the atoms: rayon, or a protocol with its strategy.
     pub fn sharing(&self) -> Sharing {
         if self.driver == Driver::WorkStealing { Sharing::Stealing } else { Sharing::By(self.strategy) }
     }
 
-    /// Shares the atoms so, with what is usual then: virtual time stays, unless rayon is to share them.
+    /// Sets who shares the atoms, with the usual part and spare machines. Virtual time stays, except with rayon.
     pub fn set_sharing(&mut self, sharing: Sharing) {
         match sharing {
             Sharing::Stealing => {
@@ -202,25 +211,25 @@ impl Settings {
         }
     }
 
-    /// How long a message travels.
+    /// Returns the travel time of a message.
     pub fn latency_time(&self) -> Duration {
         Duration::from_millis(self.latency.into())
     }
 }
 
 impl Default for Settings {
-    /// A run that a class can follow: eight machines of which the last is slow, 40 ms a hop, about 20 seconds. The sky
-    /// is the first machine's, and so it is soon done and asks its left neighbour, the slow one, first.
+    /// Returns a run that a class can follow: eight machines of which the last is slow, 40 ms a hop, about 20 seconds.
+    /// Machine 1 has the sky, so it finishes early, and its offer goes first to its left neighbour, the slow machine.
     fn default() -> Self {
         let mut settings = Self {
-            // Neither side is 0, and there are few pixels.
+            // Size::new fails only for an empty or a huge picture.
             size: Size::new(640, 480).expect("a possible size"),
             quality: Quality::default(),
             atom: 50,
             driver: Driver::Threads,
             strategy: Strategy::Ring,
             part: 1,
-            tempo: Pace::Lasts(20),
+            pace: Pace::Lasts(20),
             speeds: vec![1.0; 8],
             spares: Vec::new(),
             remedies: Remedies::ALL,
@@ -247,59 +256,59 @@ mod tests {
     }
 
     #[test]
-    fn speeds_and_latency_act_at_once_and_the_rest_needs_a_restart() {
+    fn speeds_and_latency_need_no_restart_and_the_rest_does() {
         let default = Settings::default();
         let at_once: [fn(&mut Settings); 3] = [|s| s.speeds[3] = 0.2, |s| s.latency = 7, |s| s.seed = 9];
         for change in at_once {
             assert!(!with(change).needs_restart(&default));
         }
-        let anew: [fn(&mut Settings); 8] = [
+        let with_restart: [fn(&mut Settings); 8] = [
             |s| s.set_nodes(3),
             |s| s.atom = 7,
-            |s| s.tempo = Pace::Full,
+            |s| s.pace = Pace::Full,
             |s| s.part = 9,
             |s| s.driver = Driver::Sim,
             |s| s.handling = 20,
             |s| s.bandwidth = 100,
             |s| s.shared_wire = true,
         ];
-        for change in anew {
+        for change in with_restart {
             assert!(with(change).needs_restart(&default));
         }
     }
 
     #[test]
-    fn impossible_settings_are_told_in_words() {
+    fn check_names_the_setting_and_its_limits() {
         let language = Language::English;
         assert_eq!(Settings::default().check(language), Ok(()));
         let complaint = |change: fn(&mut Settings)| with(change).check(language).unwrap_err();
-        assert_eq!(complaint(|s| s.speeds.clear()), "The number of machines can be 1 to 32, not 0");
-        assert_eq!(complaint(|s| s.speeds = vec![f64::NAN]), "A speed can be 0 to 100 %");
+        assert_eq!(complaint(|s| s.speeds.clear()), "Number of machines: choose a value from 1 to 32 instead of 0");
+        assert_eq!(complaint(|s| s.speeds = vec![f64::NAN]), "Speed: choose a value from 0 to 100 %");
         assert!(complaint(|s| s.atom = 1).contains("307200 atoms; the window shows up to 262144"));
-        assert!(complaint(|s| s.tempo = Pace::Lasts(0)).starts_with("A run's seconds"));
+        assert!(complaint(|s| s.pace = Pace::Lasts(0)).starts_with("Seconds of the run"));
     }
 
     #[test]
-    fn differences_are_told_in_a_few_words() {
+    fn difference_lists_changed_values() {
         let language = Language::English;
         let told = |change: fn(&mut Settings)| with(change).difference(&Settings::default(), language);
         assert_eq!(told(|_| {}), "");
         assert_eq!(told(|s| s.speeds[2] = 0.3), "machine 3 at 30 %");
-        assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "other speeds for 8 machines");
+        assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "new speeds for 8 machines");
         assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
         let farm = Sharing::By(Strategy::Farm);
         assert_eq!(with(|s| s.set_sharing(farm)).difference(&Settings::default(), language), "farm");
         assert_eq!(told(|s| s.set_sharing(Sharing::Stealing)), "work stealing (rayon)");
-        assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, 5 atoms in a transfer at least");
+        assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, at least 5 atoms in a transfer");
         assert_eq!(
             told(|s| (s.handling, s.bandwidth, s.shared_wire) = (20, 100, true)),
-            "20 ms a message for the parent, links of 100 kB/s, one wire for all"
+            "the parent takes 20 ms for a message, links of 100 kB/s, one wire for all machines"
         );
     }
 
     #[test]
-    fn a_strategy_brings_what_is_usual_and_rayon_knows_no_virtual_time() {
+    fn strategy_sets_its_usual_part_and_rayon_leaves_virtual_time() {
         let farm = with(|s| s.set_sharing(Sharing::By(Strategy::Farm)));
         assert_eq!((farm.part, farm.sharing()), (6144 / 128, Sharing::By(Strategy::Farm)));
         let mut settings = with(|s| s.driver = Driver::Sim);
@@ -312,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn spare_machines_come_with_the_ring_that_adapts() {
+    fn adaptive_ring_has_a_spare_machine() {
         let language = Language::English;
         let mut settings = with(|s| s.set_sharing(Sharing::By(Strategy::Adaptive)));
         assert_eq!((settings.spares.len(), settings.speeds.len()), (1, 8));
@@ -320,7 +329,7 @@ mod tests {
         let header = settings.header("", "", Duration::from_millis(300), 2);
         assert_eq!((header.spares, header.speeds.len(), header.speeds[8]), (1, 9, 0.5));
         assert!(header.is_spare(8) && !header.is_spare(7));
-        assert_eq!(Settings::of(&header, settings.tempo), settings);
+        assert_eq!(Settings::of(&header, settings.pace), settings);
         let more = Settings { spares: vec![1.0; 2], ..settings.clone() };
         assert!(more.needs_restart(&settings));
         assert_eq!(more.difference(&settings, language), "2 spare machines");
@@ -331,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_keeps_what_it_was_asked_to_do() {
+    fn header_keeps_the_settings() {
         let settings = with(|s| {
             s.set_sharing(Sharing::By(Strategy::FarmBySpeed));
             (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20, 100, true, 7);
@@ -339,23 +348,20 @@ mod tests {
         let header = settings.header("", "", Duration::from_millis(300), 2);
         assert_eq!((header.cores, header.link.bandwidth), (8, Some(1e5)));
         assert_eq!(header.rules.batch, Some(Duration::from_millis(320)));
-        assert_eq!(Settings::of(&header, settings.tempo), settings);
-        assert_eq!(
-            with(|s| s.tempo = Pace::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch,
-            Some(Rules::BATCH)
-        );
+        assert_eq!(Settings::of(&header, settings.pace), settings);
+        assert_eq!(with(|s| s.pace = Pace::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch, Some(Rules::BATCH));
     }
 
     #[test]
-    fn a_run_lasts_as_long_as_it_is_asked_to() {
+    fn pace_makes_the_run_last_the_set_seconds() {
         let work = Duration::from_millis(300);
         for seconds in [10, 20, 60] {
-            let pace = with(|s| s.tempo = Pace::Lasts(seconds)).pace(work, 2);
+            let pace = with(|s| s.pace = Pace::Lasts(seconds)).pace_fraction(work, 2);
             let lasts = work.as_secs_f64() / (pace * 7.1);
             assert!((lasts / f64::from(seconds) - 0.85).abs() < 0.01, "{lasts}");
         }
-        assert_eq!(with(|s| s.tempo = Pace::Full).pace(work, 2), 1.0);
-        let slow = with(|s| s.speeds = vec![0.0; 2]).pace(work, 2);
+        assert_eq!(with(|s| s.pace = Pace::Full).pace_fraction(work, 2), 1.0);
+        let slow = with(|s| s.speeds = vec![0.0; 2]).pace_fraction(work, 2);
         assert!(slow > 0.0 && slow < 1.0);
     }
 }

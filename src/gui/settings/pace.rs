@@ -1,4 +1,4 @@
-//! How fast the reference machine is emulated.
+//! Emulated speed of the reference machine.
 
 use std::time::Duration;
 
@@ -6,35 +6,39 @@ use serde::{Deserialize, Serialize};
 
 use crate::language::{Language, say, word};
 
-/// How fast the reference machine is emulated.
+/// Emulated speed of the reference machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pace {
-    /// So that the run takes about this many seconds.
+    /// Slowed down so that the run lasts about this many seconds.
     Lasts(u32),
-    /// As fast as this computer can: a machine at full speed never waits.
+    /// As fast as this computer: a machine at 100 % never waits.
     Full,
 }
 
 impl Pace {
-    /// How fast that is, in a few words.
-    pub fn words(self, language: Language) -> String {
+    /// Names the pace in a few words.
+    pub fn text(self, language: Language) -> String {
         match self {
-            Self::Lasts(seconds) => say!(language, "a run of about {seconds} s", "uma execução de uns {seconds} s"),
+            Self::Lasts(seconds) => {
+                say!(language, "a run of about {seconds} s", "uma execução de cerca de {seconds} s")
+            }
             Self::Full => word!(language, "full speed", "velocidade total").into(),
         }
     }
 
-    /// The pace of machines whose speeds have this `sum`, for a picture that takes the reference machine so much `work`;
-    /// `most` is what this computer can do.
-    pub fn pace(self, work: Duration, sum: f64, most: f64) -> f64 {
-        /// Not all machines are busy to the end, and those in a run find their caches colder than a probe does.
-        const BUSY: f64 = 0.85;
+    /// Returns the fraction of a real core that the reference machine gets, above 0 and at most 1. `work` is the time
+    /// of the picture on the reference machine, `speed_sum` the sum of all machines' speeds, `max` the limit of this
+    /// computer.
+    pub fn fraction(self, work: Duration, speed_sum: f64, max: f64) -> f64 {
+        /// Share of the machines' time that is tracing at the probe's speed: some machines are idle near the end, and
+        /// caches are colder in a run than in the probe.
+        const BUSY_SHARE: f64 = 0.85;
         match self {
             Self::Full => 1.0,
-            // A computer that is too slow for this makes the run longer instead of late; 0 is not a pace.
+            // On a computer that is too slow the run lasts longer. The pace must stay above 0.
             Self::Lasts(seconds) => {
-                let wanted = work.as_secs_f64() / (BUSY * f64::from(seconds) * sum.max(1e-3));
-                wanted.min(most).clamp(1e-6, 0.999)
+                let wanted = work.as_secs_f64() / (BUSY_SHARE * f64::from(seconds) * speed_sum.max(1e-3));
+                wanted.min(max).clamp(1e-6, 0.999)
             }
         }
     }

@@ -1,22 +1,22 @@
-//! Speeds that are offered for all machines at once.
+//! Presets for the speeds of all machines.
 
 use crate::language::{Language, word};
 
-/// Speeds for all machines at once.
+/// Preset for the speeds of all machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpeedPreset {
-    /// All as fast as the reference machine.
+    /// All machines at full speed.
     Equal,
-    /// The last one at a tenth.
+    /// The last machine at 10 %, the others at full speed.
     OneSlow,
-    /// Anything from a tenth to full speed, by the seed.
+    /// Random speeds from 10 to 100 %, by the seed.
     Random,
-    /// What stood in a laboratory of about 1997.
+    /// Machines of a laboratory of about 1997.
     Laboratory,
 }
 
-/// The machines of such a laboratory, by how fast they were. The first and the last are the article's (§9, Figures 6
-/// and 7: 580 s and 6,099 s for the same picture); those between are guessed from their clocks.
+/// Machines of a laboratory of about 1997 and their speeds. The fastest and the slowest are the article's (§9, Figures 6
+/// and 7: 580 s and 6,099 s for the same picture); the others are estimates from their clock rates.
 const LABORATORY: [(&str, f64); 8] = [
     ("Pentium 75", 1.0),
     ("486 DX4 100", 0.62),
@@ -29,20 +29,20 @@ const LABORATORY: [(&str, f64); 8] = [
 ];
 
 impl SpeedPreset {
-    /// All of them, in the order in which they are offered.
+    /// All presets, in the order of their buttons.
     pub const ALL: [Self; 4] = [Self::Equal, Self::OneSlow, Self::Random, Self::Laboratory];
 
-    /// What it is called.
+    /// Returns the text of its button.
     pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::Equal => word!(language, "All equal", "Iguais"),
             Self::OneSlow => word!(language, "One slow", "Uma lenta"),
-            Self::Random => word!(language, "Random", "Ao acaso"),
+            Self::Random => word!(language, "Random", "Aleatórias"),
             Self::Laboratory => word!(language, "Old laboratory", "Laboratório antigo"),
         }
     }
 
-    /// What it does, in a sentence.
+    /// Returns its description.
     pub fn hint(self, language: Language) -> &'static str {
         match self {
             Self::Equal => word!(language, "Every machine at full speed", "Todas as máquinas a 100 %"),
@@ -56,8 +56,8 @@ impl SpeedPreset {
             Self::Random => {
                 word!(
                     language,
-                    "Each machine anywhere from 10 to 100 %, by the seed",
-                    "Cada máquina entre 10 e 100 %, pela semente"
+                    "Each machine at a random speed from 10 to 100 %, by the seed",
+                    "Cada máquina a uma velocidade aleatória de 10 a 100 %, pela semente"
                 )
             }
             Self::Laboratory => word!(
@@ -68,7 +68,7 @@ impl SpeedPreset {
         }
     }
 
-    /// So many machines at these speeds; random ones are made from `seed`.
+    /// Returns the speeds of `nodes` machines; random ones depend on `seed`.
     pub fn speeds(self, nodes: usize, seed: u64) -> Vec<f64> {
         match self {
             Self::Equal => vec![1.0; nodes],
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn presets_are_possible_and_repeatable() {
+    fn presets_give_valid_and_repeatable_speeds() {
         for preset in SpeedPreset::ALL {
             for nodes in 1..=32 {
                 let speeds = preset.speeds(nodes, 1);

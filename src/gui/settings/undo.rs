@@ -1,9 +1,9 @@
-//! What was set before: undo and redo.
+//! Undo and redo of settings.
 
 use super::Settings;
 use crate::balance::NodeId;
 
-/// The settings before each change, and those after the changes that were undone.
+/// Settings before each change, and settings after the undone changes.
 #[derive(Debug, Default)]
 pub struct UndoHistory {
     past: Vec<Settings>,
@@ -11,39 +11,39 @@ pub struct UndoHistory {
     gesture: Option<Gesture>,
 }
 
-/// What a change is made with: the many small changes of one gesture are undone together.
+/// Origin of a change. Consecutive changes of one gesture, like a drag, are undone together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
-    /// A machine's slider, or its value.
+    /// The slider or the number field of a machine's speed.
     Speed(NodeId),
-    /// The slider of the latency.
+    /// The latency slider.
     Latency,
-    /// Something that changes once.
+    /// A single change.
     Once,
 }
 
 impl UndoHistory {
-    /// More steps back than anybody takes.
-    const MOST: usize = 200;
+    /// Number of changes that can be undone.
+    const MAX_STEPS: usize = 200;
 
-    /// Keeps what was set before a change, unless the change belongs to the gesture that goes on.
-    pub fn keep(&mut self, before: Settings, gesture: Gesture) {
-        let goes_on = gesture != Gesture::Once && self.gesture == Some(gesture);
+    /// Stores the settings before a change, unless the change continues the present gesture.
+    pub fn push(&mut self, before: Settings, gesture: Gesture) {
+        let continues = gesture != Gesture::Once && self.gesture == Some(gesture);
         self.gesture = Some(gesture);
         self.future.clear();
-        if !goes_on {
+        if !continues {
             self.past.push(before);
-            let surplus = self.past.len().saturating_sub(Self::MOST);
+            let surplus = self.past.len().saturating_sub(Self::MAX_STEPS);
             self.past.drain(..surplus);
         }
     }
 
-    /// The hand has let go: the next change is another gesture.
-    pub fn let_go(&mut self) {
+    /// Ends the present gesture: the next change starts a new one.
+    pub fn end_gesture(&mut self) {
         self.gesture = None;
     }
 
-    /// Takes what was set before the last change, if there was one.
+    /// Returns the settings before the last change, if there is one, and keeps `now` for redo.
     pub fn undo(&mut self, now: &Settings) -> Option<Settings> {
         self.gesture = None;
         let before = self.past.pop()?;
@@ -51,7 +51,7 @@ impl UndoHistory {
         Some(before)
     }
 
-    /// Takes what was set before the last undo, if nothing was changed since.
+    /// Returns the settings before the last undo, unless a change came after it, and keeps `now` for undo.
     pub fn redo(&mut self, now: &Settings) -> Option<Settings> {
         self.gesture = None;
         let after = self.future.pop()?;
@@ -59,12 +59,12 @@ impl UndoHistory {
         Some(after)
     }
 
-    /// Whether there is something to undo.
+    /// Whether there is a change to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
     }
 
-    /// Whether there is something to redo.
+    /// Whether there is an undone change to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }
@@ -79,15 +79,15 @@ mod tests {
     }
 
     #[test]
-    fn a_gesture_is_undone_as_a_whole() {
+    fn undo_takes_back_a_whole_gesture() {
         let mut history = UndoHistory::default();
         for latency in 0..5 {
-            history.keep(with_latency(latency), Gesture::Latency);
+            history.push(with_latency(latency), Gesture::Latency);
         }
-        history.let_go();
-        history.keep(with_latency(5), Gesture::Latency);
-        history.keep(with_latency(6), Gesture::Once);
-        history.keep(with_latency(7), Gesture::Once);
+        history.end_gesture();
+        history.push(with_latency(5), Gesture::Latency);
+        history.push(with_latency(6), Gesture::Once);
+        history.push(with_latency(7), Gesture::Once);
         let now = with_latency(8);
         let undone: Vec<_> = std::iter::from_fn(|| history.undo(&now)).map(|settings| settings.latency).collect();
         assert_eq!(undone, [7, 6, 5, 0]);
@@ -95,21 +95,21 @@ mod tests {
     }
 
     #[test]
-    fn redo_leads_back_until_something_else_is_changed() {
+    fn redo_is_possible_until_the_next_change() {
         let mut history = UndoHistory::default();
-        history.keep(with_latency(1), Gesture::Once);
+        history.push(with_latency(1), Gesture::Once);
         let undone = history.undo(&with_latency(2)).unwrap();
         assert_eq!(history.redo(&undone), Some(with_latency(2)));
         assert_eq!(history.undo(&with_latency(2)), Some(with_latency(1)));
-        history.keep(with_latency(1), Gesture::Once);
+        history.push(with_latency(1), Gesture::Once);
         assert!(!history.can_redo());
     }
 
     #[test]
-    fn it_does_not_grow_without_end() {
+    fn history_has_a_limit() {
         let mut history = UndoHistory::default();
-        (0..1000).for_each(|latency| history.keep(with_latency(latency), Gesture::Once));
-        assert_eq!(history.past.len(), UndoHistory::MOST);
+        (0..1000).for_each(|latency| history.push(with_latency(latency), Gesture::Once));
+        assert_eq!(history.past.len(), UndoHistory::MAX_STEPS);
         assert_eq!(history.undo(&with_latency(1000)), Some(with_latency(999)));
     }
 }

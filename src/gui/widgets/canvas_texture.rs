@@ -1,4 +1,4 @@
-//! A picture on the graphics card.
+//! Texture of a canvas.
 
 use std::ops::Range;
 
@@ -7,27 +7,27 @@ use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use super::theme;
 use crate::view::Canvas;
 
-/// A canvas's texture, which lives as long as whoever shows it.
+/// Texture of a canvas, kept between frames.
 #[derive(Default)]
 pub struct CanvasTexture {
     texture: Option<TextureHandle>,
-    /// Whether pixels of the texture are to be told apart.
+    /// Whether pixels are drawn as squares instead of interpolated.
     shows_pixels: bool,
 }
 
 impl CanvasTexture {
-    /// Hands the changed rows to the graphics card; the whole picture only once. A picture that is larger than a texture
-    /// can be is shown with fewer pixels.
+    /// Uploads the changed rows of the canvas, or all of it for a new texture. A picture that exceeds the largest
+    /// texture is shown with fewer pixels. Returns `None` for an empty picture.
     pub fn upload(&mut self, ctx: &Context, canvas: &mut Canvas, shows_pixels: bool) -> Option<TextureId> {
         let (width, height) = (canvas.size().width(), canvas.size().height());
-        let most = ctx.input(|input| input.max_texture_side).max(1) as u32;
-        let step = width.max(height).div_ceil(most);
-        let shown = [width.div_ceil(step) as usize, height.div_ceil(step) as usize];
+        let max_side = ctx.input(|input| input.max_texture_side).max(1) as u32;
+        let step = width.max(height).div_ceil(max_side);
+        let size = [width.div_ceil(step) as usize, height.div_ceil(step) as usize];
         let dirty = canvas.take_dirty();
         let is_same = std::mem::replace(&mut self.shows_pixels, shows_pixels) == shows_pixels;
         let options = if shows_pixels { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
         match &mut self.texture {
-            Some(texture) if texture.size() == shown && is_same => {
+            Some(texture) if texture.size() == size && is_same => {
                 for rows in dirty {
                     let first = rows.start.div_ceil(step);
                     if let Some(image) = image(canvas, first..rows.end.div_ceil(step), step) {
@@ -44,11 +44,11 @@ impl CanvasTexture {
     }
 }
 
-/// Some rows of the texture, each `step`th of the picture's, and of those each `step`th pixel.
+/// Returns rows of the texture: every `step`th pixel of every `step`th row of the canvas.
 fn image(canvas: &Canvas, rows: Range<u32>, step: u32) -> Option<ColorImage> {
     let width = canvas.size().width();
     let pixels: Vec<_> = if step == 1 {
-        // The usual case, at once for all rows: there are many pixels, and frames.
+        // The usual case, as fast as possible.
         canvas.rows(rows.clone()).iter().map(|&pixel| theme::colour(pixel)).collect()
     } else {
         let every = rows.clone().flat_map(|row| canvas.rows(row * step..row * step + 1).iter().step_by(step as usize));

@@ -1,59 +1,59 @@
-//! The window's icons, drawn with a few lines each.
+//! Icons, drawn as lines and polygons.
 
 use std::f32::consts::PI;
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
-/// What a button shows before its words, or instead of them.
+/// Icon of a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
-    /// Go on.
+    /// Triangle: play or resume.
     Play,
-    /// Stand still.
+    /// Two bars: pause.
     Pause,
-    /// From the beginning.
+    /// Circular arrow: restart.
     Restart,
-    /// Into a file.
+    /// Arrow into a tray: save.
     Save,
-    /// Dark or light.
+    /// Half-filled circle: dark or light theme.
     Contrast,
-    /// The scenes.
+    /// Four tiles: scenes.
     Scenes,
-    /// What can be set.
+    /// Three sliders: settings.
     Sliders,
-    /// What was measured.
+    /// Points in a chart: accuracy.
     Chart,
-    /// Runs beside each other.
+    /// Three bars: comparison.
     Compare,
-    /// Lessons.
+    /// Mortarboard: lessons.
     Learn,
-    /// Take back.
+    /// Arrow to the left: undo.
     Undo,
-    /// To what happened before.
+    /// Bar and triangle: previous event.
     StepBack,
-    /// To what happened next.
+    /// Triangle and bar: next event.
     StepOn,
-    /// To the page before.
+    /// Left arrow: previous step of a lesson.
     Back,
-    /// To the next page.
+    /// Right arrow: next step of a lesson.
     Next,
-    /// Time goes slower.
+    /// Double chevron to the left: slower.
     Slower,
-    /// Time goes faster.
+    /// Double chevron to the right: faster.
     Faster,
-    /// What happens now.
+    /// Dot: live.
     Live,
-    /// The end.
+    /// Chevron and bar: end.
     End,
-    /// A lane a machine.
+    /// Bars in lanes: timeline.
     Lanes,
-    /// The camera.
+    /// Camera.
     Camera,
-    /// Into the clipboard.
+    /// Two sheets: copy.
     Copy,
-    /// Questions.
+    /// Question mark: help.
     Help,
-    /// Away with it.
+    /// Cross: close.
     Close,
 }
 

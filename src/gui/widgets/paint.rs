@@ -1,4 +1,4 @@
-//! Paints display lists.
+//! Painter of display lists.
 
 use egui::epaint::{Mesh, PathStroke, Vertex};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Vec2, pos2};
@@ -7,7 +7,7 @@ use super::theme::{self, Look};
 use crate::palette::{Rgb, text_on};
 use crate::view::{Anchor, Hue, Ink, Mark, Point, Quad, TextSize};
 
-/// What the names in a display list stand for.
+/// The colours behind the hues of a display list.
 pub struct Inks<'a> {
     /// The theme's colours.
     pub look: Look,
@@ -16,7 +16,7 @@ pub struct Inks<'a> {
 }
 
 impl Inks<'_> {
-    /// The colour that an ink stands for.
+    /// Returns the colour of an ink.
     pub fn colour(&self, ink: Ink) -> Color32 {
         let node = |node: u16| self.nodes.get(usize::from(node)).copied().unwrap_or([0x80; 3]);
         let full = match ink.hue {
@@ -33,7 +33,8 @@ impl Inks<'_> {
     }
 }
 
-/// Rectangles as one mesh, whose corner 0, 0 comes to `origin`: there may be thousands. None is so narrow that it is lost.
+/// Builds one mesh of all rectangles, with their corner (0, 0) at `origin`. One mesh, because there may be thousands. A
+/// rectangle is at least half a point wide, so that it stays visible.
 pub fn quads(quads: &[Quad], origin: Pos2, inks: &Inks<'_>) -> Mesh {
     let mut mesh = Mesh::default();
     for Quad { place: [left, top, right, bottom], ink } in quads {
@@ -48,7 +49,7 @@ pub fn quads(quads: &[Quad], origin: Pos2, inks: &Inks<'_>) -> Mesh {
     mesh
 }
 
-/// Paints `marks`, whose corner 0, 0 comes to `origin`.
+/// Paints `marks`, with their corner (0, 0) at `origin`.
 pub fn paint(painter: &Painter, origin: Pos2, marks: &[Mark], inks: &Inks<'_>) {
     let at = |[x, y]: Point| pos2(origin.x + x, origin.y + y);
     let along = |points: &[Point]| points.iter().map(|&point| at(point)).collect::<Vec<_>>();
@@ -88,7 +89,7 @@ pub fn paint(painter: &Painter, origin: Pos2, marks: &[Mark], inks: &Inks<'_>) {
 }
 
 fn font(size: TextSize) -> FontId {
-    // Few different sizes, or every pixel of a resize would fill the font atlas anew.
+    // Few distinct sizes: each size takes room in the font atlas, and a resize passes through many.
     match size {
         TextSize::Small(times) => theme::regular((theme::SMALL * times).round()),
         TextSize::Body(times) => theme::strong((theme::BODY * times).round()),
@@ -101,7 +102,7 @@ fn is_closed(points: &[Point]) -> bool {
     (x - u).hypot(y - v) < 0.05
 }
 
-/// A band that grows from nothing, in breadth and in strength.
+/// Builds the mesh of a trail, whose width and opacity grow from 0 at its tail to full at its head.
 fn trail(points: &[Pos2], width: f32, colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     let last = points.len().saturating_sub(1);
@@ -109,8 +110,8 @@ fn trail(points: &[Pos2], width: f32, colour: Color32) -> Mesh {
         let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
         let share = i as f32 / last.max(1) as f32;
         let side = (after - before).normalized().rot90() * (width / 2.0 * share);
-        for place in [point - side, point + side] {
-            mesh.vertices.push(Vertex::untextured(place, colour.gamma_multiply(share * share)));
+        for corner in [point - side, point + side] {
+            mesh.vertices.push(Vertex::untextured(corner, colour.gamma_multiply(share * share)));
         }
         if i > 0 {
             let next = 2 * i as u32;
@@ -126,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_trail_is_nothing_at_its_tail_and_full_at_its_head() {
+    fn trail_is_transparent_at_its_tail_and_full_at_its_head() {
         let mesh = trail(&[pos2(0.0, 0.0), pos2(5.0, 0.0), pos2(10.0, 0.0)], 4.0, Color32::WHITE);
         assert!(mesh.is_valid());
         assert_eq!((mesh.vertices.len(), mesh.indices.len()), (6, 12));
@@ -135,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_trail_of_one_point_is_harmless() {
+    fn trail_of_one_point_is_a_valid_mesh() {
         assert!(trail(&[pos2(1.0, 1.0)], 4.0, Color32::WHITE).is_valid());
     }
 }

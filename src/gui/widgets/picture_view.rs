@@ -1,18 +1,18 @@
-//! Which part of a picture is seen, and how large.
+//! Zoom and pan of a picture.
 
 use egui::{Pos2, Rect, Vec2, vec2};
 
-/// How near one looks at a picture, and where.
+/// Zoom and centre of a picture's visible part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureView {
-    /// How many times as large as it would fit; at least 1.
+    /// Scale relative to the scale at which the whole picture fits; at least 1.
     zoom: f32,
-    /// What of the picture is in the middle, as shares of its width and height.
+    /// Point of the picture at the centre, as shares of its width and height.
     centre: Vec2,
 }
 
-/// A pixel is never larger than this, in points.
-const LARGEST: f32 = 48.0;
+/// Largest side of a pixel, in points.
+const MAX_PIXEL_PT: f32 = 48.0;
 
 impl Default for PictureView {
     fn default() -> Self {
@@ -21,43 +21,46 @@ impl Default for PictureView {
 }
 
 impl PictureView {
-    /// Whether all of it is seen.
+    /// Whether the whole picture is visible.
     pub fn shows_all(&self) -> bool {
         self.zoom == 1.0
     }
 
-    /// Where all of a picture of `size` pixels would be, of which `room` is seen, and how large a pixel is.
-    pub fn place(&self, size: Vec2, room: Rect) -> (Rect, f32) {
+    /// Returns the rectangle of the whole picture, of which `room` is visible, and the side of a pixel in points.
+    /// `size` is in pixels.
+    pub fn picture_rect(&self, size: Vec2, room: Rect) -> (Rect, f32) {
         let scale = self.zoom * fit(size, room);
         let corner = room.center() - self.centre * size * scale;
         (Rect::from_min_size(corner, size * scale), scale)
     }
 
-    /// Comes nearer (more than 1) or goes further away, so that what is at `at` stays there.
+    /// Zooms in (`factor` > 1) or out, keeping the point under `at` in place.
     pub fn zoom(&mut self, factor: f32, at: Pos2, size: Vec2, room: Rect) {
-        let (place, _) = self.place(size, room);
-        let share = (at - place.min) / place.size();
-        self.zoom = (self.zoom * factor).clamp(1.0, (LARGEST / fit(size, room)).max(1.0));
-        let (place, _) = self.place(size, room);
-        self.centre += share - (at - place.min) / place.size();
+        let (rect, _) = self.picture_rect(size, room);
+        let share = (at - rect.min) / rect.size();
+        self.zoom = (self.zoom * factor).clamp(1.0, (MAX_PIXEL_PT / fit(size, room)).max(1.0));
+        let (rect, _) = self.picture_rect(size, room);
+        self.centre += share - (at - rect.min) / rect.size();
         self.keep_inside(size, room);
     }
 
-    /// Moves what is seen by so many points.
+    /// Moves the picture by this many points.
     pub fn pan(&mut self, by: Vec2, size: Vec2, room: Rect) {
-        let (place, _) = self.place(size, room);
-        self.centre -= by / place.size();
+        let (rect, _) = self.picture_rect(size, room);
+        self.centre -= by / rect.size();
         self.keep_inside(size, room);
     }
 
-    /// Nothing beyond the picture's edge is seen where there is enough of it.
+    /// Moves the centre so that no margin beyond the picture's edge is visible, unless the picture is smaller than the
+    /// room.
     fn keep_inside(&mut self, size: Vec2, room: Rect) {
-        let (place, _) = self.place(size, room);
-        let half = (room.size() / place.size() / 2.0).min(Vec2::splat(0.5));
+        let (rect, _) = self.picture_rect(size, room);
+        let half = (room.size() / rect.size() / 2.0).min(Vec2::splat(0.5));
         self.centre = vec2(self.centre.x.clamp(half.x, 1.0 - half.x), self.centre.y.clamp(half.y, 1.0 - half.y));
     }
 }
 
+/// Returns the scale at which a picture of this size just fits.
 fn fit(size: Vec2, room: Rect) -> f32 {
     (room.width() / size.x).min(room.height() / size.y)
 }
@@ -77,25 +80,28 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_under_the_pointer_stays_there(x in 0.3..0.7f32, y in 0.3..0.7f32, factor in 1.5..20.0f32) {
+        fn zoom_keeps_the_point_under_the_pointer(x in 0.3..0.7f32, y in 0.3..0.7f32, factor in 1.5..20.0f32) {
             let at = room().lerp_inside(vec2(x, y));
             let mut view = PictureView::default();
-            let of = |view: &PictureView| (at - view.place(SIZE, room()).0.min) / view.place(SIZE, room()).1;
+            let of = |view: &PictureView| {
+            let (rect, scale) = view.picture_rect(SIZE, room());
+            (at - rect.min) / scale
+            };
             let before = of(&view);
             view.zoom(factor, at, SIZE, room());
             prop_assert!((of(&view) - before).length() < 0.05, "{:?} {before:?}", of(&view));
         }
 
         #[test]
-        fn the_room_is_always_full(
+        fn picture_always_fills_the_room(
             moves in prop::collection::vec((0.2..4.0f32, 0.0..1.0f32, 0.0..1.0f32, -300.0..300.0f32), 1..20),
         ) {
             let mut view = PictureView::default();
             for (factor, x, y, by) in moves {
                 view.zoom(factor, room().lerp_inside(vec2(x, y)), SIZE, room());
                 view.pan(vec2(by, -by), SIZE, room());
-                let (place, scale) = view.place(SIZE, room());
-                prop_assert!(place.expand(0.5).contains_rect(room()) && scale <= LARGEST + 1e-3);
+                let (rect, scale) = view.picture_rect(SIZE, room());
+                prop_assert!(rect.expand(0.5).contains_rect(room()) && scale <= MAX_PIXEL_PT + 1e-3);
             }
         }
     }

@@ -1,13 +1,13 @@
-//! Tells where the named widgets are, so that a test can drive the real window without guessing.
+//! Positions of the named widgets, for a test that drives the real window with a mouse.
 //!
-//! With `ANEL_PLACES` set, every widget that has an accessible name is written to standard error when it comes or
-//! moves: `place: NAME: X Y WIDTH HEIGHT`, in pixels from the window's corner.
+//! With `ANEL_PLACES` set, each widget with an accessible name is written to standard error when it appears or moves:
+//! `place: NAME: X Y WIDTH HEIGHT`, in pixels from the window's corner.
 
 use std::collections::BTreeMap;
 
 use egui::{Context, FullOutput, Plugin};
 
-/// Adds the plugin to `ctx` if the environment asks for it.
+/// Adds the plugin to `ctx` if `ANEL_PLACES` is set.
 pub fn install(ctx: &Context) {
     if std::env::var_os("ANEL_PLACES").is_some() {
         ctx.enable_accesskit();
@@ -17,7 +17,7 @@ pub fn install(ctx: &Context) {
 
 #[derive(Default)]
 struct TestPositions {
-    told: BTreeMap<String, [i64; 4]>,
+    written: BTreeMap<String, [i64; 4]>,
 }
 
 impl Plugin for TestPositions {
@@ -30,9 +30,9 @@ impl Plugin for TestPositions {
         let scale = f64::from(ctx.pixels_per_point());
         for (_, node) in &update.nodes {
             let (Some(name), Some(bounds)) = (node.label(), node.bounds()) else { continue };
-            let place = [bounds.x0, bounds.y0, bounds.width(), bounds.height()].map(|v| (v * scale).round() as i64);
-            if self.told.insert(name.to_owned(), place) != Some(place) {
-                let [x, y, width, height] = place;
+            let rect = [bounds.x0, bounds.y0, bounds.width(), bounds.height()].map(|v| (v * scale).round() as i64);
+            if self.written.insert(name.to_owned(), rect) != Some(rect) {
+                let [x, y, width, height] = rect;
                 eprintln!("place: {name}: {x} {y} {width} {height}");
             }
         }

@@ -1,4 +1,4 @@
-//! How the window looks: an 8-pixel grid, three text sizes, one neutral surface, one accent.
+//! Fonts, sizes and colours: an 8-point grid, three text sizes, one neutral surface, one accent.
 
 use std::sync::Arc;
 
@@ -9,34 +9,34 @@ use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId,
 use crate::font::PLEX;
 use crate::palette::{self, Rgb};
 
-/// The grid on which everything lies, in points.
+/// Unit of all distances, in points.
 pub const GRID: f32 = 8.0;
 
-/// For what stands beside something.
+/// Text size of labels and explanations, in points.
 pub const SMALL: f32 = 13.0;
-/// For what is read.
+/// Text size of running text, in points.
 pub const BODY: f32 = 16.0;
-/// For what is seen from the back of the room.
+/// Text size of titles and results, in points: legible from the back of a room.
 pub const LARGE: f32 = 26.0;
 
-/// The colours of one theme. Hues belong to the nodes; the accent and what is wrong are the only others.
+/// Colours of one theme. Hues are for the nodes; the only other ones are the accent and the colour of errors.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// What everything lies on.
+    /// Background.
     pub ground: Color32,
-    /// What can be pressed.
+    /// Background of buttons and fields.
     pub raised: Color32,
-    /// Lines that order.
+    /// Thin lines between parts.
     pub hairline: Color32,
     /// Text.
     pub text: Color32,
-    /// Text that explains.
+    /// Secondary text.
     pub quiet: Color32,
-    /// What to press first, and what has the focus.
+    /// Main action, and keyboard focus.
     pub accent: Color32,
     /// Text on the accent.
     pub on_accent: Color32,
-    /// Text that says what is wrong.
+    /// Text of errors.
     pub trouble: Color32,
 }
 
@@ -62,7 +62,7 @@ const LIGHT: Look = Look {
     trouble: Color32::from_rgb(0xb4, 0x23, 0x18),
 };
 
-/// For a room: black and white, and nothing pale.
+/// Strong colours for a projector: black and white, nothing pale.
 const STRONG_DARK: Look = Look {
     ground: Color32::BLACK,
     hairline: Color32::from_rgb(0x55, 0x60, 0x6e),
@@ -85,12 +85,12 @@ fn strong_id() -> egui::Id {
 }
 
 impl Look {
-    /// The colours of the theme in use.
+    /// Returns the colours of the present theme.
     pub fn of(ctx: &egui::Context) -> Self {
         Self::with(ctx.theme(), Self::is_strong(ctx))
     }
 
-    /// Whether colours are strong, for a room.
+    /// Whether the strong colours are on.
     pub fn is_strong(ctx: &egui::Context) -> bool {
         ctx.data(|data| data.get_temp(strong_id()).unwrap_or(false))
     }
@@ -104,7 +104,7 @@ impl Look {
         }
     }
 
-    /// Strong colours, which are seen from afar and by daylight, or the usual ones.
+    /// Switches between the strong colours, legible from afar and by daylight, and the usual ones.
     pub fn set_strong(ctx: &egui::Context, strong: bool) {
         ctx.data_mut(|data| data.insert_temp(strong_id(), strong));
         for theme in [Theme::Dark, Theme::Light] {
@@ -113,7 +113,7 @@ impl Look {
     }
 }
 
-/// Puts fonts and both themes in place.
+/// Installs the fonts and both themes.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
     for (theme, look) in [(Theme::Dark, DARK), (Theme::Light, LIGHT)] {
@@ -132,36 +132,36 @@ pub fn install(ctx: &egui::Context) {
             spacing.button_padding = egui::vec2(1.5 * GRID, GRID * 0.75);
             spacing.interact_size = egui::vec2(4.0 * GRID, 4.0 * GRID);
             spacing.slider_rail_height = 4.0;
-            // Thin, and seen also where nobody points at it: there is more.
+            // Visible without hovering, so that the user sees that there is more.
             style.spacing.scroll = ScrollStyle { dormant_handle_opacity: 0.6, ..ScrollStyle::thin() };
             style.interaction.selectable_labels = false;
         });
     }
 }
 
-/// The text font: regular, its digits all of one width.
+/// Returns the regular font; its digits have one width.
 pub fn regular(size: f32) -> FontId {
     FontId::proportional(size)
 }
 
-/// The same, bold: for numbers and names.
+/// Returns the bold font, for numbers and names.
 pub fn strong(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name(STRONG.into()))
 }
 
-/// A palette colour as egui takes it.
+/// Converts a palette colour to egui's type.
 pub const fn colour([r, g, b]: Rgb) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// A colour of egui's as the palette has it.
+/// Converts an egui colour to the palette's type.
 pub fn rgb(colour: Color32) -> Rgb {
     [colour.r(), colour.g(), colour.b()]
 }
 
 const STRONG: &str = "strong";
 
-/// IBM Plex Sans in two weights of one variable font; egui's own fonts stand in for what it lacks.
+/// Returns IBM Plex Sans in two weights of one variable font, with egui's fonts for missing glyphs.
 fn fonts() -> FontDefinitions {
     let weighted = |weight: f32| {
         let coords = VariationCoords::new([(b"wght", weight)]);

@@ -159,7 +159,7 @@ fn simulate(log: &RunLog, language: Language) {
         sim.run(&mut |_| records += 1);
         assert!(records > log.header.division.atoms());
     }
-    let settings = Settings::of(&log.header, Settings::default().tempo);
+    let settings = Settings::of(&log.header, Settings::default().pace);
     if let Err(why) = settings.check(language) {
         assert_sentence(&why);
     }

@@ -1,4 +1,4 @@
-//! What has been found out about the scene at hand so far.
+//! Results of the measurement of speed and accuracy.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,46 +11,47 @@ use crate::study::accuracy::{Point, Reference, best_within, combinations, fastes
 use crate::tracer::SceneStats;
 use crate::view::Tradeoff;
 
-/// What has been found out about one scene so far.
+/// Results for one scene so far.
 pub struct AccuracyFindings {
-    /// The job that finds it out.
+    /// Number of the job.
     pub job: u64,
     opened: Arc<Opened>,
-    /// The size of the picture that times are told for.
+    /// Size of the run's picture, to which times are scaled.
     pub whole: Size,
-    /// What is measured; what is set comes first.
+    /// Qualities to measure; the present one comes first.
     pub qualities: Vec<Quality>,
-    /// What the scene needs, and how many rays there are on each level.
+    /// Statistics of the compiled scene, and the number of rays on each level.
     pub needs: Option<(SceneStats, Vec<u64>)>,
-    /// Pictures of the reference that have been begun.
+    /// Number of the reference's pictures that have been begun.
     begun: usize,
-    /// What pictures are compared with.
+    /// The reference picture.
     pub reference: Option<Reference>,
+    /// Measured points, with the times of the small picture.
     points: Vec<Point>,
-    /// The picture of each point.
+    /// Picture of each point.
     pub frames: Vec<Frame>,
-    /// Measurements of points that are known already.
+    /// Number of repeated measurements.
     again: usize,
-    /// Once nothing more comes: a sentence, if that was too soon.
+    /// Result at the end; a sentence, if the measurement failed.
     pub over: Option<Result<(), String>>,
 }
 
-/// How a quality is chosen. Times are in seconds, of one core, for the whole picture.
+/// How a quality is chosen. Times are CPU seconds on one core for the run's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choice {
-    /// The one at this place.
-    Place(usize),
-    /// The fastest with an error of so much at most.
+    /// The point at this index.
+    Point(usize),
+    /// The fastest with at most this error.
     Error(f64),
-    /// The best that takes so long at most.
+    /// The best with at most this time.
     Time(f64),
 }
 
 impl AccuracyFindings {
-    /// The place of what is set.
+    /// Index of the present quality.
     pub const PRESENT: usize = 0;
 
-    /// Nothing yet; a job is to be started for [`AccuracyFindings::qualities`].
+    /// Creates empty results; the caller starts the job for [`AccuracyFindings::qualities`].
     pub fn new(opened: &Arc<Opened>, whole: Size, present: Quality) -> Self {
         let mut qualities = combinations();
         qualities.retain(|quality| *quality != present);
@@ -70,13 +71,13 @@ impl AccuracyFindings {
         }
     }
 
-    /// Whether they are, or will be, about this.
+    /// Whether the results belong to this scene, size and quality.
     pub fn are_of(&self, prepared: &Prepared) -> bool {
         let present = self.qualities[Self::PRESENT];
         Arc::ptr_eq(&self.opened, &prepared.opened) && (self.whole, present) == (prepared.size, prepared.quality)
     }
 
-    /// Takes in what the job tells.
+    /// Adds a part of the results.
     pub fn take(&mut self, finding: Finding) {
         match finding {
             Finding::Needs(compiled, levels) => self.needs = Some((compiled, levels)),
@@ -86,54 +87,54 @@ impl AccuracyFindings {
                 self.points.push(point);
                 self.frames.push(frame);
             }
-            Finding::Point(place, point, None) => {
+            Finding::Point(index, point, None) => {
                 self.again += 1;
-                if let Some(known) = self.points.get_mut(place) {
-                    *known = point;
+                if let Some(old) = self.points.get_mut(index) {
+                    *old = point;
                 }
             }
-            Finding::Over(how) => self.over = Some(how),
+            Finding::Over(result) => self.over = Some(result),
         }
     }
 
-    /// How many points are measured.
+    /// Returns the number of measured points.
     pub fn count(&self) -> usize {
         self.points.len()
     }
 
-    /// The point at a place, its time for the whole picture.
-    pub fn point(&self, place: usize) -> Option<Point> {
-        let point = self.points.get(place)?;
+    /// Returns the point at an index, with its time scaled to the run's picture.
+    pub fn point(&self, index: usize) -> Option<Point> {
+        let point = self.points.get(index)?;
         Some(Point { cpu_s: point.cpu_s * self.scale(), ..*point })
     }
 
-    /// The time of the point at a place, for the whole picture.
-    pub fn time(&self, place: usize) -> Duration {
-        Duration::try_from_secs_f64(self.point(place).map_or(0.0, |point| point.cpu_s)).unwrap_or_default()
+    /// Returns the time of the point at an index, scaled to the run's picture.
+    pub fn time(&self, index: usize) -> Duration {
+        Duration::try_from_secs_f64(self.point(index).map_or(0.0, |point| point.cpu_s)).unwrap_or_default()
     }
 
-    /// The place of what is chosen; `None` if there is no such point.
+    /// Returns the index of the chosen point, if there is one.
     pub fn chosen(&self, choice: Choice) -> Option<usize> {
         let point = match choice {
-            Choice::Place(place) => return Some(place).filter(|place| *place < self.points.len()),
+            Choice::Point(index) => return Some(index).filter(|index| *index < self.points.len()),
             Choice::Error(error) => fastest_within(&self.points, error)?,
             Choice::Time(time) => best_within(&self.points, time / self.scale())?,
         };
-        self.place_of(point)
+        self.index_of(point)
     }
 
-    /// The points that are the best for their time, the fastest first, with their times for the whole picture.
+    /// Returns the Pareto front, the fastest point first, with times scaled to the run's picture.
     pub fn front(&self) -> Vec<Point> {
-        self.front_places().into_iter().filter_map(|place| self.point(place)).collect()
+        self.front_indices().into_iter().filter_map(|index| self.point(index)).collect()
     }
 
-    /// What a chart shows of it.
+    /// Returns the data of the chart.
     pub fn tradeoff(&self, chosen: Option<usize>, language: Language) -> Tradeoff {
-        let shown = (0..self.count()).filter_map(|place| self.point(place));
+        let shown = (0..self.count()).filter_map(|index| self.point(index));
         let (width, height) = (self.whole.width(), self.whole.height());
         Tradeoff {
             points: shown.map(|point| (point.cpu_s, point.rmse())).collect(),
-            front: self.front_places(),
+            front: self.front_indices(),
             floor: self.reference.as_ref().map_or(0.0, |reference| reference.floor),
             present: Some(Self::PRESENT),
             chosen,
@@ -145,32 +146,32 @@ impl AccuracyFindings {
         }
     }
 
-    /// How far the measurement is, in words.
+    /// Describes the progress of the measurement.
     pub fn progress(&self, language: Language) -> String {
         let (points, all) = (self.count(), self.qualities.len());
         let (begun, steps) = (self.begun.max(1), Reference::STEPS);
         match (&self.over, &self.reference) {
             (Some(Ok(())), _) => say!(language, "{points} points", "{points} pontos"),
             (Some(Err(why)), _) => {
-                say!(language, "This could not be measured: {why}", "Isto não pôde ser medido: {why}")
+                say!(language, "The measurement has failed: {why}", "A medição falhou: {why}")
             }
             (None, None) => {
                 say!(
                     language,
-                    "What pictures are compared with: {begun} of {steps}",
-                    "Imagem de comparação: {begun} de {steps}"
+                    "Tracing the reference: {begun} of {steps}",
+                    "Calculando a referência: {begun} de {steps}"
                 )
             }
             (None, Some(_)) if points < all => say!(language, "{points} of {all} points", "{points} de {all} pontos"),
             (None, Some(_)) => say!(
                 language,
-                "{points} points; their times are measured once more",
-                "{points} pontos; seus tempos são medidos mais uma vez"
+                "{points} points; measuring their times again",
+                "{points} pontos; medindo seus tempos de novo"
             ),
         }
     }
 
-    /// How far it is, from 0 to 1. Most of the time goes into the reference.
+    /// Returns the share that is done, 0 to 1. The reference counts half.
     pub fn share(&self) -> f32 {
         let all = self.qualities.len() as f32;
         let reference = self.begun.saturating_sub(1) as f32 / Reference::STEPS as f32;
@@ -179,15 +180,15 @@ impl AccuracyFindings {
         if self.over.is_some() { 1.0 } else { 0.5 * reference + 0.5 * points }
     }
 
-    fn front_places(&self) -> Vec<usize> {
-        front(&self.points).into_iter().filter_map(|point| self.place_of(point)).collect()
+    fn front_indices(&self) -> Vec<usize> {
+        front(&self.points).into_iter().filter_map(|point| self.index_of(point)).collect()
     }
 
-    fn place_of(&self, point: &Point) -> Option<usize> {
+    fn index_of(&self, point: &Point) -> Option<usize> {
         self.points.iter().position(|other| other.quality == point.quality)
     }
 
-    /// How many times as many pixels the whole picture has as those that are measured.
+    /// Returns pixels of the run's picture / pixels of the measured pictures.
     fn scale(&self) -> f64 {
         let measured = self.reference.as_ref().map_or(self.whole, |reference| reference.picture.size());
         f64::from(self.whole.pixels()) / f64::from(measured.pixels())
@@ -203,32 +204,32 @@ mod tests {
         Size::new(width, height).unwrap()
     }
 
-    /// Qualities of a picture of 64 × 48 pixels, of which the first took these seconds and have these errors in a quarter
-    /// of it.
+    /// Results for a picture of 64 × 48 pixels, measured at a quarter of its pixels: seconds and error of the first
+    /// points.
     fn findings(points: &[(f64, f64)]) -> AccuracyFindings {
         let opened = Arc::new(Opened::new("csg-primer").unwrap());
         let mut findings = AccuracyFindings::new(&opened, size(64, 48), Quality { samples: 7, ..Quality::default() });
         let frame = Frame::new(size(32, 24));
         findings.take(Finding::Reference(Reference { picture: frame.clone(), sampled: frame.clone(), floor: 0.001 }));
-        for (place, &(cpu_s, rmse)) in points.iter().enumerate() {
+        for (index, &(cpu_s, rmse)) in points.iter().enumerate() {
             let difference = Difference { rmse, wrong_pixels: 0, worst_ssim: 1.0 };
-            let point = Point { quality: findings.qualities[place], cpu_s, rays: 1, difference };
-            findings.take(Finding::Point(place, point, Some(frame.clone())));
+            let point = Point { quality: findings.qualities[index], cpu_s, rays: 1, difference };
+            findings.take(Finding::Point(index, point, Some(frame.clone())));
         }
         findings
     }
 
     #[test]
-    fn what_is_set_is_measured_first_and_once() {
+    fn present_quality_is_measured_first_and_once() {
         let found = findings(&[]);
         assert_eq!(found.qualities[AccuracyFindings::PRESENT].samples, 7);
-        for (place, quality) in found.qualities.iter().enumerate() {
-            assert!(!found.qualities[..place].contains(quality), "{quality:?}");
+        for (index, quality) in found.qualities.iter().enumerate() {
+            assert!(!found.qualities[..index].contains(quality), "{quality:?}");
         }
     }
 
     #[test]
-    fn times_are_those_of_the_whole_picture_and_limits_too() {
+    fn times_and_limits_are_scaled_to_the_runs_picture() {
         let language = Language::English;
         let found = findings(&[(1.0, 0.1), (2.0, 0.05), (3.0, 0.2)]);
         assert_eq!(found.time(1), Duration::from_secs(8));
@@ -238,16 +239,16 @@ mod tests {
         assert_eq!(chosen, [None, Some(0), Some(1)]);
         let chosen = [Choice::Error(0.04), Choice::Error(0.06), Choice::Error(0.3)].map(|choice| found.chosen(choice));
         assert_eq!(chosen, [None, Some(1), Some(0)]);
-        assert_eq!([Choice::Place(2), Choice::Place(3)].map(|choice| found.chosen(choice)), [Some(2), None]);
+        assert_eq!([Choice::Point(2), Choice::Point(3)].map(|choice| found.chosen(choice)), [Some(2), None]);
     }
 
     #[test]
-    fn how_far_it_is_only_grows_and_is_told() {
+    fn progress_only_grows() {
         let language = Language::English;
         let opened = Arc::new(Opened::new("csg-primer").unwrap());
         let mut found = AccuracyFindings::new(&opened, size(64, 48), Quality::default());
         found.take(Finding::Begun(2));
-        assert_eq!(found.progress(language), "What pictures are compared with: 2 of 6");
+        assert_eq!(found.progress(language), "Tracing the reference: 2 of 6");
         let mut found = findings(&[(1.0, 0.1)]);
         assert_eq!(found.progress(language), format!("1 of {} points", found.qualities.len()));
         let before = found.share();
@@ -255,6 +256,6 @@ mod tests {
         found.take(Finding::Point(0, Point { cpu_s: 0.5, ..known }, None));
         assert!(before >= 0.5 && found.share() > before && found.time(0) == Duration::from_secs(2));
         found.take(Finding::Over(Err("no memory".into())));
-        assert_eq!((found.progress(language), found.share()), ("This could not be measured: no memory".into(), 1.0));
+        assert_eq!((found.progress(language), found.share()), ("The measurement has failed: no memory".into(), 1.0));
     }
 }

@@ -1,32 +1,35 @@
-//! A picture beside the reference, or how far it is from it.
+//! A picture beside the reference, or their difference in false colours.
 
 use egui::{Align2, Color32, ColorImage, Event, Key, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui};
 use egui::{EventFilter, WidgetInfo, pos2, vec2};
 
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{self, choice};
+use crate::gui::widgets::{self, choice_buttons};
 use crate::language::{Language, comma, say, word};
 use crate::palette::Rgb;
 use crate::picture::{Frame, srgb8};
 use crate::view::{RAMP_ERRORS, false_colours, ramp, ramp_position};
 
-/// What is shown of a point, and its textures.
+/// The pictures of the chosen point.
 pub struct PointPictures {
-    shown: Shown,
-    /// Where the reference begins, as a share of the width.
+    view: PictureMode,
+    /// Position of the line between picture and reference, as a share of the width.
     divider: f32,
     textures: Option<Textures>,
 }
 
+/// What is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shown {
+enum PictureMode {
+    /// The picture at the left, the reference at the right.
     Both,
+    /// Their difference in false colours.
     Difference,
 }
 
-/// The pictures of one point.
+/// Textures of one point.
 struct Textures {
-    /// Of which point of which measurement.
+    /// Job number and index of the point.
     of: (u64, usize),
     picture: TextureHandle,
     reference: TextureHandle,
@@ -35,15 +38,16 @@ struct Textures {
 
 impl Default for PointPictures {
     fn default() -> Self {
-        Self { shown: Shown::Both, divider: 0.5, textures: None }
+        Self { view: PictureMode::Both, divider: 0.5, textures: None }
     }
 }
 
-/// What stands above and below the picture, in points.
-const AROUND: f32 = 10.0 * GRID;
+/// Height of the buttons above and the legend below the picture, in points.
+const CONTROLS_HEIGHT_PT: f32 = 10.0 * GRID;
 
 impl PointPictures {
-    /// Shows the picture of a point, no higher than `height` with all that belongs to it; `of` tells it from others.
+    /// Shows the picture of a point, at most `height` points high with its controls. `of` is job number and index of
+    /// the point.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -56,54 +60,58 @@ impl PointPictures {
         let look = Look::of(ui.ctx());
         let all = [
             (
-                Shown::Both,
+                PictureMode::Both,
                 word!(language, "Beside the reference", "Com a referência"),
                 word!(
                     language,
-                    "Drag the line: left of it the chosen quality, right of it the reference",
-                    "Arrastar a linha: à esquerda a qualidade escolhida, à direita a referência"
+                    "Chosen quality at the left, reference at the right. Drag the line",
+                    "Qualidade escolhida à esquerda, referência à direita. Arraste a linha"
                 ),
             ),
             (
-                Shown::Difference,
+                PictureMode::Difference,
                 word!(language, "Difference", "Diferença"),
-                word!(language, "How far each pixel is from the reference", "O quanto cada pixel difere da referência"),
+                word!(
+                    language,
+                    "How much each pixel differs from the reference",
+                    "Quanto cada pixel difere da referência"
+                ),
             ),
         ];
-        if let Some(shown) = choice(ui, self.shown, &all) {
-            self.shown = shown;
+        if let Some(view) = choice_buttons(ui, self.view, &all) {
+            self.view = view;
         }
         let size = vec2(picture.size().width() as f32, picture.size().height() as f32);
-        let room = vec2(ui.available_width(), (height - AROUND).max(8.0 * GRID));
+        let room = vec2(ui.available_width(), (height - CONTROLS_HEIGHT_PT).max(8.0 * GRID));
         let shown = size * (room.x / size.x).min(room.y / size.y);
-        let (place, response) = ui.allocate_exact_size(shown, Sense::click_and_drag());
+        let (rect, response) = ui.allocate_exact_size(shown, Sense::click_and_drag());
         let textures = match self.textures.take().filter(|textures| textures.of == of) {
             Some(textures) => textures,
             None => Textures::new(ui, of, picture, reference),
         };
-        match self.shown {
-            Shown::Both => {
-                self.move_divider(ui, &response, place);
-                self.both(ui, &textures, place, look, language);
+        match self.view {
+            PictureMode::Both => {
+                self.move_divider(ui, &response, rect);
+                self.both(ui, &textures, rect, look, language);
                 let value = f64::from(100.0 * self.divider);
                 let name = word!(language, "Divider of the pictures", "Divisória das imagens");
                 response.widget_info(|| WidgetInfo::slider(true, value, name));
                 response.on_hover_cursor(egui::CursorIcon::ResizeHorizontal);
-                ui.add_space(legend_height());
+                ui.add_space(LEGEND_HEIGHT_PT);
             }
-            Shown::Difference => {
-                whole(ui, &textures.difference, place, 0.0..1.0);
+            PictureMode::Difference => {
+                paint_part(ui, &textures.difference, rect, 0.0..1.0);
                 let name = word!(language, "Difference from the reference", "Diferença da referência");
                 widgets::describe(&response, name, || word!(language, "in false colour", "em cores falsas").into());
-                legend(ui, place.width(), look, language);
+                legend(ui, rect.width(), look, language);
             }
         }
         self.textures = Some(textures);
     }
 
-    fn move_divider(&mut self, ui: &Ui, response: &egui::Response, place: Rect) {
+    fn move_divider(&mut self, ui: &Ui, response: &egui::Response, rect: Rect) {
         if let Some(at) = response.interact_pointer_pos() {
-            self.divider = (at.x - place.left()) / place.width();
+            self.divider = (at.x - rect.left()) / rect.width();
         }
         if response.has_focus() {
             let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
@@ -117,27 +125,27 @@ impl PointPictures {
         self.divider = self.divider.clamp(0.0, 1.0);
     }
 
-    fn both(&self, ui: &Ui, textures: &Textures, place: Rect, look: Look, language: Language) {
-        whole(ui, &textures.reference, place, 0.0..1.0);
-        whole(ui, &textures.picture, place, 0.0..self.divider);
-        let x = place.left() + place.width() * self.divider;
-        let painter = ui.painter_at(place);
-        // Seen on bright pictures and on dark ones.
-        painter.vline(x, place.y_range(), Stroke::new(4.0, Color32::from_black_alpha(160)));
-        painter.vline(x, place.y_range(), Stroke::new(2.0, Color32::WHITE));
-        painter.circle(pos2(x, place.center().y), 9.0, look.accent, Stroke::new(2.0, Color32::WHITE));
-        let top = place.top() + GRID;
-        let [left, right] = [place.with_max_x(x), place.with_min_x(x)].map(|side| painter.with_clip_rect(side));
+    fn both(&self, ui: &Ui, textures: &Textures, rect: Rect, look: Look, language: Language) {
+        paint_part(ui, &textures.reference, rect, 0.0..1.0);
+        paint_part(ui, &textures.picture, rect, 0.0..self.divider);
+        let x = rect.left() + rect.width() * self.divider;
+        let painter = ui.painter_at(rect);
+        // White on black is visible on every picture.
+        painter.vline(x, rect.y_range(), Stroke::new(4.0, Color32::from_black_alpha(160)));
+        painter.vline(x, rect.y_range(), Stroke::new(2.0, Color32::WHITE));
+        painter.circle(pos2(x, rect.center().y), 9.0, look.accent, Stroke::new(2.0, Color32::WHITE));
+        let top = rect.top() + GRID;
+        let [left, right] = [rect.with_max_x(x), rect.with_min_x(x)].map(|side| painter.with_clip_rect(side));
         let [chosen, reference] = word!(language, ["chosen", "reference"], ["escolhida", "referência"]);
-        label(&left, pos2(place.left() + GRID, top), Align2::LEFT_TOP, chosen);
-        label(&right, pos2(place.right() - GRID, top), Align2::RIGHT_TOP, reference);
+        label(&left, pos2(rect.left() + GRID, top), Align2::LEFT_TOP, chosen);
+        label(&right, pos2(rect.right() - GRID, top), Align2::RIGHT_TOP, reference);
     }
 }
 
 impl Textures {
     fn new(ui: &Ui, of: (u64, usize), picture: &Frame, reference: &Frame) -> Self {
         let size = [picture.size().width() as usize, picture.size().height() as usize];
-        // Pixels are what one looks at here.
+        // No interpolation, so that single pixels can be compared.
         let load = |name: &str, pixels: Vec<Rgb>| {
             let image = ColorImage::new(size, pixels.into_iter().map(theme::colour).collect());
             ui.ctx().load_texture(name, image, TextureOptions::NEAREST)
@@ -152,34 +160,33 @@ impl Textures {
     }
 }
 
-/// Paints a part of a texture, in shares of its width, where the whole would be in `place`.
-fn whole(ui: &Ui, texture: &TextureHandle, place: Rect, part: std::ops::Range<f32>) {
-    let x = |share: f32| place.left() + place.width() * share;
-    let shown = Rect::from_x_y_ranges(x(part.start)..=x(part.end), place.y_range());
+/// Paints a part of a texture, in shares of its width; `rect` is the rectangle of the whole texture.
+fn paint_part(ui: &Ui, texture: &TextureHandle, rect: Rect, part: std::ops::Range<f32>) {
+    let x = |share: f32| rect.left() + rect.width() * share;
+    let shown = Rect::from_x_y_ranges(x(part.start)..=x(part.end), rect.y_range());
     let uv = Rect::from_min_max(pos2(part.start, 0.0), pos2(part.end, 1.0));
     ui.painter().image(texture.id(), shown, uv, Color32::WHITE);
 }
 
-/// Words on a picture.
+/// Paints a caption on a picture.
 fn label(painter: &egui::Painter, at: egui::Pos2, anchor: Align2, text: &str) {
     let galley = painter.layout_no_wrap(text.into(), theme::regular(theme::SMALL), Color32::WHITE);
-    let place = anchor.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(150));
-    painter.galley(place.min, galley, Color32::WHITE);
+    let rect = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(rect.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(150));
+    painter.galley(rect.min, galley, Color32::WHITE);
 }
 
-fn legend_height() -> f32 {
-    4.0 * GRID
-}
+/// Height of the legend, in points.
+const LEGEND_HEIGHT_PT: f32 = 4.0 * GRID;
 
-/// The ramp of errors, with some of them beside it.
+/// Shows the colours of errors with some of their values.
 fn legend(ui: &mut Ui, width: f32, look: Look, language: Language) {
     const STEPS: usize = 64;
-    let (place, response) = ui.allocate_exact_size(vec2(width, legend_height()), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(width, LEGEND_HEIGHT_PT), Sense::hover());
     widgets::describe(&response, word!(language, "Colours of errors", "Cores dos erros"), || {
         word!(language, "from 0.001 to 1, on a logarithmic scale", "de 0,001 a 1, em escala logarítmica").into()
     });
-    let bar = place.with_max_y(place.top() + GRID);
+    let bar = rect.with_max_y(rect.top() + GRID);
     let at = |share: f64| bar.left() + bar.width() * share as f32;
     for i in 0..STEPS {
         let [from, to] = [i, i + 1].map(|i| i as f64 / STEPS as f64);

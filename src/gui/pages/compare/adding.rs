@@ -1,4 +1,4 @@
-//! What can be added to a comparison: another strategy, or a run with one thing changed.
+//! Menus that add a run to the comparison: by another strategy, or with one change.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use crate::sim::{Change, Trial};
 use crate::time::Time;
 use crate::view::{change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words};
 
-/// A menu of strategies; returns what was chosen.
+/// Shows the menu of strategies. Returns the chosen one as a change.
 pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: Language) -> Option<Change> {
     if strategies.is_empty() {
         return None;
@@ -32,8 +32,8 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: La
     menu(&opener, |ui| row(ui, "", changes, look, language))
 }
 
-/// A menu of what can be changed of a run, all else being the same; returns what was chosen. What a machine does can be
-/// changed from the shown time on, too, if the run goes on then: until then both runs are the same.
+/// Shows the menu of the changes of a run. Returns the chosen one. If the run has not ended at the shown time `now`,
+/// the menu also offers new speeds from that time on; until then both runs are the same.
 pub fn changes(
     ui: &mut Ui,
     letter: char,
@@ -43,18 +43,18 @@ pub fn changes(
     look: Look,
     language: Language,
 ) -> Option<Change> {
-    let name = say!(language, "The same as {letter} with one thing changed", "Igual a {letter}, mudando uma coisa");
-    let (icon, words) =
+    let name = say!(language, "Add {letter} with one change", "Acrescentar {letter} com uma mudança");
+    let (icon, text) =
         if has_room { (None, Some(word!(language, "Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
-    let opener = named_button(ui, icon, &name, words, Emphasis::Quiet).on_hover_text(&name);
+    let opener = named_button(ui, icon, &name, text, Emphasis::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
     menu(&opener, |ui| {
-        // Which machine: the last, unless somebody has gone on to another.
+        // The machine whose speed changes: at first the last one.
         let id = opener.id.with("machine");
         let last = nodes.saturating_sub(1);
         let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
         let mut chosen = None;
-        for (group, changes) in possible(trial, language) {
+        for (group, changes) in possible_changes(trial, language) {
             chosen = chosen.or(row(ui, group, changes, look, language));
         }
         ui.horizontal(|ui| {
@@ -62,7 +62,7 @@ pub fn changes(
             let before = button(
                 ui,
                 Some(Icon::StepBack),
-                word!(language, "The machine before", "A máquina anterior"),
+                word!(language, "Previous machine", "Máquina anterior"),
                 false,
                 Emphasis::Quiet,
             );
@@ -74,7 +74,7 @@ pub fn changes(
             if button(
                 ui,
                 Some(Icon::StepOn),
-                word!(language, "The next machine", "A próxima máquina"),
+                word!(language, "Next machine", "Próxima máquina"),
                 false,
                 Emphasis::Quiet,
             )
@@ -86,9 +86,9 @@ pub fn changes(
         ui.data_mut(|data| data.insert_temp(id, node));
         let node = node as NodeId;
         let speeds = [0.0, 0.01, 0.05, 0.1, 0.5, 1.0];
-        let at_first = trial.header.speeds[usize::from(node)];
-        let always = values(&speeds, at_first, |speed| Change::Speed(node, speed));
-        chosen = chosen.or(row(ui, word!(language, "all along", "o tempo todo"), always, look, language));
+        let initial = trial.header.speeds[usize::from(node)];
+        let always = values(&speeds, initial, |speed| Change::Speed(node, speed));
+        chosen = chosen.or(row(ui, word!(language, "from the beginning", "desde o início"), always, look, language));
         if let Some(now) = now {
             let at = time_words(now, 1.0, language);
             let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
@@ -98,11 +98,11 @@ pub fn changes(
     })
 }
 
-/// A change, and whether it is so already.
+/// A change, and whether the run has this value already.
 type Choice = (Change, bool);
 
-/// What can be changed, by what it is about.
-fn possible(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>)> {
+/// Returns the possible changes in groups.
+fn possible_changes(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>)> {
     let header = &trial.header;
     let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
     let lacks = |remedy| (Change::Without(remedy), !header.rules.remedies.has(remedy));
@@ -112,7 +112,7 @@ fn possible(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>
         machines.push((Change::Equal, false));
     }
     let atoms = [5, 20, 50, 200, 1000, 5000].into_iter();
-    let atoms: Vec<_> = atoms.filter(|pixels| header.size.pixels() / pixels <= Settings::MOST_ATOMS).collect();
+    let atoms: Vec<_> = atoms.filter(|pixels| header.size.pixels() / pixels <= Settings::MAX_ATOMS).collect();
     let atoms = values(&atoms, header.division.atom_pixels(), Change::Atom);
     let ms = Duration::from_millis;
     let latencies = values(&[0, 5, 40, 200, 1000].map(ms), header.link.latency, Change::Latency);
@@ -127,7 +127,7 @@ fn possible(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>
     ]
 }
 
-/// What something can be, ascending, and among it what it is.
+/// Returns the offered values in ascending order, with the present value among them.
 fn values<T: Copy + PartialOrd>(offered: &[T], present: T, change: impl Fn(T) -> Change) -> Vec<Choice> {
     let (below, from) = offered.split_at(offered.partition_point(|value| *value < present));
     let above = from.iter().filter(|value| **value > present);
@@ -135,7 +135,7 @@ fn values<T: Copy + PartialOrd>(offered: &[T], present: T, change: impl Fn(T) ->
     below.iter().map(choice).chain([(change(present), true)]).chain(above.map(choice)).collect()
 }
 
-/// A menu that closes when something is chosen.
+/// Shows a menu that closes when a change is chosen.
 fn menu(opener: &Response, content: impl FnOnce(&mut Ui) -> Option<Change>) -> Option<Change> {
     let popup = Popup::from_toggle_button_response(opener).frame(popup_frame(&opener.ctx));
     let shown = popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
@@ -150,14 +150,14 @@ fn menu(opener: &Response, content: impl FnOnce(&mut Ui) -> Option<Change>) -> O
     shown.and_then(|shown| shown.inner)
 }
 
-/// What a row is about.
-fn heading(ui: &mut Ui, words: &str, look: Look) {
+/// Shows the heading of a row.
+fn heading(ui: &mut Ui, text: &str, look: Look) {
     let (rect, _) = ui.allocate_exact_size(vec2(17.0 * GRID, 4.0 * GRID), Sense::hover());
-    let galley = ui.painter().layout_no_wrap(words.to_owned(), theme::regular(theme::SMALL), look.quiet);
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), theme::regular(theme::SMALL), look.quiet);
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, look.quiet);
 }
 
-/// Changes of one thing, in a line, or in two.
+/// Shows a group of changes, in one line or more.
 fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Language) -> Option<Change> {
     let mut chosen = None;
     if !changes.is_empty() {
@@ -165,10 +165,10 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Lan
             if !group.is_empty() {
                 heading(ui, group, look);
             }
-            // Whatever needs a second line stands below the first, not below the heading.
+            // A second line begins below the first one instead of below the heading.
             ui.horizontal_wrapped(|ui| {
-                for (change, is_so) in changes {
-                    if item(ui, change, is_so, look, language).clicked() {
+                for (change, is_present) in changes {
+                    if item(ui, change, is_present, look, language).clicked() {
                         chosen = Some(change);
                     }
                 }
@@ -178,39 +178,37 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Lan
     chosen
 }
 
-/// Says only what its row does not say.
-fn short(change: Change, language: Language) -> String {
+/// Returns the text of a change without what its row says.
+fn short_text(change: Change, language: Language) -> String {
     match change {
         Change::Nodes(nodes) => nodes.to_string(),
         Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
         Change::Atom(pixels) => count(pixels),
-        Change::Latency(time) | Change::Handling(time) if time.is_zero() => {
-            word!(language, "no time", "nada").to_owned()
-        }
+        Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!(language, "0 ms", "0 ms").to_owned(),
         Change::Latency(time) | Change::Handling(time) => duration(time, language),
         Change::Without(remedy) => remedy_name(remedy, language).to_owned(),
         Change::Strategy(_) | Change::Equal => change_words(change, language),
     }
 }
 
-/// A change to press; what is so already only stands out.
-fn item(ui: &mut Ui, change: Change, is_so: bool, look: Look, language: Language) -> Response {
-    let galley = ui.painter().layout_no_wrap(short(change, language), theme::regular(theme::BODY), look.text);
-    let sense = if is_so { Sense::hover() } else { Sense::click() };
+/// Shows a change as a button; the present value is only outlined.
+fn item(ui: &mut Ui, change: Change, is_present: bool, look: Look, language: Language) -> Response {
+    let galley = ui.painter().layout_no_wrap(short_text(change, language), theme::regular(theme::BODY), look.text);
+    let sense = if is_present { Sense::hover() } else { Sense::click() };
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), sense);
-    let (role, now) = if is_so { (Role::Label, word!(language, ", now", ", agora")) } else { (Role::Button, "") };
+    let (role, now) = if is_present { (Role::Label, word!(language, ", now", ", agora")) } else { (Role::Button, "") };
     response.widget_info(|| WidgetInfo::labeled(role, true, change_words(change, language) + now));
-    if is_so {
+    if is_present {
         let stroke = Stroke::new(1.5, look.accent);
         ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 2.0)), 6.0, stroke, StrokeKind::Inside);
     } else if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
     }
-    let place = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
-    ui.painter().galley(place, galley, look.text);
+    let corner = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(corner, galley, look.text);
     match change {
         Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy, language)),
-        _ if is_so => response.on_hover_text(word!(language, "As it is now", "Como está agora")),
+        _ if is_present => response.on_hover_text(word!(language, "The present value", "O valor atual")),
         _ => response,
     }
 }

@@ -1,11 +1,11 @@
-//! The runs side by side: what each is called, its picture, how far it is, and how long it took.
+//! The compared runs side by side: name, picture, progress, and time of each.
 
 use egui::text::LayoutJob;
 use egui::{
     Align, Color32, Layout, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{CompareColumn, MOST, adding};
+use super::{CompareColumn, MAX_RUNS, adding};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
@@ -14,29 +14,31 @@ use crate::sim::Change;
 use crate::time::Time;
 use crate::view::{ComparedRun, Layer, duration, fraction, percent};
 
-/// What is to be done with a run.
+/// Action of a column's button; the index is the column's.
 pub enum ColumnAction {
-    /// Take it away.
+    /// Removes the run.
     Remove(usize),
-    /// The same with one thing changed.
+    /// Adds the same run with one change.
     Fork(usize, Change),
 }
 
-/// What stands above and below a picture.
-const ABOVE: f32 = 5.0 * GRID;
-const BELOW: f32 = 5.0 * GRID;
-/// In a narrower column there is no room for words on a button.
-const WIDE: f32 = 36.0 * GRID;
+/// Height of the heading above a picture, in points.
+const HEADING_HEIGHT_PT: f32 = 5.0 * GRID;
+/// Height of the progress below a picture, in points.
+const PROGRESS_HEIGHT_PT: f32 = 5.0 * GRID;
+/// Least width of a column whose button has a text, in points.
+const MIN_TEXT_BUTTON_COLUMN_PT: f32 = 36.0 * GRID;
 
-/// The letter of a run.
-pub fn letter(place: usize) -> char {
-    char::from(b'A' + place.min(25) as u8)
+/// Returns the letter of a column.
+pub fn letter(index: usize) -> char {
+    char::from(b'A' + index.min(25) as u8)
 }
 
-/// Shows all columns; a click on a picture makes its run one of the `pair` of which is told why they differ.
+/// Shows all columns. A click on a picture puts its run into the `pair` whose difference is explained. `below` is the
+/// height to leave below the columns. Returns the action of the pressed button.
 pub fn show(
     ui: &mut Ui,
-    entries: &mut [CompareColumn],
+    columns: &mut [CompareColumn],
     now: Time,
     length: Time,
     (pair, below): (&mut [usize; 2], f32),
@@ -44,63 +46,73 @@ pub fn show(
     language: Language,
 ) -> Option<ColumnAction> {
     let gap = 2.0 * GRID;
-    let count = entries.len().max(1) as f32;
+    let count = columns.len().max(1) as f32;
     let area = ui.available_rect_before_wrap();
     let wide = ((area.width() - gap * (count - 1.0)) / count).max(1.0);
-    let aspect = entries.first().map_or(0.75, |entry| {
-        let size = entry.trial.header.size;
+    let aspect = columns.first().map_or(0.75, |column| {
+        let size = column.trial.header.size;
         size.height() as f32 / size.width() as f32
     });
-    // What explains them needs its room below; where that makes pictures small, they stand in the middle of columns that
-    // are not much wider.
-    let high = (wide * aspect).min(area.height() - ABOVE - BELOW - below).max(8.0 * GRID);
+    // The findings below need their room. Where that makes the pictures small, the columns are narrower too.
+    let high = (wide * aspect).min(area.height() - HEADING_HEIGHT_PT - PROGRESS_HEIGHT_PT - below).max(8.0 * GRID);
     let wide = wide.min((1.4 * high / aspect).max(30.0 * GRID));
-    let (mut asked, many) = (None, entries.len() > 2);
-    let is_full = entries.len() >= MOST;
-    for (place, entry) in entries.iter_mut().enumerate() {
-        let left = area.left() + place as f32 * (wide + gap);
-        let column = Rect::from_min_size(pos2(left, area.top()), vec2(wide, ABOVE + high + BELOW));
-        let chosen = pair.iter().position(|&one| one == place);
-        let row = column.with_max_y(column.top() + ABOVE - 0.5 * GRID);
-        asked = asked.or(heading(ui, row, (place, entry), (many, is_full, now), chosen.is_some(), look, language));
-        let frame = Rect::from_min_size(pos2(left, column.top() + ABOVE), vec2(wide, high));
-        let response = picture(ui, frame, (place, entry), chosen.is_some(), look, language);
-        if response.clicked() && chosen.is_none() {
-            // The one that was chosen last stays.
-            *pair = [pair[1], place];
+    let (mut action, many) = (None, columns.len() > 2);
+    let is_full = columns.len() >= MAX_RUNS;
+    for (index, column) in columns.iter_mut().enumerate() {
+        let left = area.left() + index as f32 * (wide + gap);
+        let top = area.top();
+        let is_chosen = pair.contains(&index);
+        let row = Rect::from_min_size(pos2(left, top), vec2(wide, HEADING_HEIGHT_PT - 0.5 * GRID));
+        action = action.or(heading(ui, row, (index, column), (many, is_full, now), is_chosen, look, language));
+        let frame = Rect::from_min_size(pos2(left, top + HEADING_HEIGHT_PT), vec2(wide, high));
+        let response = picture(ui, frame, (index, column), is_chosen, look, language);
+        if response.clicked() && !is_chosen {
+            // The run that was chosen last stays in the pair.
+            *pair = [pair[1], index];
         }
-        let below = Rect::from_min_size(frame.left_bottom(), vec2(wide, BELOW));
-        bar(ui, below, entry.contender.as_deref(), now, length, look, language);
+        let below = Rect::from_min_size(frame.left_bottom(), vec2(wide, PROGRESS_HEIGHT_PT));
+        progress(ui, below, column.run.as_deref(), now, length, look, language);
     }
-    ui.allocate_rect(Rect::from_min_size(area.min, vec2(area.width(), ABOVE + high + BELOW)), Sense::hover());
-    asked
+    ui.allocate_rect(
+        Rect::from_min_size(area.min, vec2(area.width(), HEADING_HEIGHT_PT + high + PROGRESS_HEIGHT_PT)),
+        Sense::hover(),
+    );
+    action
 }
 
-/// What it is called, and what can be done with it.
+/// Shows letter, name and buttons of a run.
 fn heading(
     ui: &mut Ui,
     row: Rect,
-    (place, entry): (usize, &CompareColumn),
+    (index, column): (usize, &CompareColumn),
     (can_go, is_full, now): (bool, bool, Time),
     is_chosen: bool,
     look: Look,
     language: Language,
 ) -> Option<ColumnAction> {
-    let mut asked = None;
-    let end = entry.contender.as_ref().and_then(|run| run.end());
+    let mut action = None;
+    let end = column.run.as_ref().and_then(|run| run.end());
     let fork_at = (now > Time::ZERO && end.is_none_or(|end| now < end)).then_some(now);
     let layout = Layout::right_to_left(Align::Center);
     ui.scope_builder(UiBuilder::new().max_rect(row).layout(layout), |ui| {
         ui.spacing_mut().item_spacing.x = GRID / 2.0;
-        let letter = letter(place);
-        let remove = say!(language, "Take {letter} away", "Retirar {letter}");
+        let letter = letter(index);
+        let remove = say!(language, "Remove {letter}", "Retirar {letter}");
         if can_go && button(ui, Some(Icon::Close), &remove, false, Emphasis::Quiet).clicked() {
-            asked = Some(ColumnAction::Remove(place));
+            action = Some(ColumnAction::Remove(index));
         }
         if !is_full
-            && let Some(change) = adding::changes(ui, letter, &entry.trial, fork_at, row.width() > WIDE, look, language)
+            && let Some(change) = adding::changes(
+                ui,
+                letter,
+                &column.trial,
+                fork_at,
+                row.width() > MIN_TEXT_BUTTON_COLUMN_PT,
+                look,
+                language,
+            )
         {
-            asked = Some(ColumnAction::Fork(place, change));
+            action = Some(ColumnAction::Fork(index, change));
         }
         let left = Layout::left_to_right(Align::Center);
         ui.with_layout(left, |ui| {
@@ -110,13 +122,13 @@ fn heading(
             let colour = if is_chosen { look.on_accent } else { look.text };
             let font = theme::strong(theme::BODY);
             ui.painter().text(chip.center(), egui::Align2::CENTER_CENTER, letter, font, colour);
-            name(ui, &entry.name(language), look);
+            name(ui, &column.name(language), look);
         });
     });
-    asked
+    action
 }
 
-/// A run's name: in two small lines where it needs them, and all of it for whoever rests on it.
+/// Shows the name of a run, in up to two lines; the tooltip has all of it.
 fn name(ui: &mut Ui, name: &str, look: Look) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let fitted = |size, rows| {
@@ -131,37 +143,41 @@ fn name(ui: &mut Ui, name: &str, look: Look) {
     response.on_hover_text(name);
 }
 
-/// Its picture, as far as it is.
+/// Shows the picture of a run at the shown time.
 fn picture(
     ui: &mut Ui,
     frame: Rect,
-    (place, entry): (usize, &mut CompareColumn),
+    (index, column): (usize, &mut CompareColumn),
     is_chosen: bool,
     look: Look,
     language: Language,
 ) -> Response {
-    let response = ui.interact(frame, ui.scope_id().with(("contender", entry.id)), Sense::click());
+    let response = ui.interact(frame, ui.scope_id().with(("compared run", column.id)), Sense::click());
     ui.painter().rect_filled(frame, 0.0, look.raised);
-    let letter = letter(place);
-    let hint = word!(language, "Click: why does it differ from the other?", "Clique: por que difere da outra?");
-    if let Some(contender) = &mut entry.contender {
+    let letter = letter(index);
+    let hint = word!(
+        language,
+        "Click to see why it differs from the other chosen run",
+        "Clique para ver por que difere da outra execução escolhida"
+    );
+    if let Some(run) = &mut column.run {
         let ground = theme::rgb(look.ground);
-        let canvas = contender.canvas((Layer::Owners, 0.6), ground);
-        if let Some(texture) = entry.texture.upload(ui.ctx(), canvas, false) {
-            let size = entry.trial.header.size;
+        let canvas = run.canvas((Layer::Owners, 0.6), ground);
+        if let Some(texture) = column.texture.upload(ui.ctx(), canvas, false) {
+            let size = column.trial.header.size;
             let aspect = size.width() as f32 / size.height() as f32;
             let wide = frame.width().min(frame.height() * aspect);
             let fitted = Rect::from_center_size(frame.center(), vec2(wide, wide / aspect));
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture, fitted, whole, Color32::WHITE);
         }
-        let (done, all) = (contender.snapshot().state.done(), contender.snapshot().state.atoms());
+        let (done, all) = (run.snapshot().state.done(), run.snapshot().state.atoms());
         response.widget_info(|| {
-            let name = &contender.name;
+            let name = &run.name;
             let share = percent(done, all);
-            let words =
+            let text =
                 say!(language, "{letter}, {name}: {share} of the picture", "{letter}, {name}: {share} da imagem");
-            WidgetInfo::selected(Role::Button, true, is_chosen, words)
+            WidgetInfo::selected(Role::Button, true, is_chosen, text)
         });
     } else {
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{letter}")));
@@ -173,30 +189,30 @@ fn picture(
     response.on_hover_text(hint)
 }
 
-/// How far it is, on a line that is as long as the longest run; its time once it is over.
-fn bar(ui: &Ui, rect: Rect, contender: Option<&ComparedRun>, now: Time, length: Time, look: Look, language: Language) {
-    let Some(contender) = contender else { return };
+/// Paints the progress of a run on a line as long as the longest run, and its makespan when it has ended.
+fn progress(ui: &Ui, rect: Rect, run: Option<&ComparedRun>, now: Time, length: Time, look: Look, language: Language) {
+    let Some(run) = run else { return };
     let rail = Rect::from_min_size(rect.left_top() + vec2(0.0, GRID), vec2(rect.width(), 6.0));
     let x = |time: Time| rail.left() + rail.width() * (time.secs() / length.secs().max(f64::MIN_POSITIVE)) as f32;
     let painter = ui.painter();
     painter.rect_filled(rail, 3.0, look.hairline.gamma_multiply(0.5));
-    let end = contender.end();
+    let end = run.end();
     let until = end.unwrap_or(length);
     painter.rect_filled(rail.with_max_x(x(until)), 3.0, look.hairline);
     painter.rect_filled(rail.with_max_x(x(now.min(until))), 3.0, look.accent);
     let base = pos2(rail.left(), rail.bottom() + 0.5 * GRID);
     let (large, small) = (theme::strong(theme::BODY), theme::regular(theme::SMALL));
-    let state = &contender.snapshot().state;
+    let state = &run.snapshot().state;
     let is_over = end.is_some_and(|end| now >= end);
-    let (first, colour) = match &contender.budget {
-        Some(account) if is_over => (duration(account.makespan, language), look.text),
+    let (first, colour) = match &run.budget {
+        Some(budget) if is_over => (duration(budget.makespan, language), look.text),
         None if now >= length => (word!(language, "never ends", "nunca termina").to_owned(), look.trouble),
         _ => (percent(state.done(), state.atoms()), look.quiet),
     };
     painter.text(base, egui::Align2::LEFT_TOP, first, large, colour);
-    if let Some(account) = contender.budget.as_ref().filter(|_| is_over) {
-        let efficiency = fraction(account.efficiency());
-        let words = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
-        painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, words, small, look.quiet);
+    if let Some(budget) = run.budget.as_ref().filter(|_| is_over) {
+        let efficiency = fraction(budget.efficiency());
+        let text = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
+        painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, text, small, look.quiet);
     }
 }

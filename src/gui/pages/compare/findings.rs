@@ -1,4 +1,4 @@
-//! What comes of a comparison: when who did what, where the time went, how strategies grow, and why two runs differ.
+//! Findings of a comparison: timelines, time budgets, growth curves, and why two runs differ.
 
 use egui::{RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
@@ -16,42 +16,42 @@ use crate::view::{
     time_budget_words,
 };
 
-/// What is shown of all runs.
+/// A tab of the findings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Tab {
-    /// A lane a machine, on one axis of time.
+    /// The timelines on one time axis.
     #[default]
     Lanes,
-    /// Where the time went.
+    /// The time budgets.
     Spent,
-    /// What comes of more machines.
+    /// Speedup or efficiency over the number of machines.
     Growth(Measure),
 }
 
-/// What is chosen.
+/// The findings.
 #[derive(Default)]
 pub struct Findings {
     tab: Tab,
-    /// The runs of which is told why they differ.
+    /// Columns of the two runs whose difference is explained.
     pub pair: [usize; 2],
 }
 
 impl Findings {
-    /// Whether it is to be known how strategies grow.
+    /// Whether the growth curves are shown.
     pub fn wants_growth(&self) -> bool {
         matches!(self.tab, Tab::Growth(_))
     }
 
-    /// The height that they want of so much, the same whatever is shown.
-    pub fn height(all: f32) -> f32 {
-        (0.47 * all).clamp(30.0 * GRID, 52.0 * GRID)
+    /// Returns the height of the findings on a page of this height; it is the same for all tabs.
+    pub fn height(page: f32) -> f32 {
+        (0.47 * page).clamp(30.0 * GRID, 52.0 * GRID)
     }
 
-    /// Shows them in what room there is. Returns the time that somebody points to with a button down.
+    /// Shows the findings. Returns the time to which the user drags in the timelines.
     pub fn show(
         &mut self,
         ui: &mut Ui,
-        entries: &mut [CompareColumn],
+        columns: &mut [CompareColumn],
         growth: Option<&Growth>,
         now: Time,
         length: Time,
@@ -68,7 +68,7 @@ impl Findings {
                 (
                     Tab::Lanes,
                     word!(language, "Timelines", "Linhas do tempo"),
-                    word!(language, "Who did what and when", "Quem fez o quê e quando"),
+                    word!(language, "What each machine did and when", "O que cada máquina fez e quando"),
                 ),
                 (
                     Tab::Spent,
@@ -78,35 +78,35 @@ impl Findings {
                 (
                     Tab::Growth(Measure::Speedup),
                     "Speedup",
-                    word!(language, "With one machine to eight", "Com uma a oito máquinas"),
+                    word!(language, "With one to eight machines", "Com uma a oito máquinas"),
                 ),
                 (
                     Tab::Growth(Measure::Efficiency),
                     word!(language, "Efficiency", "Eficiência"),
-                    word!(language, "With one machine to eight", "Com uma a oito máquinas"),
+                    word!(language, "With one to eight machines", "Com uma a oito máquinas"),
                 ),
             ];
-            if let Some(tab) = widgets::choice(ui, self.tab, &tabs) {
+            if let Some(tab) = widgets::choice_buttons(ui, self.tab, &tabs) {
                 self.tab = tab;
             }
             ui.add_space(GRID);
             match self.tab {
-                Tab::Lanes => sought = lanes::show(ui, entries, now, length, look, language),
-                Tab::Spent => where_time_went(ui, entries, look, language),
-                Tab::Growth(measure) => growth::show(ui, growth, entries, measure, look, language),
+                Tab::Lanes => sought = lanes::show(ui, columns, now, length, look, language),
+                Tab::Spent => where_time_went(ui, columns, look, language),
+                Tab::Growth(measure) => growth::show(ui, growth, columns, measure, look, language),
             }
         });
-        ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, entries, look, language));
+        ui.scope_builder(UiBuilder::new().max_rect(right), |ui| self.why(ui, columns, look, language));
         sought
     }
 
-    /// Why two of them differ, and the figures of both.
-    fn why(&self, ui: &mut Ui, entries: &[CompareColumn], look: Look, language: Language) {
-        let known = |place: usize| {
-            let contender = entries.get(place)?.contender.as_ref()?;
-            Some((letter(place), contender))
+    /// Explains why the two runs of the pair differ, and shows their figures.
+    fn why(&self, ui: &mut Ui, columns: &[CompareColumn], look: Look, language: Language) {
+        let run_of = |index: usize| {
+            let run = columns.get(index)?.run.as_ref()?;
+            Some((letter(index), run))
         };
-        let (Some((a, one)), Some((b, other))) = (known(self.pair[0]), known(self.pair[1])) else { return };
+        let (Some((a, one)), Some((b, other))) = (run_of(self.pair[0]), run_of(self.pair[1])) else { return };
         let heading = say!(language, "{a} and {b}: why they differ", "{a} e {b}: por que diferem");
         ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
         ui.add_space(GRID / 2.0);
@@ -121,7 +121,7 @@ impl Findings {
                     let name = if one.budget.is_none() { &one.name } else { &other.name };
                     say!(
                         language,
-                        "{name} never ends: a machine that stands still keeps its atoms.",
+                        "{name} never ends: a stopped machine keeps its atoms.",
                         "{name} nunca termina: uma máquina parada fica com seus átomos."
                     )
                 }
@@ -133,76 +133,73 @@ impl Findings {
     }
 }
 
-/// A row a figure, a column a run.
+/// Shows a table with a row for each figure and a column for each of the two runs.
 fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, language: Language) {
-    /// What it is called, what it is, and how much.
+    /// Name, tooltip, and value of a figure.
     type Figure = ([&'static str; 2], fn(&TimeBudget, Language) -> String);
     let all: [Figure; 7] = [
         (
-            word!(language, ["time", "Until the picture is complete"], ["tempo", "Até a imagem ficar pronta"]),
-            |account, language| duration(account.makespan, language),
+            word!(
+                language,
+                ["time", "Makespan: until the picture is complete"],
+                ["tempo", "Makespan: até a imagem ficar pronta"]
+            ),
+            |budget, language| duration(budget.makespan, language),
         ),
         (
             word!(
                 language,
-                ["shared perfectly", "Had all machines worked until the end"],
-                ["divisão perfeita", "Se todas as máquinas trabalhassem até o fim"]
+                ["shared perfectly", "Ideal makespan: if all machines worked until the end"],
+                ["divisão perfeita", "Makespan ideal: se todas as máquinas trabalhassem até o fim"]
             ),
-            |account, language| duration(account.ideal, language),
+            |budget, language| duration(budget.ideal, language),
         ),
         (
-            word!(
-                language,
-                ["efficiency", "The time if it were shared perfectly, over the time"],
-                ["eficiência", "O tempo da divisão perfeita sobre o tempo"]
-            ),
-            |account, _| fraction(account.efficiency()),
+            word!(language, ["efficiency", "Ideal makespan / makespan"], ["eficiência", "Makespan ideal / makespan"]),
+            |budget, _| fraction(budget.efficiency()),
         ),
         (
             word!(
                 language,
                 [
                     "messages to share",
-                    "All messages but those with results and those that only tell what a machine has"
+                    "All messages without results and beats: bands, requests, parts, offers, transfers …"
                 ],
-                [
-                    "mensagens de divisão",
-                    "Todas as mensagens, menos as de resultados e as que só dizem o que uma máquina tem"
-                ]
+                ["mensagens de divisão", "Todas, sem resultados e sinais de vida: faixas, pedidos, partes, ofertas …"]
             ),
-            |account, _| count(account.messages.sharing()),
+            |budget, _| count(budget.messages.sharing()),
         ),
         (
             word!(
                 language,
                 [
                     "messages with results",
-                    "What a machine has traced goes to the parent in small batches, so that one sees the picture grow. A slow \
-                     machine's atoms go one by one: the more of them it traces, the more messages, whoever shares",
+                    "A machine sends its pixels to the parent in small batches, so that the picture grows visibly. A slow \
+                    machine sends its atoms one by one, so it makes more messages, with every strategy",
                 ],
                 [
                     "mensagens de resultados",
-                    "O que uma máquina calculou vai ao pai em pequenos lotes, para que se veja a imagem crescer. Os átomos de \
-                     uma máquina lenta vão um a um: quanto mais ela calcula, mais mensagens, seja qual for a divisão",
+                    "Uma máquina envia seus pixels ao pai em pequenos lotes, para que se veja a imagem crescer. Uma máquina \
+                    lenta envia seus átomos um a um e assim faz mais mensagens, em toda estratégia",
                 ]
             ),
-            |account, _| count(account.messages.results),
+            |budget, _| count(budget.messages.results),
         ),
         (
             word!(
                 language,
-                ["atoms given away", "From one machine to another"],
-                ["átomos cedidos", "De uma máquina a outra"]
+                ["atoms given away", "Atoms in transfers from one machine to another"],
+                ["átomos cedidos", "Átomos em transferências de uma máquina a outra"]
             ),
-            |account, _| count(account.messages.atoms_moved),
+            |budget, _| count(budget.messages.atoms_moved),
         ),
         (
             word!(
                 language,
-                ["alone at the end", "While only one machine still traced"],
-                ["sozinha no fim", "Enquanto só uma máquina ainda calculava"]
+                ["alone at the end", "Time in which only one machine still traced"],
+                ["sozinha no fim", "Tempo em que só uma máquina ainda calculava"]
             ),
-            |account, language| duration(account.last.alone, language),
+            |budget, language| duration(budget.last.alone, language),
         ),
     ];
     let font = theme::regular(theme::SMALL);
@@ -219,19 +216,19 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
         response
     };
     row(ui, "", runs.map(|(letter, _)| letter.to_string()));
-    for ([name, hint], of) in all {
-        row(ui, name, runs.map(|(_, account)| account.map_or("—".to_owned(), |account| of(account, language))))
+    for ([name, hint], value_of) in all {
+        row(ui, name, runs.map(|(_, budget)| budget.map_or("—".to_owned(), |budget| value_of(budget, language))))
             .on_hover_text(hint);
     }
 }
 
-/// Bars of what the machines' time was spent on.
-fn where_time_went(ui: &mut Ui, entries: &[CompareColumn], look: Look, language: Language) {
+/// Shows the time budgets as bars.
+fn where_time_went(ui: &mut Ui, columns: &[CompareColumn], look: Look, language: Language) {
     let names: Vec<String> =
-        (0..entries.len()).map(|place| format!("{}  {}", letter(place), entries[place].name(language))).collect();
-    let accounts = entries.iter().map(|entry| entry.contender.as_ref()?.budget.as_ref());
+        (0..columns.len()).map(|index| format!("{}  {}", letter(index), columns[index].name(language))).collect();
+    let budgets = columns.iter().map(|column| column.run.as_ref()?.budget.as_ref());
     let runs: Vec<(&str, &TimeBudget)> =
-        names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
+        names.iter().zip(budgets).filter_map(|(name, budget)| Some((name.as_str(), budget?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
         let size = vec2(ui.available_width() - GRID, time_budget_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());

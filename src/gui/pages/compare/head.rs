@@ -1,10 +1,10 @@
-//! The line above the runs: what the page is about, its time, what can be added, and the way out.
+//! The line above the compared runs: title, playback, and the buttons to add a run and to close.
 
 use std::time::Duration;
 
 use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::{Compare, CompareColumn, MOST, adding};
+use super::{Compare, CompareColumn, MAX_RUNS, adding};
 use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::input::rate_menu;
@@ -16,7 +16,7 @@ use crate::language::{Language, word};
 use crate::view::{fraction, time_words};
 
 impl Compare {
-    /// What the page is about, its time, and the way out.
+    /// Shows the line.
     pub(super) fn heading(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
         let language = session.language();
         ui.horizontal(|ui| {
@@ -33,19 +33,19 @@ impl Compare {
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.close(session);
                 }
-                if self.entries.len() < MOST
+                if self.columns.len() < MAX_RUNS
                     && let Some(change) = adding::strategies(ui, &self.strategies(), look, language)
                 {
                     self.add(vec![change]);
                     self.run(session);
                 }
-                let (said, colour) = match &self.trouble {
+                let (text, colour) = match &self.trouble {
                     Some(why) => (why.as_str(), look.trouble),
                     None => (
                         word!(
                             language,
-                            "The same picture, the same machines, in virtual time",
-                            "A mesma imagem, as mesmas máquinas, em tempo virtual"
+                            "The same picture and machines, in virtual time",
+                            "A mesma imagem e as mesmas máquinas, em tempo virtual"
                         ),
                         look.quiet,
                     ),
@@ -53,43 +53,43 @@ impl Compare {
                 if self.trouble.is_none() {
                     self.progress(ui, look, language);
                 }
-                let said = RichText::new(said).font(theme::regular(theme::SMALL)).color(colour);
+                let text = RichText::new(text).font(theme::regular(theme::SMALL)).color(colour);
                 let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), Sense::hover());
-                // What went wrong is told in any case.
+                // An error is shown even if it is cut off.
                 if self.trouble.is_some() || rect.width() > 48.0 * GRID {
                     let right = UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center));
-                    let label = ui.scope_builder(right, |ui| ui.add(Label::new(said).truncate())).inner;
+                    let label = ui.scope_builder(right, |ui| ui.add(Label::new(text).truncate())).inner;
                     if self.trouble.is_none() {
-                        label.on_hover_text(virtual_time(language));
+                        label.on_hover_text(virtual_time_hint(language));
                     }
                 }
             });
         });
     }
 
-    /// How far the picture is, on which all runs wait; it is traced once for all of them.
+    /// Shows the progress of the picture, which is traced once for all runs.
     fn progress(&self, ui: &mut Ui, look: Look, language: Language) {
-        let is_waiting = self.entries.iter().any(|entry| entry.contender.is_none());
+        let is_waiting = self.columns.iter().any(|column| column.run.is_none());
         let Some(subject) = self.subject.as_ref().filter(|_| is_waiting) else { return };
-        let share = match self.pictured {
+        let share = match self.picture {
             Some(_) => 1.0,
             None => self.tracing.done() as f32 / subject.trial.header.size.pixels() as f32,
         };
         let bar =
             ui.add(ProgressBar::new(share).desired_width(16.0 * GRID).desired_height(0.75 * GRID).fill(look.accent));
         bar.widget_info(|| {
-            let words = word!(language, "of the picture is traced", "da imagem estão calculados");
-            WidgetInfo::labeled(Role::ProgressIndicator, true, format!("{} {words}", fraction(share.into())))
+            let text = word!(language, "of the picture is traced", "da imagem estão calculados");
+            WidgetInfo::labeled(Role::ProgressIndicator, true, format!("{} {text}", fraction(share.into())))
         });
         ui.ctx().request_repaint_after(Duration::from_millis(100));
     }
 
-    /// Whether time goes on, and how fast.
+    /// Shows the buttons of the playback and the shown time.
     fn play(&mut self, ui: &mut Ui, look: Look, language: Language) {
-        let over = self.time.now() >= self.length();
+        let is_over = self.time.now() >= self.length();
         let (icon, name) = match self.time.is_paused() {
-            _ if over => (Icon::Restart, word!(language, "Play again", "Repetir")),
-            true => (Icon::Play, word!(language, "Go on", "Continuar")),
+            _ if is_over => (Icon::Restart, word!(language, "Play again", "Repetir")),
+            true => (Icon::Play, word!(language, "Resume", "Continuar")),
             false => (Icon::Pause, word!(language, "Pause", "Pausar")),
         };
         if button(ui, Some(icon), name, true, Emphasis::Primary).clicked() {
@@ -104,24 +104,24 @@ impl Compare {
         ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
     }
 
-    /// The strategies that no run has without other changes.
+    /// Returns the strategies that no unchanged run of the comparison has.
     fn strategies(&self) -> Vec<Strategy> {
-        let plain = |strategy| {
-            let is_it = |entry: &CompareColumn| entry.trial.header.rules.strategy == strategy && !entry.is_fork();
-            !self.entries.iter().any(is_it)
+        let is_missing = |strategy| {
+            let has_it = |column: &CompareColumn| column.trial.header.rules.strategy == strategy && !column.is_fork();
+            !self.columns.iter().any(has_it)
         };
-        Strategy::ALL.into_iter().filter(|&strategy| plain(strategy)).collect()
+        Strategy::ALL.into_iter().filter(|&strategy| is_missing(strategy)).collect()
     }
 }
 
-/// Why its seconds are not those of the run on the stage.
-fn virtual_time(language: Language) -> &'static str {
+/// Explains why the times differ from those of the run on the stage.
+fn virtual_time_hint(language: Language) -> &'static str {
     word!(
         language,
-        "In virtual time a machine is exactly as fast as its speed says, and an atom costs what its rays are counted for. A run \
-         on this computer takes other seconds: there an atom costs the time of its processor, and other work delays it",
-        "Em tempo virtual, uma máquina é tão rápida quanto diz sua velocidade, e um átomo custa o que valem seus raios. Uma \
-         execução neste computador leva outros segundos: ali um átomo custa o tempo do processador, e outras tarefas o \
-         atrasam"
+        "In virtual time a machine has exactly its set speed, and the cost of an atom is computed from its rays. In a \
+        real run the cost of an atom is CPU time of this computer, and other programs delay it. So the times differ",
+        "Em tempo virtual, uma máquina tem exatamente sua velocidade, e o custo de um átomo é calculado de seus raios. \
+        Numa execução real, o custo de um átomo é tempo de CPU deste computador, e outros programas o atrasam. Por isso \
+        os tempos diferem"
     )
 }

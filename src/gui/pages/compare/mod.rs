@@ -1,4 +1,4 @@
-//! Runs of one scene beside each other, in virtual time: pictures that fill in, and why one takes longer than another.
+//! The Compare page: runs of one scene side by side in virtual time, and why one takes longer than another.
 
 mod adding;
 mod columns;
@@ -24,42 +24,45 @@ use crate::language::{Language, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
 use crate::view::{ComparedRun, Playback, RATES, Timeline, trial_name};
+use columns::ColumnAction;
 use findings::Findings;
 
-/// More runs than these nobody can follow, and fewer are no comparison.
-const MOST: usize = 6;
+/// Most runs of a comparison; more have no room.
+const MAX_RUNS: usize = 6;
 
-/// The page.
+/// The Compare page.
 pub struct Compare {
     open: bool,
-    /// Which run was on the stage when it was last asked what is to be compared.
-    seen: Option<usize>,
+    /// `Session::runs_begun` when the subject was taken last.
+    run_seen: Option<usize>,
     subject: Option<ComparisonSubject>,
     tracing: Arc<TracingProgress>,
-    pictured: Option<Arc<TracedOnce>>,
-    entries: Vec<CompareColumn>,
-    /// The next entry's number.
-    next: u64,
-    /// What is waited for.
+    picture: Option<Arc<TracedOnce>>,
+    columns: Vec<CompareColumn>,
+    last_id: u64,
+    /// Number of the job that runs the trials.
     job: Option<u64>,
+    /// Number of the job that runs the growth curves, and its result.
     growth: Option<(u64, Option<Growth>)>,
     trouble: Option<String>,
     time: Playback,
-    /// Whether the rate suits the first runs: those that are added change it no more.
+    /// Whether the playback rate is set. It depends on the first runs only; added runs do not change it.
     is_paced: bool,
     findings: Findings,
-    /// Whether the run on the stage stands still because of this.
+    /// Whether the page has paused the run on the stage.
     holds_run: bool,
 }
 
-/// One of the runs.
+/// A run of the comparison.
 struct CompareColumn {
     id: u64,
     trial: Trial,
+    /// Changes of the trial relative to the subject.
     changes: Vec<Change>,
-    /// Until the run is known there is none.
-    contender: Option<Box<ComparedRun>>,
+    /// The run of the trial; `None` until it has ended.
+    run: Option<Box<ComparedRun>>,
     texture: CanvasTexture,
+    /// Cached drawing of the lanes, with its size and the end of its time window.
     lanes: Option<(egui::Vec2, Time, Timeline)>,
 }
 
@@ -67,12 +70,12 @@ impl Default for Compare {
     fn default() -> Self {
         Self {
             open: false,
-            seen: None,
+            run_seen: None,
             subject: None,
             tracing: Arc::default(),
-            pictured: None,
-            entries: Vec::new(),
-            next: 0,
+            picture: None,
+            columns: Vec::new(),
+            last_id: 0,
             job: None,
             growth: None,
             trouble: None,
@@ -85,44 +88,45 @@ impl Default for Compare {
 }
 
 impl CompareColumn {
+    /// Returns the name of the run.
     fn name(&self, language: Language) -> String {
         trial_name(self.trial.header.rules.strategy, &self.changes, language)
     }
 
-    /// Whether more is changed of it than who shares.
+    /// Whether the run differs from the subject by more than its strategy.
     fn is_fork(&self) -> bool {
         !self.changes.iter().all(|change| matches!(change, Change::Strategy(_)))
     }
 
-    /// When it parts from the run that it is a fork of.
-    fn parts(&self) -> impl Iterator<Item = Time> {
+    /// Returns the times at which a speed changes.
+    fn change_times(&self) -> impl Iterator<Item = Time> {
         self.changes.iter().filter_map(|change| if let Change::SpeedAt(at, ..) = change { Some(*at) } else { None })
     }
 }
 
 impl Compare {
-    /// Opens the page, or closes it.
+    /// Opens or closes the page. While it is open, the run on the stage is paused.
     pub fn toggle(&mut self, session: &mut Session) {
         if self.open {
             return self.close(session);
         }
-        (self.open, self.seen) = (true, None);
+        (self.open, self.run_seen) = (true, None);
         if session.stage().phase == Phase::Running && !session.stage().paused {
             session.set_run_paused(true);
             self.holds_run = true;
         }
     }
 
-    /// Whether the page is to be shown.
+    /// Whether the page is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Closes it; the run on the stage goes on.
+    /// Closes the page and resumes the run on the stage.
     pub fn close(&mut self, session: &mut Session) {
         self.open = false;
-        if self.pictured.is_none() {
-            self.tracing.give_up();
+        if self.picture.is_none() {
+            self.tracing.cancel();
             self.subject = None;
         }
         if std::mem::take(&mut self.holds_run) && session.stage().paused {
@@ -130,43 +134,43 @@ impl Compare {
         }
     }
 
-    /// Names and makespans of the runs that are known, for tests.
+    /// Returns names and makespans of the finished runs, for tests.
     pub fn runs(&self) -> Vec<(String, Option<Duration>)> {
-        let known = self.entries.iter().filter_map(|entry| entry.contender.as_ref());
-        known.map(|known| (known.name.clone(), known.budget.as_ref().map(|account| account.makespan))).collect()
+        let runs = self.columns.iter().filter_map(|column| column.run.as_ref());
+        runs.map(|run| (run.name.clone(), run.budget.as_ref().map(|budget| budget.makespan))).collect()
     }
 
-    /// The runs that are known, for a file; nothing until there is one.
+    /// Returns the finished runs for an export; `None` until there is one.
     pub fn comparison(&self) -> Option<Comparison> {
         let header = &self.subject.as_ref()?.trial.header;
-        let run = |entry: &CompareColumn| {
-            let header = &entry.trial.header;
+        let entry = |column: &CompareColumn| {
+            let header = &column.trial.header;
             let (strategy, machines) = (header.rules.strategy, header.speeds.len());
-            let account = entry.contender.as_ref()?.budget.clone();
-            Some(ComparisonEntry { strategy, changes: entry.changes.clone(), machines, account })
+            let account = column.run.as_ref()?.budget.clone();
+            Some(ComparisonEntry { strategy, changes: column.changes.clone(), machines, account })
         };
         let (title, size) = (header.title().to_owned(), header.size);
-        let runs: Vec<_> = self.entries.iter().filter_map(run).collect();
+        let runs: Vec<_> = self.columns.iter().filter_map(entry).collect();
         (!runs.is_empty()).then_some(Comparison { title, size, runs })
     }
 
-    /// Takes in what a job has come to.
-    pub fn take(&mut self, job: u64, compared: CompareResult) {
-        match compared {
+    /// Takes a result of a job.
+    pub fn take(&mut self, job: u64, result: CompareResult) {
+        match result {
             CompareResult::Growth(growth) => {
-                if let Some((_, known)) = self.growth.as_mut().filter(|(asked, _)| *asked == job) {
-                    *known = Some(growth);
+                if let Some((_, result)) = self.growth.as_mut().filter(|(number, _)| *number == job) {
+                    *result = Some(growth);
                 }
             }
             // Another comparison was begun meanwhile.
             _ if self.job != Some(job) => {}
-            CompareResult::Picture(pictured) => self.pictured = Some(pictured),
-            CompareResult::Run(id, contender) => {
-                if let Some(entry) = self.entries.iter_mut().find(|entry| entry.id == id) {
-                    entry.contender = Some(contender);
+            CompareResult::Picture(picture) => self.picture = Some(picture),
+            CompareResult::Run(id, run) => {
+                if let Some(column) = self.columns.iter_mut().find(|column| column.id == id) {
+                    column.run = Some(run);
                     if !self.is_paced {
-                        self.time.set_rate(usual_rate(self.length()));
-                        self.is_paced = self.entries.iter().all(|entry| entry.contender.is_some());
+                        self.time.set_rate(initial_rate(self.length()));
+                        self.is_paced = self.columns.iter().all(|column| column.run.is_some());
                     }
                 }
             }
@@ -174,7 +178,7 @@ impl Compare {
         }
     }
 
-    /// Does what a key asks for, if it is meant for this page.
+    /// Executes a command of the playback. Returns whether the command is one.
     pub fn handle_command(&mut self, command: UserCommand) -> bool {
         match command {
             UserCommand::Pause if self.time.now() >= self.length() => self.time.seek(Time::ZERO, false),
@@ -192,7 +196,7 @@ impl Compare {
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
         let language = session.language();
         let look = Look::of(ui.ctx());
-        self.keep_up(session);
+        self.update_subject(session);
         let length = self.length();
         if !self.time.is_paused() && length > Time::ZERO && self.time.now() < length {
             let passed = Duration::from_secs_f32(ui.input(|input| input.stable_dt).min(0.1));
@@ -202,126 +206,123 @@ impl Compare {
         self.heading(ui, session, look);
         ui.add_space(GRID);
         if self.subject.is_none() {
-            note(
-                ui,
-                word!(language, "The scene is being read and compiled …", "A cena está sendo lida e compilada …"),
-                look,
-            );
+            note(ui, word!(language, "Reading and compiling the scene …", "Lendo e compilando a cena …"), look);
             return;
         }
         let now = self.time.now();
-        for contender in self.entries.iter_mut().filter_map(|entry| entry.contender.as_mut()) {
-            contender.show(now);
+        for run in self.columns.iter_mut().filter_map(|column| column.run.as_mut()) {
+            run.show(now);
         }
-        if let Some(asked) = {
-            let below = 2.0 * GRID + Findings::height(ui.available_height());
-            columns::show(ui, &mut self.entries, now, length, (&mut self.findings.pair, below), look, language)
-        } {
-            self.do_with(asked, session);
+        let below = 2.0 * GRID + Findings::height(ui.available_height());
+        let pair = &mut self.findings.pair;
+        if let Some(action) = columns::show(ui, &mut self.columns, now, length, (pair, below), look, language) {
+            self.handle_action(action, session);
         }
         ui.add_space(2.0 * GRID);
         let area = ui.available_rect_before_wrap();
         ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
             let growth = self.growth.as_ref().and_then(|(_, growth)| growth.as_ref());
-            if let Some(time) = self.findings.show(ui, &mut self.entries, growth, now, length, look, language) {
+            if let Some(time) = self.findings.show(ui, &mut self.columns, growth, now, length, look, language) {
                 self.time.seek(time, true);
             }
         });
         if self.findings.wants_growth() && self.growth.is_none() {
-            self.ask_for_growth(session);
+            self.start_growth(session);
         }
     }
 
-    /// When the last run is over.
+    /// Returns the end of the longest run.
     fn length(&self) -> Time {
-        let known = self.entries.iter().filter_map(|entry| entry.contender.as_ref());
-        known.map(|contender| contender.length()).max().unwrap_or(Time::ZERO)
+        let runs = self.columns.iter().filter_map(|column| column.run.as_ref());
+        runs.map(|run| run.length()).max().unwrap_or(Time::ZERO)
     }
 
-    /// Compares what is on the stage, unless that is what is compared.
-    fn keep_up(&mut self, session: &mut Session) {
-        // Nothing else changes what is on the stage while this page lies over it.
-        if self.seen == Some(session.runs_begun()) {
+    /// Starts a new comparison if the run on the stage is not the present subject.
+    fn update_subject(&mut self, session: &mut Session) {
+        // While this page is open, the subject can change only with a new run.
+        if self.run_seen == Some(session.runs_begun()) {
             return;
         }
         let Some(subject) = session.subject() else { return };
-        self.seen = Some(session.runs_begun());
-        if self.subject.as_ref().is_some_and(|known| known.is_like(&subject)) {
+        self.run_seen = Some(session.runs_begun());
+        if self.subject.as_ref().is_some_and(|known| known.is_same_as(&subject)) {
             return;
         }
         let same_picture = self.subject.as_ref().is_some_and(|known| known.has_picture_of(&subject));
-        self.pictured = self.pictured.take().filter(|_| same_picture);
+        self.picture = self.picture.take().filter(|_| same_picture);
         let base = subject.trial.header.rules.strategy;
         let mut strategies = vec![Strategy::Static, Strategy::Farm, Strategy::Ring];
         if !strategies.contains(&base) {
             strategies.insert(0, base);
         }
         self.subject = Some(subject);
-        (self.entries, self.growth, self.trouble) = (Vec::new(), None, None);
+        (self.columns, self.growth, self.trouble) = (Vec::new(), None, None);
         let bare = |strategy| if strategy == base { Vec::new() } else { vec![Change::Strategy(strategy)] };
         for changes in strategies.into_iter().map(bare) {
             self.add(changes);
         }
-        self.findings.pair = [0, self.entries.len() - 1];
+        self.findings.pair = [0, self.columns.len() - 1];
         (self.time, self.is_paced) = (Playback::from_start(), false);
         self.run(session);
     }
 
-    /// One more run, which is the subject with these changes.
+    /// Adds a column: the subject with these changes.
     fn add(&mut self, changes: Vec<Change>) {
         let Some(subject) = &self.subject else { return };
         let trial = changes.iter().fold(subject.trial.clone(), |trial, &change| trial.with(change));
-        self.next += 1;
+        self.last_id += 1;
         let (texture, lanes) = (CanvasTexture::default(), None);
-        self.entries.push(CompareColumn { id: self.next, trial, changes, contender: None, texture, lanes });
+        self.columns.push(CompareColumn { id: self.last_id, trial, changes, run: None, texture, lanes });
     }
 
-    /// Runs what has not been run.
+    /// Starts the job that runs the trials without a run.
     fn run(&mut self, session: &mut Session) {
         let language = session.language();
         let Some(subject) = &self.subject else { return };
-        let missing = self.entries.iter().filter(|entry| entry.contender.is_none());
-        let missing = missing.map(|entry| (entry.id, entry.name(language), entry.trial.clone())).collect();
-        let known = match &self.pictured {
-            Some(pictured) => PictureSource::Picture(Arc::clone(pictured)),
+        let missing = self.columns.iter().filter(|column| column.run.is_none());
+        let missing = missing.map(|column| (column.id, column.name(language), column.trial.clone())).collect();
+        let picture = match &self.picture {
+            Some(picture) => PictureSource::Traced(Arc::clone(picture)),
             None => {
-                self.tracing.give_up();
+                self.tracing.cancel();
                 self.tracing = Arc::default();
-                PictureSource::Nothing(Arc::clone(&self.tracing))
+                PictureSource::Untraced(Arc::clone(&self.tracing))
             }
         };
-        self.job = Some(session.compare(subject, known, missing));
+        self.job = Some(session.compare(subject, picture, missing));
     }
 
-    fn ask_for_growth(&mut self, session: &mut Session) {
-        if let (Some(subject), Some(pictured)) = (&self.subject, &self.pictured) {
-            self.growth = Some((session.grow(subject, Arc::clone(pictured)), None));
+    /// Starts the job that runs the growth curves, once the picture is traced.
+    fn start_growth(&mut self, session: &mut Session) {
+        if let (Some(subject), Some(picture)) = (&self.subject, &self.picture) {
+            self.growth = Some((session.grow(subject, Arc::clone(picture)), None));
         }
     }
 
-    fn do_with(&mut self, asked: columns::ColumnAction, session: &mut Session) {
-        match asked {
-            columns::ColumnAction::Remove(place) => {
-                self.entries.remove(place);
-                let last = self.entries.len() - 1;
-                self.findings.pair = self.findings.pair.map(|at| if at > place { at - 1 } else { at }.min(last));
+    /// Executes the action of a column's button.
+    fn handle_action(&mut self, action: ColumnAction, session: &mut Session) {
+        match action {
+            ColumnAction::Remove(index) => {
+                self.columns.remove(index);
+                let last = self.columns.len() - 1;
+                self.findings.pair = self.findings.pair.map(|at| if at > index { at - 1 } else { at }.min(last));
                 if self.findings.pair[0] == self.findings.pair[1] {
                     self.findings.pair = [0, last];
                 }
             }
-            columns::ColumnAction::Fork(place, change) => {
-                let mut changes = self.entries[place].changes.clone();
+            ColumnAction::Fork(index, change) => {
+                let mut changes = self.columns[index].changes.clone();
                 changes.push(change);
                 self.add(changes);
-                self.findings.pair = [place, self.entries.len() - 1];
+                self.findings.pair = [index, self.columns.len() - 1];
                 self.run(session);
             }
         }
     }
 }
 
-/// How fast so long a comparison is shown at first: no slower than time goes, and in some twenty seconds.
-fn usual_rate(length: Time) -> usize {
+/// Returns the index of the initial playback rate: at least 1, and fast enough to show the comparison in 25 s.
+fn initial_rate(length: Time) -> usize {
     let fits = |&rate: &f64| rate >= 1.0 && length.secs() / rate <= 25.0;
     RATES.iter().position(fits).unwrap_or(RATES.len() - 2).min(RATES.len() - 2)
 }

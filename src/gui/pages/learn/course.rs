@@ -1,4 +1,4 @@
-//! A lesson that is being taken: which step, what was answered, and how far time has come.
+//! Progress of a lesson: its step, its answers, and the playback to the end of the step.
 
 use super::rate_for;
 use crate::gui::session::{PreparedLesson, Session};
@@ -7,100 +7,100 @@ use crate::lesson::{LowerView, Question, Step};
 use crate::time::Time;
 use crate::view::Subject;
 
-/// A lesson that is being taken.
+/// Progress of a lesson.
 pub struct LessonProgress {
-    taught: PreparedLesson,
+    lesson: PreparedLesson,
     step: usize,
-    /// By step: what was answered.
+    /// The chosen answer of each step.
     answers: Vec<Option<usize>>,
-    /// Which run is on the stage, and how often runs were begun when it came there.
+    /// Name of the lesson's run on the stage, and `Session::runs_begun` when it began.
     run: (String, usize),
-    /// Time goes on until so many records have happened.
+    /// Number of records at which the playback stops.
     until: Option<usize>,
-    /// What stands out from now on.
-    points: Option<Option<Subject>>,
+    /// New selection for the next frame.
+    selection: Option<Option<Subject>>,
 }
 
 impl LessonProgress {
-    /// Begins with the first step.
-    pub fn begin(taught: PreparedLesson, session: &mut Session) -> Self {
-        let answers = vec![None; taught.lesson.steps.len()];
-        let mut course = Self { taught, step: 0, answers, run: (String::new(), 0), until: None, points: None };
-        course.enter(session);
-        course
+    /// Begins a lesson with its first step.
+    pub fn begin(lesson: PreparedLesson, session: &mut Session) -> Self {
+        let answers = vec![None; lesson.lesson.steps.len()];
+        let mut progress = Self { lesson, step: 0, answers, run: (String::new(), 0), until: None, selection: None };
+        progress.enter(session);
+        progress
     }
 
-    /// The lesson, with its runs.
-    pub fn taught(&self) -> &PreparedLesson {
-        &self.taught
+    /// Returns the lesson with its runs.
+    pub fn lesson(&self) -> &PreparedLesson {
+        &self.lesson
     }
 
-    /// The lesson's name.
+    /// Returns the name of the lesson.
     pub fn name(&self) -> &str {
-        &self.taught.lesson.name
+        &self.lesson.lesson.name
     }
 
-    /// What it is called.
+    /// Returns the title of the lesson.
     pub fn title(&self, language: Language) -> &str {
-        self.taught.lesson.title.in_language(language)
+        self.lesson.lesson.title.in_language(language)
     }
 
-    /// Which step, from 0, and how many there are.
+    /// Returns the index of the step.
     pub fn step(&self) -> usize {
         self.step
     }
 
-    /// How many steps there are.
+    /// Returns the number of steps.
     pub fn steps(&self) -> usize {
-        self.taught.lesson.steps.len()
+        self.lesson.lesson.steps.len()
     }
 
-    /// Whether no step follows.
+    /// Whether this is the last step.
     pub fn is_last(&self) -> bool {
         self.step + 1 >= self.steps()
     }
 
-    /// Whether all is seen.
+    /// Whether the last step is complete.
     pub fn is_over(&self) -> bool {
         self.is_last() && self.until.is_none() && !self.waits()
     }
 
-    /// What is said.
+    /// Returns the text of the step.
     pub fn say(&self, language: Language) -> &str {
         self.now().say.in_language(language)
     }
 
-    /// What is asked, and what was answered.
+    /// Returns the question of the step and the chosen answer.
     pub fn question(&self) -> Option<(&Question, Option<usize>)> {
         self.now().ask.as_ref().map(|question| (question, self.answers[self.step]))
     }
 
-    /// What its claims came to, which is told only after an answer.
+    /// Returns the text of the step's checked claims; it may be shown only after an answer.
     pub fn checked(&self, language: Language) -> Option<String> {
-        self.now().checked_words(&self.taught.values[self.step], language)
+        self.now().checked_words(&self.lesson.values[self.step], language)
     }
 
-    /// Whether an answer is waited for.
+    /// Whether the question of the step has no answer yet.
     pub fn waits(&self) -> bool {
         self.question().is_some_and(|(_, answer)| answer.is_none())
     }
 
-    /// Whether this step wants the timeline.
+    /// Whether the step shows the timeline.
     pub fn wants_timeline(&self) -> bool {
         self.now().look == LowerView::Timeline
     }
 
-    /// Answers the question; then one sees.
-    pub fn answer(&mut self, place: usize, session: &mut Session) {
-        if self.question().is_some_and(|(question, answer)| answer.is_none() && place < question.answers.len()) {
-            self.answers[self.step] = Some(place);
-            // That an answer was waited for, for instance.
+    /// Answers the question with the answer at this index, and plays to the end of the step.
+    pub fn answer(&mut self, index: usize, session: &mut Session) {
+        if self.question().is_some_and(|(question, answer)| answer.is_none() && index < question.answers.len()) {
+            self.answers[self.step] = Some(index);
+            // The notice may say that an answer is missing.
             session.end_notice();
-            self.go(session);
+            self.play(session);
         }
     }
 
-    /// The next step; whoever is in a hurry first comes to the end of this one. A question is to be answered before.
+    /// Goes to the end of the step, or from there to the next step. Does nothing while a question has no answer.
     pub fn next(&mut self, session: &mut Session) {
         if self.waits() {
             return;
@@ -113,17 +113,17 @@ impl LessonProgress {
         }
     }
 
-    /// The step before, from its beginning.
+    /// Goes to the beginning of the previous step.
     pub fn back(&mut self, session: &mut Session) {
         self.step = self.step.saturating_sub(1);
         self.enter(session);
     }
 
-    /// Lets time come to where it is to stand still.
+    /// Stops the playback at the end of the step. Returns the new selection, if it changes.
     pub fn tick(&mut self, session: &mut Session) -> Option<Option<Subject>> {
         if let Some(records) = self.until {
             let stage = session.stage_mut();
-            // Whoever takes time in his own hand is not hindered.
+            // The user has stopped the time, so the lesson leaves it alone.
             if stage.time.is_paused() {
                 self.until = None;
             } else if stage.records_shown() >= records {
@@ -131,38 +131,38 @@ impl LessonProgress {
                 self.until = None;
             }
         }
-        self.points.take()
+        self.selection.take()
     }
 
     fn now(&self) -> &Step {
-        // There is at least one, and the step is one of them.
-        &self.taught.lesson.steps[self.step]
+        // A lesson has at least one step, and `step` is always an index of one.
+        &self.lesson.lesson.steps[self.step]
     }
 
-    /// Comes to a step: its run, and where the step before has led to in it.
+    /// Enters the step: shows its run where the previous step of the same run has ended.
     fn enter(&mut self, session: &mut Session) {
         let run = self.now().run.clone();
         if self.run != (run.clone(), session.runs_begun()) {
-            session.show_run_of(&self.taught, &run);
+            session.show_lesson_run(&self.lesson, &run);
             self.run = (run.clone(), session.runs_begun());
         }
-        let before = self.taught.lesson.steps[..self.step].iter().rev().take_while(|step| step.run == run);
+        let before = self.lesson.lesson.steps[..self.step].iter().rev().take_while(|step| step.run == run);
         let before = before.filter_map(|step| step.until).next();
         let stage = session.stage_mut();
         let records = before.and_then(|until| until.of(&stage.log)).map_or(0, |(records, _)| records);
         stage.show_after(records);
         self.until = None;
-        self.points = Some(self.now().machine.map(Subject::Node));
+        self.selection = Some(self.now().machine.map(Subject::Node));
         if !self.waits() {
-            self.go(session);
+            self.play(session);
         }
     }
 
-    /// Time goes on to where the step leads.
-    fn go(&mut self, session: &mut Session) {
+    /// Plays to the end of the step.
+    fn play(&mut self, session: &mut Session) {
         let Some(until) = self.now().until else { return };
         let stage = session.stage_mut();
-        let Some((records, about)) = until.of(&stage.log) else { return };
+        let Some((records, subject)) = until.of(&stage.log) else { return };
         let end = records.checked_sub(1).map_or(Time::ZERO, |last| stage.log.records()[last].at);
         let now = stage.lasted();
         if end > now {
@@ -173,7 +173,7 @@ impl LessonProgress {
             stage.show_after(records);
         }
         if self.now().machine.is_none() {
-            self.points = Some(about.filter(|about| matches!(about, Subject::Node(_))));
+            self.selection = Some(subject.filter(|subject| matches!(subject, Subject::Node(_))));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Lessons: a list to choose from, and the one that is being taken.
+//! Lessons: the list, and the open lesson.
 
 mod course;
 mod panel;
@@ -10,43 +10,43 @@ use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, Wi
 
 use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
-use crate::gui::panels::save_bar::resolve;
 use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session};
 use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, path_field};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, word};
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
 use crate::view::Subject;
 use course::LessonProgress;
 
-/// The page of lessons, and the lesson that is being taken.
+/// The list of lessons and the open lesson.
 #[derive(Default)]
 pub struct Learn {
     open: bool,
-    /// The lessons that come with the program, once the list was opened.
+    /// The built-in lessons; empty until the list is opened.
     lessons: Vec<Arc<Lesson>>,
     path: String,
     trouble: Option<String>,
     preparing: Option<PreparingLesson>,
-    course: Option<LessonProgress>,
-    /// The recorded run that was on the stage before the lesson, if it was one.
+    progress: Option<LessonProgress>,
+    /// The recorded run that was on the stage before the lesson, if there was one.
     before: Option<Recorded>,
 }
 
 impl Learn {
-    /// Opens the list, or closes it.
+    /// Opens or closes the list.
     pub fn toggle(&mut self) {
         (self.open, self.trouble) = (!self.open, None);
         if self.lessons.is_empty() {
-            // Built-in lessons can be read, which a test holds.
+            // A test ensures that all built-in lessons can be read.
             self.lessons =
                 BUILT_IN.iter().filter_map(|(name, text)| Lesson::parse(name, text).ok().map(Arc::new)).collect();
         }
     }
 
-    /// Takes a lesson that was opened, as soon as it is prepared.
+    /// Opens a lesson: shows the list until the lesson is prepared.
     pub fn open(&mut self, lesson: Arc<Lesson>, session: &mut Session) {
         if !self.open {
             self.toggle();
@@ -54,7 +54,7 @@ impl Learn {
         self.prepare(lesson, session);
     }
 
-    /// Whether the list is to be shown.
+    /// Whether the list is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
@@ -64,34 +64,34 @@ impl Learn {
         self.open = false;
     }
 
-    /// Whether a lesson is being taken.
+    /// Whether a lesson is open.
     pub fn is_on(&self) -> bool {
-        self.course.is_some()
+        self.progress.is_some()
     }
 
-    /// How high the step of the lesson is in this width, if one is being taken.
+    /// Returns the height of the lesson's panel at this width, if a lesson is open.
     pub fn height(&self, ui: &Ui, width: f32, language: Language) -> Option<f32> {
-        self.course.as_ref().map(|course| panel::height(ui, width, course, language))
+        self.progress.as_ref().map(|progress| panel::height(ui, width, progress, language))
     }
 
-    /// Whether the step of the lesson wants the timeline.
+    /// Whether the step of the open lesson shows the timeline.
     pub fn wants_timeline(&self) -> Option<bool> {
-        self.course.as_ref().map(LessonProgress::wants_timeline)
+        self.progress.as_ref().map(LessonProgress::wants_timeline)
     }
 
-    /// The lesson's name and the step's number, for tests.
+    /// Returns the name of the open lesson and the index of its step, for tests.
     pub fn step(&self) -> Option<(&str, usize)> {
-        self.course.as_ref().map(|course| (course.name(), course.step()))
+        self.progress.as_ref().map(|progress| (progress.name(), progress.step()))
     }
 
-    /// Leaves the lesson, if one is being taken: what was on the stage before begins again.
+    /// Leaves the lesson, if one is open; the run before it starts again.
     pub fn leave(&mut self, session: &mut Session) {
-        if let Some(course) = self.course.take() {
-            session.end_lesson(course.taught(), self.before.take());
+        if let Some(progress) = self.progress.take() {
+            session.end_lesson(progress.lesson(), self.before.take());
         }
     }
 
-    /// Reads a lesson's file and prepares it.
+    /// Reads the file of a lesson and prepares it.
     fn start(&mut self, argument: &str, session: &mut Session) {
         match Lesson::open(argument) {
             Ok(lesson) => self.prepare(Arc::new(lesson), session),
@@ -99,7 +99,7 @@ impl Learn {
         }
     }
 
-    /// Takes in what was chosen in the system's dialog.
+    /// Takes the result of the file dialog.
     pub fn take_chosen(&mut self, chosen: Option<PathBuf>, session: &mut Session) {
         let language = session.language();
         match chosen {
@@ -107,16 +107,7 @@ impl Learn {
                 self.path = path.display().to_string();
                 self.start(&path.to_string_lossy(), session);
             }
-            None => {
-                self.trouble = Some(
-                    word!(
-                        language,
-                        "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
-                        "Nenhum diálogo do sistema respondeu, ou nada foi escolhido nele: o caminho pode ser digitado"
-                    )
-                    .into(),
-                )
-            }
+            None => self.trouble = Some(no_file_chosen(language).into()),
         }
     }
 
@@ -124,30 +115,30 @@ impl Learn {
         (self.preparing, self.trouble) = (Some(session.prepare_lesson(lesson)), None);
     }
 
-    /// Takes in a lesson that was prepared.
-    pub fn take(&mut self, job: u64, taught: Result<PreparedLesson, String>, session: &mut Session) {
+    /// Takes a prepared lesson and begins it.
+    pub fn take(&mut self, job: u64, prepared: Result<PreparedLesson, String>, session: &mut Session) {
         if self.preparing.as_ref().is_none_or(|preparing| preparing.job != job) {
             return;
         }
         self.preparing = None;
-        match taught {
-            Ok(taught) => {
-                if self.course.is_none() {
+        match prepared {
+            Ok(lesson) => {
+                if self.progress.is_none() {
                     self.before = session.recorded();
                 }
-                self.course = Some(LessonProgress::begin(taught, session));
+                self.progress = Some(LessonProgress::begin(lesson, session));
                 self.open = false;
             }
             Err(why) => (self.open, self.trouble) = (true, Some(why)),
         }
     }
 
-    /// Lets the lesson's time go on; returns what stands out from now on, if that is something else.
+    /// Advances the lesson. Returns the new selection, if it changes.
     pub fn tick(&mut self, session: &mut Session) -> Option<Option<Subject>> {
-        self.course.as_mut()?.tick(session)
+        self.progress.as_mut()?.tick(session)
     }
 
-    /// Does what a key asks for, if it is meant for the lesson.
+    /// Executes a command for the list or the lesson. Returns whether the command is one of these.
     pub fn handle_command(&mut self, command: UserCommand, session: &mut Session) -> bool {
         let language = session.language();
         if self.open {
@@ -157,42 +148,42 @@ impl Learn {
             }
             return true;
         }
-        let Some(course) = &mut self.course else { return false };
+        let Some(progress) = &mut self.progress else { return false };
         match command {
-            UserCommand::Dolly(true) => course.back(session),
-            UserCommand::Dolly(false) if course.is_over() => self.other_lessons(session),
-            UserCommand::Select(number) if course.waits() => course.answer(number.into(), session),
-            // One is asked before one sees.
-            UserCommand::Dolly(false) | UserCommand::Pause | UserCommand::Live | UserCommand::StepUnit(_, true)
-                if course.waits() =>
+            UserCommand::Dolly(true) => progress.back(session),
+            UserCommand::Dolly(false) if progress.is_over() => self.other_lessons(session),
+            UserCommand::Select(number) if progress.waits() => progress.answer(number.into(), session),
+            // What happens next stays hidden until the question is answered.
+            UserCommand::Dolly(false) | UserCommand::Pause | UserCommand::Live | UserCommand::Step(_, true)
+                if progress.waits() =>
             {
                 session.note(word!(
                     language,
-                    "First answer the question: press the number of an answer, or click it",
-                    "Responder antes à pergunta: pressionar o número de uma resposta, ou clicar nela"
+                    "First answer the question: press the number of an answer or click it",
+                    "Primeiro responda à pergunta: pressione o número de uma resposta ou clique nela"
                 ));
             }
-            UserCommand::Dolly(false) => course.next(session),
+            UserCommand::Dolly(false) => progress.next(session),
             _ => return false,
         }
         true
     }
 
-    /// The lesson is over: the list, and one's own run.
+    /// Leaves the lesson and opens the list.
     fn other_lessons(&mut self, session: &mut Session) {
         self.leave(session);
         self.open = true;
     }
 
-    /// Shows the step of the lesson that is being taken.
+    /// Shows the panel of the open lesson.
     pub fn show_step(&mut self, ui: &mut Ui, session: &mut Session) {
         let language = session.language();
-        let Some(course) = &mut self.course else { return };
-        match panel::show(ui, course, language) {
-            Some(panel::LessonAction::Back) => course.back(session),
-            Some(panel::LessonAction::Next) if course.is_over() => self.other_lessons(session),
-            Some(panel::LessonAction::Next) => course.next(session),
-            Some(panel::LessonAction::Answer(place)) => course.answer(place, session),
+        let Some(progress) = &mut self.progress else { return };
+        match panel::show(ui, progress, language) {
+            Some(panel::LessonAction::Back) => progress.back(session),
+            Some(panel::LessonAction::Next) if progress.is_over() => self.other_lessons(session),
+            Some(panel::LessonAction::Next) => progress.next(session),
+            Some(panel::LessonAction::Answer(index)) => progress.answer(index, session),
             Some(panel::LessonAction::Leave) => self.leave(session),
             None => {}
         }
@@ -214,48 +205,51 @@ impl Learn {
                 if let Some(preparing) = &self.preparing {
                     let bar = ProgressBar::new(preparing.share()).desired_width(20.0 * GRID);
                     let bar = ui.add(bar.desired_height(0.75 * GRID).fill(look.accent));
-                    let words =
-                        word!(language, "The lesson's pictures are traced", "As imagens da lição são calculadas");
-                    bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, words));
+                    let name = word!(language, "Tracing the pictures of the lesson", "Calculando as imagens da lição");
+                    bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
                     ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
                 }
             });
         });
         ui.add_space(GRID);
         ScrollArea::vertical().id_salt("lessons").auto_shrink(false).show(ui, |ui| {
-            let article = self.lessons.iter().position(|lesson| adapts(lesson)).unwrap_or(self.lessons.len());
-            let (first, second) = self.lessons.split_at(article);
-            let rivals = word!(language, "The article's ring, and its rivals", "O anel do artigo, e seus rivais");
+            let split = self.lessons.iter().position(|lesson| is_adaptive(lesson)).unwrap_or(self.lessons.len());
+            let (first, second) = self.lessons.split_at(split);
+            let article = word!(language, "The article's ring and its rivals", "O anel do artigo e seus rivais");
             let adaptive = word!(language, "The adaptive ring", "O anel adaptativo");
             let chosen = if ui.available_width() < 120.0 * GRID {
-                let chosen = part(ui, rivals, (1, first), look, language);
-                chosen.or(part(ui, adaptive, (1 + article, second), look, language))
+                let chosen = group(ui, article, (1, first), look, language);
+                chosen.or(group(ui, adaptive, (1 + split, second), look, language))
             } else {
                 ui.columns_const(|[left, right]| {
-                    let chosen = part(left, rivals, (1, first), look, language);
-                    chosen.or(part(right, adaptive, (1 + article, second), look, language))
+                    let chosen = group(left, article, (1, first), look, language);
+                    chosen.or(group(right, adaptive, (1 + split, second), look, language))
                 })
             };
             if let Some(lesson) = chosen {
                 self.prepare(lesson, session);
             }
             ui.add_space(2.0 * GRID);
-            self.other(ui, session, look);
+            self.own_lesson(ui, session, look);
         });
     }
 
-    /// A lesson of one's own.
-    fn other(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
+    /// Shows the path field for the user's own lessons.
+    fn own_lesson(&mut self, ui: &mut Ui, session: &mut Session, look: Look) {
         let language = session.language();
-        let about = word!(language, "A lesson of your own, a text file:", "Uma lição sua, um arquivo de texto:");
+        let about = word!(language, "Your own lesson (a text file):", "Sua própria lição (um arquivo de texto):");
         ui.label(RichText::new(about).font(theme::regular(theme::BODY)).color(look.quiet));
         ui.horizontal(|ui| {
-            let hint = word!(language, "a lesson's file, such as mine.ron", "o arquivo de uma lição, como minha.ron");
+            let hint = word!(
+                language,
+                "path of a lesson, for example mine.ron",
+                "caminho de uma lição, por exemplo minha.ron"
+            );
             let name = word!(language, "Path of a lesson", "Caminho de uma lição");
-            let typed = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
+            let field = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
             let opens =
                 button(ui, None, word!(language, "Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
-            if (typed.entered || opens) && !self.path.trim().is_empty() {
+            if (field.entered || opens) && !self.path.trim().is_empty() {
                 match resolve(&self.path, std::env::home_dir(), language) {
                     Ok(path) => self.start(&path.to_string_lossy(), session),
                     Err(why) => self.trouble = Some(why),
@@ -263,7 +257,7 @@ impl Learn {
             }
             if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let directory = std::env::current_dir().unwrap_or_default();
-                session.jobs().choose(Purpose::Learn, directory.join("lesson"), language);
+                session.jobs().choose_file(Purpose::Learn, directory.join("lesson"), language);
             }
         });
         if let Some(why) = &self.trouble {
@@ -272,13 +266,13 @@ impl Learn {
     }
 }
 
-/// Whether a lesson is about the ring that adapts.
-fn adapts(lesson: &Lesson) -> bool {
+/// Whether a run of the lesson uses the adaptive ring.
+fn is_adaptive(lesson: &Lesson) -> bool {
     lesson.runs.values().any(|plan| plan.strategy == Strategy::Adaptive)
 }
 
-/// Some of the lessons, of which the first has this number; returns which was chosen.
-fn part(
+/// Shows a group of lessons, numbered from `number`. Returns the chosen one.
+fn group(
     ui: &mut Ui,
     heading: &str,
     (number, lessons): (usize, &[Arc<Lesson>]),
@@ -287,19 +281,19 @@ fn part(
 ) -> Option<Arc<Lesson>> {
     ui.add_space(GRID);
     ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.quiet));
-    // All of them are in sight in a window of 1280 × 800.
+    // With this distance all lessons are visible in a window of 1280 × 800.
     ui.spacing_mut().item_spacing.y = 2.0;
     let mut chosen = None;
     for (number, lesson) in (number..).zip(lessons) {
-        if line(ui, number, lesson, look, language) {
+        if entry(ui, number, lesson, look, language) {
             chosen = Some(Arc::clone(lesson));
         }
     }
     chosen
 }
 
-/// A lesson of the list; returns whether it was chosen.
-fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Language) -> bool {
+/// Shows a lesson of the list. Returns whether it is chosen.
+fn entry(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Language) -> bool {
     let wide = ui.available_width() - GRID;
     let indent = 6.0 * GRID;
     let about = lesson.about.in_language(language).to_owned();
@@ -319,9 +313,9 @@ fn line(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Langu
     response.clicked()
 }
 
-/// So long a way through a run is shown in about so many seconds.
-fn rate_for(way: Time) -> usize {
-    const SECONDS: f64 = 7.0;
+/// Returns the index of the playback rate that shows this span of a run in about seven seconds.
+fn rate_for(span: Time) -> usize {
+    const WALL_TIME_S: f64 = 7.0;
     let rates = crate::view::RATES;
-    rates.iter().position(|&rate| rate * SECONDS >= way.secs()).unwrap_or(rates.len() - 2).min(rates.len() - 2)
+    rates.iter().position(|&rate| rate * WALL_TIME_S >= span.secs()).unwrap_or(rates.len() - 2).min(rates.len() - 2)
 }

@@ -1,4 +1,4 @@
-//! A row a node: its number and colour, its speed to drag or to type, what it has done and has left, and what it does.
+//! The table of machines: number, speed, progress, atoms, idle time and activity of each machine.
 
 mod row_layout;
 
@@ -17,17 +17,17 @@ use crate::palette::text_on;
 use crate::view::{
     Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows, rate_number,
 };
-use row_layout::{HEAD, RowGrid, RowLayout};
+use row_layout::{HEAD_HEIGHT_PT, RowGrid, RowLayout};
 
-/// How high the panel of so many nodes is to be: beyond a third of the window the rows scroll.
+/// Returns the height of the panel for this number of machines: at most about a third of the window; then it scrolls.
 pub fn height(ui: &Ui, nodes: usize) -> f32 {
     let grid = RowGrid::new(nodes, ui.available_width() - 4.0 * GRID);
-    let most = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
-    grid.height().min(most.max(HEAD + grid.row))
+    let max = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
+    grid.height().min(max.max(HEAD_HEIGHT_PT + grid.row))
 }
 
-/// Shows all rows, in as many columns as there is room for. A click on a row selects its node.
-pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Highlight) {
+/// Shows all rows, in as many columns as fit. A click on a row selects its machine.
+pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highlight: &Highlight) {
     let language = session.language();
     let look = Look::of(ui.ctx());
     let rows = node_rows(session.stage().state(), session.now());
@@ -38,157 +38,162 @@ pub fn show(ui: &mut Ui, session: &mut Session, focus: &mut Selection, lit: &Hig
             let corner = area.min + vec2(grid.left(column), 0.0);
             head(
                 ui,
-                &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD)), grid.is_dense()),
+                &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD_HEIGHT_PT)), grid.is_dense()),
                 look,
                 language,
             );
         }
         for (i, row) in rows.iter().enumerate() {
-            let corner = area.min + vec2(grid.left(i / grid.lines), HEAD + (i % grid.lines) as f32 * grid.row);
-            let places = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
-            let is_lit = lit.nodes.contains(&row.node);
-            let response = background(ui, &places, row, (focus.node() == Some(row.node), is_lit), look, language);
+            let corner =
+                area.min + vec2(grid.left(i / grid.lines), HEAD_HEIGHT_PT + (i % grid.lines) as f32 * grid.row);
+            let layout = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
+            let is_highlighted = highlight.nodes.contains(&row.node);
+            let is_selected = selection.node() == Some(row.node);
+            let response = background(ui, &layout, row, (is_selected, is_highlighted), look, language);
             if response.hovered() {
-                focus.hover(Subject::Node(row.node));
+                selection.hover(Subject::Node(row.node));
             }
             if response.clicked() {
-                focus.toggle(Subject::Node(row.node));
+                selection.toggle(Subject::Node(row.node));
             }
-            facts(ui, &places, row, session, look);
-            controls(ui, &places, row.node, session, look);
+            figures(ui, &layout, row, session, look);
+            controls(ui, &layout, row.node, session, look);
             machine_menu::on(&response, session, row.node, look);
-            machine_menu::on_state(ui, (places.activity, places.row), session, row, look);
+            machine_menu::on_activity(ui, (layout.activity, layout.row), session, row, look);
         }
     });
 }
 
-fn head(ui: &Ui, places: &RowLayout, look: Look, language: Language) {
-    let y = places.row.center().y;
-    let words = |x: f32, anchor, text: &str| {
+/// Paints the captions of the columns.
+fn head(ui: &Ui, layout: &RowLayout, look: Look, language: Language) {
+    let y = layout.row.center().y;
+    let caption = |x: f32, anchor, text: &str| {
         ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
     };
-    words(places.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
-    if let Some(bar) = places.bar {
-        words(bar.left(), Align2::LEFT_CENTER, word!(language, "progress", "progresso"));
+    caption(layout.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
+    if let Some(bar) = layout.bar {
+        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "progress", "progresso"));
     }
-    let is_tight = places.rate.is_some_and(|rate| rate - places.left < 7.0 * GRID);
+    let is_tight = layout.rate.is_some_and(|rate| rate - layout.left < 7.0 * GRID);
     let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { word!(language, "atoms/s", "átomos/s") };
     for (x, text) in [
-        (places.done, word!(language, "done", "feitos")),
-        (Some(places.left), word!(language, "left", "restam")),
-        (places.rate, rate),
-        (places.idle, word!(language, "idle", "ociosa")),
+        (layout.done, word!(language, "done", "feitos")),
+        (Some(layout.left), word!(language, "left", "restam")),
+        (layout.rate, rate),
+        (layout.idle, word!(language, "idle", "ociosa")),
     ] {
         if let Some(x) = x {
-            words(x, Align2::RIGHT_CENTER, text);
+            caption(x, Align2::RIGHT_CENTER, text);
         }
     }
-    words(places.activity, Align2::LEFT_CENTER, word!(language, "now", "agora"));
+    caption(layout.activity, Align2::LEFT_CENTER, word!(language, "now", "agora"));
 }
 
-/// What lies under a row: its name for those who cannot see it, and what tells that it is selected or stands out.
+/// Paints the background of a row, which shows selection and highlight, and names the row for screen readers.
 fn background(
     ui: &Ui,
-    places: &RowLayout,
+    layout: &RowLayout,
     row: &NodeRow,
-    (selected, is_lit): (bool, bool),
+    (is_selected, is_highlighted): (bool, bool),
     look: Look,
     language: Language,
 ) -> Response {
     let name = node_name(row.node);
-    let response = ui.interact(places.row, ui.scope_id().with(("row", row.node)), Sense::click());
-    widgets::describe(&response, &say!(language, "Node {name}", "Máquina {name}"), || {
-        let selected = if selected { word!(language, ", selected", ", selecionada") } else { "" };
-        let (done, left, does) = (row.done, row.left, activity_word(row.activity, language));
+    let response = ui.interact(layout.row, ui.scope_id().with(("row", row.node)), Sense::click());
+    widgets::describe(&response, &say!(language, "Machine {name}", "Máquina {name}"), || {
+        let selected = if is_selected { word!(language, ", selected", ", selecionada") } else { "" };
+        let (done, left, activity) = (row.done, row.left, activity_word(row.activity, language));
         say!(
             language,
-            "{done} atoms done, {left} left, {does}{selected}",
-            "átomos feitos: {done}, restantes: {left}, {does}{selected}"
+            "{done} atoms done, {left} left, {activity}{selected}",
+            "átomos feitos: {done}, restantes: {left}, {activity}{selected}"
         )
     });
-    if selected || is_lit {
-        let place = places.row.expand2(vec2(0.5 * GRID, -0.5));
-        ui.painter().rect_filled(place, 6.0, look.raised.gamma_multiply(0.5));
-        if selected {
-            ui.painter().rect_stroke(place, 6.0, Stroke::new(1.5, look.text), StrokeKind::Inside);
+    if is_selected || is_highlighted {
+        let rect = layout.row.expand2(vec2(0.5 * GRID, -0.5));
+        ui.painter().rect_filled(rect, 6.0, look.raised.gamma_multiply(0.5));
+        if is_selected {
+            ui.painter().rect_stroke(rect, 6.0, Stroke::new(1.5, look.text), StrokeKind::Inside);
         }
     }
     response
 }
 
-fn facts(ui: &Ui, places: &RowLayout, row: &NodeRow, session: &Session, look: Look) {
+/// Paints number, figures, activity and progress of a machine.
+fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: Look) {
     let language = session.language();
     let own = session.stage().colours[usize::from(row.node)];
-    let (y, colour) = (places.row.center().y, theme::colour(own));
+    let (y, colour) = (layout.row.center().y, theme::colour(own));
     let painter = ui.painter();
-    let chip = Rect::from_center_size(pos2(places.row.left() + 1.5 * GRID, y), Vec2::splat(places.side()));
+    let chip = Rect::from_center_size(pos2(layout.row.left() + 1.5 * GRID, y), Vec2::splat(layout.side()));
     painter.rect_filled(chip, 6.0, colour);
-    let ink = theme::colour(text_on(own));
+    let on_chip = theme::colour(text_on(own));
     let name = node_name(row.node).to_string();
-    let size = if places.is_dense { theme::SMALL } else { theme::BODY };
-    painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(size), ink);
+    let size = if layout.is_dense { theme::SMALL } else { theme::BODY };
+    painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(size), on_chip);
     let number = |x: Option<f32>, text: String, colour: Color32| {
         if let Some(x) = x {
             painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, theme::regular(size), colour);
         }
     };
-    let some = |is: bool| if is { look.text } else { look.quiet };
-    number(places.done, count(row.done), look.text);
-    number(Some(places.left), count(row.left), some(row.left > 0));
-    number(places.rate, rate_number(row.rate, language), some(row.rate > 0.0));
-    number(places.idle, fraction(row.idle), look.text);
-    let calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
-    let now = pos2(places.activity, y);
-    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), some(!calm));
-    if let Some(bar) = places.bar {
+    let ink = |stands_out: bool| if stands_out { look.text } else { look.quiet };
+    number(layout.done, count(row.done), look.text);
+    number(Some(layout.left), count(row.left), ink(row.left > 0));
+    number(layout.rate, rate_number(row.rate, language), ink(row.rate > 0.0));
+    number(layout.idle, fraction(row.idle), look.text);
+    let is_calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
+    let now = pos2(layout.activity, y);
+    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), ink(!is_calm));
+    if let Some(bar) = layout.bar {
         let upto = |share: f32| bar.with_max_x(bar.left() + bar.width() * share);
         painter.rect_filled(upto(row.left_bar), 4.0, colour.gamma_multiply(0.28));
         painter.rect_filled(upto(row.done_bar), 4.0, colour);
     }
 }
 
-fn controls(ui: &mut Ui, places: &RowLayout, node: NodeId, session: &mut Session, look: Look) {
+/// Shows slider, number field and pause button of a machine's speed.
+fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, session: &mut Session, look: Look) {
     let language = session.language();
     let name = node_name(node);
     let enabled = !session.is_recorded();
-    let goes_on = enabled && session.stage().phase == Phase::Running;
-    let at = |place: Rect, salt: &str| UiBuilder::new().max_rect(place).id_salt((salt, node));
-    ui.scope_builder(at(places.slider, "slider"), |ui| speed_slider(ui, node, places.slider.width(), session));
+    let can_pause = enabled && session.stage().phase == Phase::Running;
+    let at = |rect: Rect, salt: &str| UiBuilder::new().max_rect(rect).id_salt((salt, node));
+    ui.scope_builder(at(layout.slider, "slider"), |ui| speed_slider(ui, node, layout.slider.width(), session));
     let before = (session.speed(node) * 100.0).round();
     let mut percent = before;
-    ui.scope_builder(at(places.speed, "value"), |ui| {
+    ui.scope_builder(at(layout.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
-            let name = say!(language, "Exact speed of node {name}", "Velocidade exata da máquina {name}");
-            widgets::number(ui, &mut percent, 0.0..=100.0, " %", places.speed.width(), &name);
+            let name = say!(language, "Exact speed of machine {name}", "Velocidade exata da máquina {name}");
+            widgets::number_field(ui, &mut percent, 0.0..=100.0, " %", layout.speed.width(), &name);
         });
     });
     if percent != before {
         session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
     let paused = session.is_node_paused(node);
-    let response = ui.interact(places.pause, ui.scope_id().with(("pause", node)), Sense::click());
+    let response = ui.interact(layout.pause, ui.scope_id().with(("pause", node)), Sense::click());
     response.widget_info(|| {
-        let name = say!(language, "Pause node {name}", "Pausar a máquina {name}");
-        egui::WidgetInfo::selected(egui::Role::Button, goes_on, paused, name)
+        let name = say!(language, "Pause machine {name}", "Pausar a máquina {name}");
+        egui::WidgetInfo::selected(egui::Role::Button, can_pause, paused, name)
     });
     let (icon, ink) = match (paused, response.hovered() || response.has_focus()) {
-        _ if !goes_on => (Icon::Pause, look.hairline),
+        _ if !can_pause => (Icon::Pause, look.hairline),
         (true, _) => (Icon::Play, look.accent),
         (false, true) => (Icon::Pause, look.text),
         (false, false) => (Icon::Pause, look.quiet),
     };
-    icons::paint(ui.painter(), icon, Rect::from_center_size(places.pause.center(), Vec2::splat(1.75 * GRID)), ink);
+    icons::paint(ui.painter(), icon, Rect::from_center_size(layout.pause.center(), Vec2::splat(1.75 * GRID)), ink);
     let hint = if paused {
-        word!(language, "Let it go on", "Retomar esta máquina")
+        word!(language, "Resume this machine", "Retomar esta máquina")
     } else {
-        word!(language, "Let this machine stand still", "Parar esta máquina")
+        word!(language, "Pause this machine", "Pausar esta máquina")
     };
-    if response.on_hover_text(hint).clicked() && goes_on {
+    if response.on_hover_text(hint).clicked() && can_pause {
         session.toggle_node_pause(node);
     }
 }
 
-/// The slider of a machine's speed.
+/// Shows the slider of a machine's speed.
 pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session) {
     let language = session.language();
     let colour = theme::colour(session.stage().colours[usize::from(node)]);
@@ -196,7 +201,7 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
     let mut percent = before;
     ui.add_enabled_ui(!session.is_recorded(), |ui| {
         let name = node_name(node);
-        let name = say!(language, "Speed of node {name}", "Velocidade da máquina {name}");
+        let name = say!(language, "Speed of machine {name}", "Velocidade da máquina {name}");
         widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
     });
     if percent != before {

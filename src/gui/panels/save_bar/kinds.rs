@@ -1,29 +1,29 @@
-//! What can be saved: its names, and the name of its file.
+//! Kinds of files that the save bar writes, with their texts and file names.
 
 use crate::language::{Language, word};
 use crate::output::as_file_name;
 use crate::picture::Size;
 use crate::runlog::Header;
 
-/// What is saved.
+/// Kind of a saved file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SaveKind {
     /// The picture as the tracer made it.
     #[default]
     Render,
-    /// The picture in the colours of who traced it.
+    /// The picture in the colours of the machines that traced it.
     Owners,
-    /// The picture in the colours of what its atoms cost.
+    /// The picture in the colours of the atoms' costs.
     Costs,
-    /// The picture in the colours of when its atoms came.
+    /// The picture in the colours of the atoms' arrival times.
     Arrival,
-    /// As it is shown, between the render and a layer.
+    /// The picture as it is shown, blended with a layer.
     Blend,
-    /// The picture at another size, traced anew.
+    /// The picture at another size, traced again.
     Large,
     /// The ring as it is shown.
     Ring,
-    /// The timeline of all of the run.
+    /// The timeline of the whole run.
     Timeline,
     /// The run as an animation.
     Film,
@@ -33,14 +33,14 @@ pub enum SaveKind {
     Table,
     /// The run's records for Perfetto.
     Chrome,
-    /// Where the time of the compared runs went.
+    /// The time budgets of the compared runs as bars.
     Bars,
     /// The compared runs as a table.
     Rows,
 }
 
 impl SaveKind {
-    /// Those of a run: pictures, then drawings, then records.
+    /// Kinds for a run: pictures, then drawings, then records.
     pub const OF_RUN: [Self; 12] = [
         Self::Render,
         Self::Owners,
@@ -56,10 +56,10 @@ impl SaveKind {
         Self::Chrome,
     ];
 
-    /// Those of runs that are compared, and the run that is their subject.
+    /// Kinds for compared runs, and for the run that is their subject.
     pub const OF_COMPARISON: [Self; 3] = [Self::Bars, Self::Rows, Self::Run];
 
-    /// What it is called.
+    /// Returns the text of its button.
     pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::Render => word!(language, "render", "imagem"),
@@ -78,40 +78,56 @@ impl SaveKind {
         }
     }
 
-    /// What it is, in a sentence.
+    /// Returns its description.
     pub fn hint(self, language: Language) -> &'static str {
         match self {
-            Self::Render => word!(language, "The picture as it was traced", "A imagem como foi traçada"),
+            Self::Render => word!(language, "The picture as it was traced", "A imagem como foi calculada"),
             Self::Owners => {
-                word!(language, "The picture in the colours of who traced it", "A imagem nas cores de quem a traçou")
+                word!(
+                    language,
+                    "The picture in the colours of the machines that traced it",
+                    "A imagem nas cores das máquinas que a calcularam"
+                )
             }
             Self::Costs => {
-                word!(language, "The picture in the colours of what it cost", "A imagem nas cores do que custou")
+                word!(
+                    language,
+                    "The picture in the colours of the atoms' costs",
+                    "A imagem nas cores dos custos dos átomos"
+                )
             }
             Self::Arrival => {
-                word!(language, "The picture in the colours of when it came", "A imagem nas cores de quando chegou")
+                word!(
+                    language,
+                    "The picture in the colours of the atoms' arrival",
+                    "A imagem nas cores da chegada dos átomos"
+                )
             }
-            Self::Blend => word!(language, "The picture as it is blended now", "A imagem misturada como está agora"),
+            Self::Blend => word!(
+                language,
+                "The picture as it is shown now, with its layer",
+                "A imagem como aparece agora, com sua camada"
+            ),
             Self::Large => {
                 word!(
                     language,
-                    "The picture at any size and quality, traced anew",
-                    "A imagem em qualquer tamanho e qualidade, traçada de novo"
+                    "The picture at any size and quality, traced again",
+                    "A imagem em qualquer tamanho e qualidade, calculada de novo"
                 )
             }
-            Self::Ring => word!(language, "The ring as it is shown: SVG, or PNG", "O anel como está: SVG, ou PNG"),
+            Self::Ring => word!(language, "The ring as it is shown: SVG or PNG", "O anel como aparece: SVG ou PNG"),
             Self::Timeline => {
                 word!(
                     language,
-                    "The timeline of all of the run: SVG, or PNG",
-                    "A linha do tempo de toda a execução: SVG, ou PNG"
+                    "The timeline of the whole run: SVG or PNG",
+                    "A linha do tempo de toda a execução: SVG ou PNG"
                 )
             }
             Self::Film => word!(language, "The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
             Self::Run => word!(
                 language,
-                "All records of the run, to be played again",
-                "Todos os registros da execução, para vê-la de novo"
+                "All records of the run, to play it again",
+                "Todos os registros da execução, para repeti-la"
             ),
             Self::Table => word!(language, "All records of the run: CSV", "Todos os registros da execução: CSV"),
             Self::Chrome => {
@@ -123,14 +139,14 @@ impl SaveKind {
             }
             Self::Bars => word!(
                 language,
-                "Where the time of the compared runs went: SVG, or PNG",
-                "Para onde foi o tempo das execuções comparadas: SVG, ou PNG"
+                "Where the time of the compared runs went: SVG or PNG",
+                "Para onde foi o tempo das execuções comparadas: SVG ou PNG"
             ),
             Self::Rows => word!(language, "A row for each compared run: CSV", "Uma linha por execução comparada: CSV"),
         }
     }
 
-    /// What its file is, in capitals.
+    /// Returns the name of its format.
     pub fn format(self) -> &'static str {
         match self.ending() {
             "png" => "PNG",
@@ -142,7 +158,7 @@ impl SaveKind {
         }
     }
 
-    /// How the name of its file ends.
+    /// Returns the extension of its file.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Render | Self::Owners | Self::Costs | Self::Arrival | Self::Blend | Self::Large => "png",
@@ -154,11 +170,11 @@ impl SaveKind {
         }
     }
 
-    /// A name for its file, which says what is saved; a picture that is traced anew is so `large`.
+    /// Returns a file name that says what is saved. `large` is the size of a picture that is traced again, as text.
     pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
         let scene = as_file_name(&header.scene);
         let of_run = format!("-{}-{}", header.strategy_name(), header.speeds.len());
-        let what = match self {
+        let content = match self {
             Self::Render | Self::Large => String::new(),
             Self::Owners => "-owners".into(),
             Self::Costs => "-costs".into(),
@@ -174,32 +190,32 @@ impl SaveKind {
         let size = if self == Self::Large { large } else { &size };
         let is_whole = done || matches!(self, Self::Large | Self::Bars | Self::Rows);
         let unfinished = if is_whole { "" } else { "-unfinished" };
-        format!("{scene}-{size}{what}{unfinished}.{}", self.ending())
+        format!("{scene}-{size}{content}{unfinished}.{}", self.ending())
     }
 }
 
-/// The largest size of this shape that a 4K screen holds.
+/// Returns the largest size of this shape within 3840 × 2160 pixels.
 pub fn four_k([width, height]: [u32; 2]) -> [u32; 2] {
     let scale = (3840.0 / f64::from(width)).min(2160.0 / f64::from(height));
     [width, height].map(|side| (f64::from(side) * scale).round() as u32)
 }
 
-/// Whether two sizes have one shape, but for a pixel.
-pub fn is_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
+/// Whether two sizes have the same shape, up to one pixel.
+pub fn has_same_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
     let (width, height) = (f64::from(width), f64::from(height));
     (width * f64::from(h) / f64::from(w) - height).abs() <= 1.0
         || (height * f64::from(w) / f64::from(h) - width).abs() <= 1.0
 }
 
-/// A side of a picture that is traced anew is at most so long.
-pub const LONGEST_SIDE: u32 = 16_384;
+/// Longest side of a picture that is traced again, in pixels.
+pub const MAX_SIDE_PX: u32 = 16_384;
 
-/// The size of a picture that is traced anew.
+/// Returns the size of a picture that is traced again.
 ///
 /// # Errors
-/// A sentence, if there can be none.
+/// A sentence, if a side is 0 or there are too many pixels.
 pub fn large([width, height]: [u32; 2]) -> Result<Size, String> {
-    Ok(Size::new(width.min(LONGEST_SIDE), height.min(LONGEST_SIDE))?)
+    Ok(Size::new(width.min(MAX_SIDE_PX), height.min(MAX_SIDE_PX))?)
 }
 
 #[cfg(test)]
@@ -208,16 +224,16 @@ mod tests {
     use crate::gui::settings::Settings;
 
     #[test]
-    fn a_larger_picture_keeps_its_shape() {
+    fn four_k_size_keeps_the_shape() {
         assert_eq!(four_k([640, 480]), [2880, 2160]);
         assert_eq!(four_k([1600, 900]), [3840, 2160]);
         assert_eq!(four_k([2000, 100]), [3840, 192]);
-        assert!(is_shape([641, 480], [2885, 2160]) && is_shape([640, 480], [333, 250]));
-        assert!(!is_shape([640, 480], [3840, 2160]) && !is_shape([640, 480], [480, 640]));
+        assert!(has_same_shape([641, 480], [2885, 2160]) && has_same_shape([640, 480], [333, 250]));
+        assert!(!has_same_shape([640, 480], [3840, 2160]) && !has_same_shape([640, 480], [480, 640]));
     }
 
     #[test]
-    fn a_name_says_what_is_saved() {
+    fn file_names_are_distinct_and_say_what_is_saved() {
         let header = Settings::default().header("my scene", "", Default::default(), 2);
         let named = |kind: SaveKind, done| kind.file_name(&header, done, "3840x2160");
         assert_eq!(named(SaveKind::Render, true), "my-scene-640x480.png");
@@ -228,7 +244,7 @@ mod tests {
         assert_eq!(named(SaveKind::Bars, false), "my-scene-640x480-comparison.svg");
         for kinds in [&SaveKind::OF_RUN[..], &SaveKind::OF_COMPARISON] {
             let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
-            assert_eq!(names.len(), kinds.len(), "no two are the same");
+            assert_eq!(names.len(), kinds.len(), "file names differ");
         }
     }
 }

@@ -1,5 +1,4 @@
-//! What to save, and where: the kinds, a path to type, the system's own dialog beside it, and a sentence on what is in the
-//! way.
+//! The save bar: the kind of file, its path, and the error if it cannot be saved.
 
 mod kinds;
 
@@ -11,41 +10,44 @@ use crate::export::{Comparison, Drawing, Film};
 use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{Export, Phase, Purpose, Session};
 use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, number, path_field};
+use crate::gui::widgets::{Emphasis, button, number_field};
 use crate::language::{Language, say, word};
 use crate::output::{check_writable, is_same_file};
 use crate::picture::{Quality, Size};
 use crate::view::Layer;
-use kinds::{LONGEST_SIDE, SaveKind, four_k, is_shape, large};
+use kinds::{MAX_SIDE_PX, SaveKind, four_k, has_same_shape, large};
 
-/// What the bar saves.
+/// Subject of the save bar.
 pub enum SaveSubject {
-    /// The run on the stage; its picture is shown with this much (0 to 1) of a layer.
+    /// The run on the stage, and the shown layer with its share (0 to 1).
     Run((Layer, f32)),
-    /// The compared runs; `None` until one of them is known.
+    /// The compared runs; `None` until the first one is run.
     Comparison(Option<Comparison>),
 }
 
-/// The bar below the top bar, while it is open.
+/// The save bar, below the top bar.
 pub struct SaveBar {
     open: bool,
     wants_focus: bool,
-    /// The path is being typed.
+    /// Whether the path field has the focus.
     focused: bool,
     kind: SaveKind,
     path: String,
-    /// The name that the bar itself has put there last: it is renewed as long as nobody has changed it.
+    /// The path that the bar suggested last. The bar updates the path until the user changes it.
     suggested: String,
-    /// What was asked for when the file was found to exist: asked for once more, it is replaced.
+    /// The existing file that a second press of Save replaces.
     warned: Option<PathBuf>,
-    /// What is in the way.
+    /// The error of the last attempt.
     trouble: Option<String>,
-    /// Of a picture that is traced anew: its sides, once they were chosen, and n × n samples a pixel.
+    /// Size of a picture that is traced again, once the user has chosen one.
     size: Option<[u32; 2]>,
+    /// Its samples, n of n × n a pixel.
     samples: u32,
-    /// What a run is called, and what is to be known of it.
+    /// Title of a saved run.
     title: String,
+    /// Memo of a saved run.
     memo: String,
 }
 
@@ -69,7 +71,7 @@ impl Default for SaveBar {
 }
 
 impl SaveBar {
-    /// Opens the bar, with a name that says what is saved, or closes it.
+    /// Opens or closes the bar.
     pub fn toggle(&mut self, session: &Session) {
         if self.open { self.open = false } else { self.open_for(self.kind, session) }
     }
@@ -87,34 +89,27 @@ impl SaveBar {
         self.suggest(session);
     }
 
-    /// Closes it.
+    /// Closes the bar.
     pub fn close(&mut self) {
         self.open = false;
     }
 
-    /// Whether the bar is to be shown.
+    /// Whether the bar is open.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Takes in what was chosen in the system's dialog.
-    pub fn take_in(&mut self, chosen: Option<PathBuf>, language: Language) {
+    /// Takes the result of the file dialog.
+    pub fn take_chosen(&mut self, chosen: Option<PathBuf>, language: Language) {
         self.wants_focus = true;
         self.trouble = None;
         match chosen {
             Some(path) => self.path = path.display().to_string(),
-            None => {
-                let trouble = word!(
-                    language,
-                    "No dialog of the system answered, or nothing was chosen in it: the path can still be typed",
-                    "Nenhum diálogo do sistema respondeu, ou nada foi escolhido: o caminho ainda pode ser escrito"
-                );
-                self.trouble = Some(trouble.into());
-            }
+            None => self.trouble = Some(no_file_chosen(language).into()),
         }
     }
 
-    /// Shows the bar, and returns what else was asked for.
+    /// Shows the bar. Returns the command of a button that the bar does not handle itself.
     pub fn show(&mut self, ui: &mut Ui, session: &mut Session, subject: &SaveSubject) -> Option<UserCommand> {
         let language = session.language();
         let look = Look::of(ui.ctx());
@@ -127,7 +122,7 @@ impl SaveBar {
         }
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
         let mut copies = false;
-        // In a low window a row more would leave nothing of the picture.
+        // A low window has a list instead of a row of buttons.
         let is_low = ui.ctx().content_rect().height() < 600.0;
         if !is_low {
             self.kinds(ui, kinds, language);
@@ -144,7 +139,7 @@ impl SaveBar {
             }
             ui.label(quiet(word!(language, "as", "como")));
             let width = (ui.available_width() - word!(language, 43.0, 47.5) * GRID).max(20.0 * GRID);
-            let name = word!(language, "Where to save", "Onde salvar");
+            let name = word!(language, "Path of the file", "Caminho do arquivo");
             let field = path_field(ui, (&mut self.path, ""), width, name, &mut self.wants_focus);
             self.focused = field.focused;
             if field.changed {
@@ -155,18 +150,15 @@ impl SaveBar {
             }
             if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
                 let typed = resolve(&self.path, std::env::home_dir(), language);
-                session.jobs().choose(
+                session.jobs().choose_file(
                     Purpose::Save,
                     typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)),
                     language,
                 );
             }
             let copy = button(ui, None, word!(language, "Copy picture", "Copiar imagem"), true, Emphasis::Quiet);
-            let hint = word!(
-                language,
-                "The picture as it is shown into the clipboard (Ctrl C)",
-                "A imagem como está para a área de transferência (Ctrl C)"
-            );
+            let hint =
+                word!(language, "Copy the picture as it is shown (Ctrl C)", "Copiar a imagem como aparece (Ctrl C)");
             copies = copy.on_hover_text(hint).clicked();
             if button(ui, Some(Icon::Close), word!(language, "Close save", "Fechar salvar"), false, Emphasis::Quiet)
                 .clicked()
@@ -181,31 +173,31 @@ impl SaveBar {
         copies.then_some(UserCommand::Copy)
     }
 
-    /// All kinds, to be pressed at once.
+    /// Shows a button for each kind.
     fn kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind], language: Language) {
         let quiet = Look::of(ui.ctx()).quiet;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
             let mut format = "";
             for &kind in kinds {
-                // Said once of those that follow each other.
+                // The format stands once before consecutive kinds of that format.
                 if std::mem::replace(&mut format, kind.format()) != kind.format() {
-                    // It stands beside the first of them.
+                    // It must not be separated from the first of them.
                     if ui.available_size_before_wrap().x < 16.0 * GRID {
                         ui.end_row();
                     }
                     ui.add_space(GRID / 2.0);
                     ui.label(RichText::new(kind.format()).font(theme::regular(theme::SMALL)).color(quiet));
                 }
-                let weight = if kind == self.kind { Emphasis::On } else { Emphasis::Quiet };
-                if button(ui, None, kind.name(language), true, weight).on_hover_text(kind.hint(language)).clicked() {
+                let emphasis = if kind == self.kind { Emphasis::On } else { Emphasis::Quiet };
+                if button(ui, None, kind.name(language), true, emphasis).on_hover_text(kind.hint(language)).clicked() {
                     self.choose(kind);
                 }
             }
         });
     }
 
-    /// The same where there is no room for them.
+    /// Shows the kinds as a list.
     fn list_of_kinds(&mut self, ui: &mut Ui, kinds: &[SaveKind], language: Language) {
         let mut chosen = self.kind;
         let combo = ComboBox::from_id_salt("kind").selected_text(chosen.name(language)).width(13.0 * GRID);
@@ -221,7 +213,7 @@ impl SaveBar {
         }
     }
 
-    /// Another kind: a name that was typed keeps all but its ending.
+    /// Chooses a kind; a typed path gets its extension.
     fn choose(&mut self, kind: SaveKind) {
         (self.warned, self.trouble, self.wants_focus) = (None, None, true);
         if self.path != self.suggested && !self.path.trim().is_empty() {
@@ -230,7 +222,7 @@ impl SaveBar {
         self.kind = kind;
     }
 
-    /// Size and quality of a picture that is traced anew.
+    /// Shows the fields for the size and the samples of a picture that is traced again.
     fn choose_size(&mut self, ui: &mut Ui, session: &Session, look: Look) {
         let language = session.language();
         let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
@@ -239,28 +231,35 @@ impl SaveBar {
         let twice = own.map(|side| 2 * side);
         ui.horizontal(|ui| {
             for (name, other) in
-                [(word!(language, "Its own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
+                [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
             {
-                let weight = if size == other { Emphasis::On } else { Emphasis::Quiet };
+                let emphasis = if size == other { Emphasis::On } else { Emphasis::Quiet };
                 let [width, height] = other;
                 let hint = format!("{width} × {height}");
-                if button(ui, None, name, true, weight).on_hover_text(hint).clicked() {
+                if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
                     size = other;
                 }
             }
             let [width, height] = &mut size;
-            number(
+            number_field(
                 ui,
                 width,
-                1..=LONGEST_SIDE,
+                1..=MAX_SIDE_PX,
                 "",
                 9.0 * GRID,
                 word!(language, "Pixels across", "Pixels na horizontal"),
             );
             ui.label(quiet("×"));
-            number(ui, height, 1..=LONGEST_SIDE, "", 9.0 * GRID, word!(language, "Pixels down", "Pixels na vertical"));
+            number_field(
+                ui,
+                height,
+                1..=MAX_SIDE_PX,
+                "",
+                9.0 * GRID,
+                word!(language, "Pixels down", "Pixels na vertical"),
+            );
             ui.label(quiet(word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
-            number(
+            number_field(
                 ui,
                 &mut self.samples,
                 1..=16,
@@ -272,28 +271,28 @@ impl SaveBar {
         if size != self.large_size(session) {
             self.size = Some(size);
         }
-        if !is_shape(own, size) {
+        if !has_same_shape(own, size) {
             let words = word!(
                 language,
-                "Another shape than the picture's: at the sides more is seen, or less",
-                "Outro formato que o da imagem: dos lados se vê mais, ou menos"
+                "The shape differs from the picture's: the sides show more or less",
+                "O formato difere do da imagem: os lados mostram mais ou menos"
             );
             ui.label(quiet(words));
         }
     }
 
-    /// Title and memo of a run.
+    /// Shows the fields for title and memo of a run.
     fn describe(&mut self, ui: &mut Ui, language: Language) {
         let half = (ui.available_width() - 5.0 * GRID) / 2.0;
         ui.horizontal(|ui| {
             let name = word!(language, "Title of the run", "Título da execução");
             path_field(ui, (&mut self.title, name), 0.7 * half, name, &mut false);
-            let name = word!(language, "What is to be known of it", "O que se deve saber dela");
+            let name = word!(language, "Memo", "Anotação");
             path_field(ui, (&mut self.memo, name), 1.3 * half, name, &mut false);
         });
     }
 
-    /// Saves, unless that would replace a file and has been asked for only once.
+    /// Saves the file. An existing file is replaced only at the second press.
     fn save(&mut self, session: &mut Session, subject: &SaveSubject) {
         let language = session.language();
         let path = match resolve(&self.path, std::env::home_dir(), language) {
@@ -308,8 +307,8 @@ impl SaveBar {
         if opened.is_some_and(|opened| is_same_file(opened, &path)) {
             return self.trouble = Some(say!(
                 language,
-                "{name} is the scene that is open; choose another name",
-                "{name} é a cena que está aberta; escolha outro nome"
+                "{name} is the open scene. Choose another name",
+                "{name} é a cena aberta. Escolha outro nome"
             ));
         }
         let size = match large(self.large_size(session)) {
@@ -320,20 +319,24 @@ impl SaveBar {
         if path.is_file() && warned.as_ref() != Some(&path) {
             self.trouble = Some(say!(
                 language,
-                "{name} exists; press Save again to replace it",
-                "{name} já existe; pressione Salvar outra vez para substituí-lo"
+                "{name} exists. Press Save again to replace it",
+                "{name} já existe. Pressione Salvar outra vez para substituí-lo"
             ));
             self.warned = Some(path);
             return;
         }
-        // Open for the next one: a notice says what becomes of this one.
+        // The bar stays open for the next file; a notice reports on this one.
         match (self.kind, subject) {
             (SaveKind::Bars | SaveKind::Rows, SaveSubject::Comparison(Some(runs))) => {
                 let export = if self.kind == SaveKind::Bars { Export::Bars } else { Export::Rows };
                 session.export(path, export(runs.clone()));
             }
             (_, SaveSubject::Comparison(_)) => {
-                session.trouble(word!(language, "No run is known yet", "Nenhuma execução é conhecida ainda"));
+                session.trouble(word!(
+                    language,
+                    "No compared run is ready. Wait a moment",
+                    "Nenhuma execução comparada está pronta. Espere um momento"
+                ));
             }
             (kind, &SaveSubject::Run(shown)) => self.save_run_as(kind, session, path, shown, size),
         }
@@ -360,12 +363,12 @@ impl SaveBar {
         }
     }
 
-    /// The size of a picture that is traced anew: of the picture's shape, unless another one was chosen.
+    /// Returns the size of a picture that is traced again: the chosen one, else 4K in the picture's shape.
     fn large_size(&self, session: &Session) -> [u32; 2] {
         self.size.unwrap_or_else(|| four_k(own_size(session)))
     }
 
-    /// Puts a name there that says what is saved, unless the user has put something else there.
+    /// Updates the suggested path, unless the user has changed it.
     fn suggest(&mut self, session: &Session) {
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
@@ -374,7 +377,7 @@ impl SaveBar {
         let name = self.kind.file_name(session.header(), done, &size);
         let suggested = directory.join(name).display().to_string();
         if self.path == self.suggested && self.path != suggested {
-            // The name is selected anew.
+            // Selects the new name.
             self.wants_focus |= self.focused;
             self.path.clone_from(&suggested);
         }
@@ -382,64 +385,8 @@ impl SaveBar {
     }
 }
 
-/// Of the picture that is shown.
+/// Returns the size of the shown picture.
 fn own_size(session: &Session) -> [u32; 2] {
     let size = session.header().size;
     [size.width(), size.height()]
-}
-
-/// The path that was typed, `~` being the home directory.
-pub fn resolve(typed: &str, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
-    let typed = typed.trim();
-    if typed.is_empty() {
-        return Err(word!(
-            language,
-            "There is no path: type one, for instance ~/picture.png",
-            "Falta o caminho: escreva um, por exemplo ~/imagem.png"
-        )
-        .into());
-    }
-    let path = match Path::new(typed).strip_prefix("~") {
-        Ok(rest) => {
-            let unknown = word!(
-                language,
-                "The home directory is not known: type it instead of ~",
-                "O diretório pessoal não é conhecido: escreva-o em vez de ~"
-            );
-            home.ok_or(unknown)?.join(rest)
-        }
-        Err(_) => PathBuf::from(typed),
-    };
-    if path.is_dir() || typed.ends_with(std::path::is_separator) {
-        let path = path.display();
-        return Err(say!(
-            language,
-            "{path} is a directory: add the name of a file in it",
-            "{path} é um diretório: acrescente o nome de um arquivo"
-        ));
-    }
-    Ok(path)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tilde_is_the_home_directory() {
-        let language = Language::English;
-        let home = || Some(PathBuf::from("/home/somebody"));
-        assert_eq!(resolve(" ~/x.png ", home(), language), Ok(PathBuf::from("/home/somebody/x.png")));
-        assert_eq!(resolve("~x.png", home(), language), Ok(PathBuf::from("~x.png")));
-        assert_eq!(resolve("a b/x.png", None, language), Ok(PathBuf::from("a b/x.png")));
-        assert!(resolve("~/x.png", None, language).is_err_and(|why| why.contains("home directory")));
-    }
-
-    #[test]
-    fn what_is_no_file_is_refused_in_words() {
-        let language = Language::English;
-        assert!(resolve("  ", None, language).is_err_and(|why| why.contains("no path")));
-        assert!(resolve(".", None, language).is_err_and(|why| why.contains("is a directory")));
-        assert!(resolve("pictures/", None, language).is_err_and(|why| why.contains("is a directory")));
-    }
 }

@@ -1,4 +1,4 @@
-//! What can be set, at the left: what acts at once, and what starts the run anew.
+//! The settings at the left: those that take effect at once, and those that restart the run.
 
 mod sharing;
 
@@ -10,33 +10,33 @@ use crate::gui::settings::pace::Pace;
 use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, choice, number, popup_frame, slider};
+use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame, slider};
 use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
 use crate::view::{count, two_digits};
 
-/// How wide the panel is, in points.
-pub const WIDTH: f32 = 36.0 * GRID;
+/// Width of the panel, in points.
+pub const WIDTH_PT: f32 = 36.0 * GRID;
 
-/// The sizes that are offered; any other can be typed.
+/// Usual sizes of the picture; others can be typed.
 const SIZES: [(u32, u32); 6] = [(320, 240), (640, 480), (800, 600), (1280, 960), (1280, 720), (1920, 1080)];
 
-/// When a pixel has enough samples: the errors that are offered; 0 is never.
+/// Thresholds of the list: a pixel gets no more samples when its estimated error is at most this; with 0 it gets all.
 const THRESHOLDS: [f64; 6] = [0.0, 0.05, 0.02, 0.01, 0.005, 0.002];
 
-/// What weak rays may count together: the parts that are offered.
+/// Cutoffs of the list: greatest sum of the weights of the rays that are left out of a sample.
 const CUTOFFS: [f64; 6] = [0.0, 1e-4, 1e-3, 1.0 / 255.0, 0.02, 0.1];
 
-/// The panel.
+/// The settings panel.
 pub struct SetupPanel {
-    /// Whether it is shown.
+    /// Whether it is open.
     pub open: bool,
-    /// What is set, with what the hand has changed and not let go of yet.
+    /// The settings with a change whose gesture has not ended.
     draft: Option<Settings>,
 }
 
 impl SetupPanel {
-    /// The panel, shown or not.
+    /// Creates the panel, open or closed.
     pub fn new(open: bool) -> Self {
         Self { open, draft: None }
     }
@@ -51,14 +51,14 @@ impl SetupPanel {
         let mut draft = self.draft.take().unwrap_or_else(|| session.settings().clone());
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
-            // Everything is in sight in a window of 1280 × 800.
+            // With these distances everything is visible in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 3.5 * GRID;
             heading(ui, word!(language, "Takes effect at once", "Vale de imediato"), look);
-            at_once(ui, &mut draft, look, language);
+            immediate_settings(ui, &mut draft, look, language);
             ui.add_space(GRID);
-            heading(ui, word!(language, "Starts the run anew", "Reinicia a execução"), look);
-            anew(ui, &mut draft, look, language);
+            heading(ui, word!(language, "Restarts the run", "Reinicia a execução"), look);
+            restarting_settings(ui, &mut draft, look, language);
             ui.add_space(GRID);
             if button(
                 ui,
@@ -67,15 +67,15 @@ impl SetupPanel {
                 true,
                 Emphasis::Quiet,
             )
-            .on_hover_text(word!(language, "Everything here as it was at first", "Tudo aqui como era no começo"))
+            .on_hover_text(word!(language, "Restore the first settings", "Restaurar os primeiros ajustes"))
             .clicked()
             {
                 draft = Settings::default();
             }
         });
-        // What needs a restart waits until the hand lets go of it.
-        let busy = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
-        if busy && draft.needs_restart(session.settings()) {
+        // A change that needs a restart waits for the end of its gesture.
+        let is_busy = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
+        if is_busy && draft.needs_restart(session.settings()) {
             self.draft = Some(draft);
         } else if draft != *session.settings() {
             let gesture = if draft.latency == session.settings().latency { Gesture::Once } else { Gesture::Latency };
@@ -84,16 +84,16 @@ impl SetupPanel {
     }
 }
 
-/// Of a recorded run nothing can be changed.
+/// Shows the panel for a recorded run, whose settings are fixed.
 fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
     let language = session.language();
     heading(ui, word!(language, "A recorded run", "Uma execução gravada"), look);
     let text = word!(
         language,
-        "It is played as it was recorded. Made live, its scene is traced anew with what was set then, and everything \
-         can be changed.",
-        "Ela se repete como foi gravada. Ao vivo, sua cena é calculada de novo com os ajustes de então, e tudo pode \
-         ser mudado."
+        "A recorded run cannot be changed. Make it live: then its scene is traced again with the same settings, and \
+        you can change all of them.",
+        "Uma execução gravada não pode ser mudada. Execute-a ao vivo: sua cena é calculada de novo com os mesmos \
+        ajustes, e todos podem ser mudados."
     );
     ui.add(Label::new(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet)).wrap());
     if button(ui, None, word!(language, "Make it live", "Executar ao vivo"), true, Emphasis::Primary).clicked() {
@@ -101,16 +101,17 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
     }
 }
 
-/// The width of an exact value.
-const VALUE: f32 = 12.0 * GRID;
+/// Width of a number field, in points.
+const VALUE_WIDTH_PT: f32 = 12.0 * GRID;
 
-fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+/// Shows the settings that take effect at once: speeds and latency.
+fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     let width = ui.available_width();
     let on = SpeedPreset::ALL.into_iter().find(|preset| draft.has_preset(*preset));
     egui::Grid::new("presets").spacing([GRID / 2.0, GRID / 2.0]).show(ui, |ui| {
         for (i, preset) in SpeedPreset::ALL.into_iter().enumerate() {
-            let weight = if on == Some(preset) { Emphasis::On } else { Emphasis::Quiet };
-            if button(ui, None, preset.name(language), true, weight).on_hover_text(preset.hint(language)).clicked() {
+            let emphasis = if on == Some(preset) { Emphasis::On } else { Emphasis::Quiet };
+            if button(ui, None, preset.name(language), true, emphasis).on_hover_text(preset.hint(language)).clicked() {
                 draft.set_preset(preset);
             }
             if i % 2 == 1 {
@@ -118,36 +119,37 @@ fn at_once(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
             }
         }
     });
-    line(ui, word!(language, "Random seed", "Semente do acaso"), look, |ui| {
+    labelled_row(ui, word!(language, "Random seed", "Semente aleatória"), look, |ui| {
         let before = draft.seed;
-        number(ui, &mut draft.seed, 0..=999_999, "", VALUE, word!(language, "Seed", "Semente"));
+        number_field(ui, &mut draft.seed, 0..=999_999, "", VALUE_WIDTH_PT, word!(language, "Seed", "Semente"));
         if draft.seed != before {
             draft.set_preset(SpeedPreset::Random);
         }
     });
-    line(ui, word!(language, "Latency of a hop", "Latência de um salto"), look, |ui| {
+    labelled_row(ui, word!(language, "Latency of a hop", "Latência de um salto"), look, |ui| {
         let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
-        number(ui, &mut draft.latency, 0..=Settings::MOST_LATENCY, " ms", VALUE, name);
+        number_field(ui, &mut draft.latency, 0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, name);
     });
-    // Most of what is of interest lies below half a second.
+    // A square root, because latencies below half a second matter most.
     let mut root = f64::from(draft.latency).sqrt();
-    let most = f64::from(Settings::MOST_LATENCY).sqrt();
+    let max = f64::from(Settings::MAX_LATENCY_MS).sqrt();
     let name = word!(language, "Latency slider", "Controle da latência");
-    if slider(ui, &mut root, (0.0..=most, false), width - GRID, look.accent, name).changed() {
+    if slider(ui, &mut root, (0.0..=max, false), width - GRID, look.accent, name).changed() {
         draft.latency = (root * root).round() as u32;
     }
 }
 
-fn anew(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+/// Shows the settings that restart the run.
+fn restarting_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     let width = ui.available_width();
     let mut nodes = draft.speeds.len() as u32;
-    line(ui, word!(language, "Machines", "Máquinas"), look, |ui| {
+    labelled_row(ui, word!(language, "Machines", "Máquinas"), look, |ui| {
         let name = word!(language, "Number of machines", "Número de máquinas");
-        number(ui, &mut nodes, 1..=Settings::MOST_NODES as u32, "", VALUE, name);
+        number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, name);
     });
     let mut dragged = f64::from(nodes);
     let name = word!(language, "Machines slider", "Controle das máquinas");
-    slider(ui, &mut dragged, (1.0..=Settings::MOST_NODES as f64, true), width - GRID, look.accent, name);
+    slider(ui, &mut dragged, (1.0..=Settings::MAX_NODES as f64, true), width - GRID, look.accent, name);
     nodes = dragged as u32;
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
@@ -159,9 +161,10 @@ fn anew(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     pace(ui, draft, look, language);
 }
 
+/// Shows the settings of the picture.
 fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    high_line(ui, word!(language, "Size", "Tamanho"), look, |ui| {
-        // From right to left.
+    high_row(ui, word!(language, "Size", "Tamanho"), look, |ui| {
+        // The layout runs from right to left.
         let combo = ComboBox::from_id_salt("size").selected_text(word!(language, "usual", "…")).width(0.0);
         let combo = combo.show_ui(ui, |ui| {
             for (width, height) in SIZES {
@@ -174,20 +177,19 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
         let (mut width, mut height) = (draft.size.width(), draft.size.height());
         let [wide, high] =
             word!(language, ["Width in pixels", "Height in pixels"], ["Largura em pixels", "Altura em pixels"]);
-        number(ui, &mut height, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, high);
+        number_field(ui, &mut height, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, high);
         ui.label(RichText::new("×").font(theme::regular(theme::BODY)).color(look.quiet));
-        number(ui, &mut width, 16..=Settings::LONGEST_SIDE, "", 5.5 * GRID, wide);
+        number_field(ui, &mut width, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, wide);
         if let Ok(size) = Size::new(width, height) {
             draft.size = size;
         }
     });
     let name = word!(language, "Samples", "Amostras");
-    line(ui, name, look, |ui| {
+    labelled_row(ui, name, look, |ui| {
         let samples = &mut draft.quality.samples;
         let suffix = format!(" × {samples}");
-        number(ui, samples, 1..=Settings::MOST_SAMPLES, &suffix, 9.0 * GRID, name);
-        let hint =
-            word!(language, "What else makes a picture good or fast", "O que mais torna uma imagem boa ou rápida");
+        number_field(ui, samples, 1..=Settings::MAX_SAMPLES, &suffix, 9.0 * GRID, name);
+        let hint = word!(language, "More settings of quality and speed", "Mais ajustes de qualidade e velocidade");
         let more = button(ui, None, word!(language, "Quality…", "Mais…"), true, Emphasis::Quiet).on_hover_text(hint);
         let popup = Popup::from_toggle_button_response(&more).frame(popup_frame(ui.ctx()).inner_margin(1.5 * GRID));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
@@ -195,49 +197,49 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
             quality(ui, &mut draft.quality, look, language);
         });
     });
-    line(ui, word!(language, "An atom is", "Um átomo tem"), look, |ui| {
+    labelled_row(ui, word!(language, "An atom has", "Um átomo tem"), look, |ui| {
         let name = word!(language, "Pixels in an atom", "Pixels num átomo");
-        number(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE, name);
+        number_field(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE_WIDTH_PT, name);
     });
     let atoms = count(draft.division().atoms());
-    small(ui, &say!(language, "That makes {atoms} atoms", "Isso dá {atoms} átomos"), look);
+    explanation(ui, &say!(language, "The picture has {atoms} atoms", "A imagem tem {atoms} átomos"), look);
 }
 
-/// What is seldom changed.
+/// Shows the settings of quality that are seldom changed.
 fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
     if quality.samples > 1 {
-        let until = |error: f64| {
+        let threshold_text = |error: f64| {
             let least = comma(language, error.to_string());
             if error > 0.0 {
-                say!(language, "until the error is {least}", "até o erro ser {least}")
+                say!(language, "until the estimated error is {least}", "até o erro estimado ser {least}")
             } else {
-                word!(language, "for every pixel", "em todo pixel").into()
+                word!(language, "in every pixel", "em cada pixel").into()
             }
         };
-        let name = word!(language, "When a pixel has enough samples", "Quando um pixel tem amostras bastantes");
-        line(ui, word!(language, "All samples", "Todas as amostras"), look, |ui| {
-            one_of(ui, &mut quality.threshold, &THRESHOLDS, name, until)
+        let name = word!(language, "When a pixel has enough samples", "Quando um pixel tem amostras suficientes");
+        labelled_row(ui, word!(language, "All samples", "Todas as amostras"), look, |ui| {
+            value_list(ui, &mut quality.threshold, &THRESHOLDS, name, threshold_text)
         });
     }
-    line(ui, word!(language, "Tree of rays", "Árvore de raios"), look, |ui| {
+    labelled_row(ui, word!(language, "Tree of rays", "Árvore de raios"), look, |ui| {
         let (suffix, name) =
             word!(language, (" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
-        number(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE, name);
+        number_field(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE_WIDTH_PT, name);
     });
-    let part = |part: f64| {
-        let most = two_digits(100.0 * part, language);
-        if part > 0.0 {
-            say!(language, "up to {most} % of a pixel", "até {most} % de um pixel")
+    let cutoff_text = |cutoff: f64| {
+        let max = two_digits(100.0 * cutoff, language);
+        if cutoff > 0.0 {
+            say!(language, "up to {max} % of a pixel", "até {max} % de um pixel")
         } else {
             word!(language, "none", "nenhum").into()
         }
     };
     let name = word!(language, "Weak rays left out", "Raios fracos omitidos");
-    line(ui, name, look, |ui| one_of(ui, &mut quality.cutoff, &CUTOFFS, name, part));
+    labelled_row(ui, name, look, |ui| value_list(ui, &mut quality.cutoff, &CUTOFFS, name, cutoff_text));
 }
 
-/// One value of a list, or what it is if it is not in the list.
-fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f64) -> String) {
+/// Shows a list of values; the present value may be another one.
+fn value_list(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f64) -> String) {
     let combo = ComboBox::from_id_salt(name).selected_text(text(*value)).width(26.0 * GRID);
     let combo = combo.show_ui(ui, |ui| {
         for &one in all {
@@ -247,55 +249,57 @@ fn one_of(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl Fn(f
     combo.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, name));
 }
 
+/// Shows the settings of the pace.
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    high_line(ui, word!(language, "Pace", "Andamento"), look, |ui| {
-        let seconds = if let Pace::Lasts(seconds) = draft.tempo { seconds } else { 20 };
+    high_row(ui, word!(language, "Pace", "Ritmo"), look, |ui| {
+        let seconds = if let Pace::Lasts(seconds) = draft.pace { seconds } else { 20 };
         let full = word!(
             language,
-            "As fast as this computer can: a machine at 100 % never waits",
-            "O mais rápido que este computador pode: uma máquina a 100 % nunca espera"
+            "As fast as this computer: a machine at 100 % never waits",
+            "Tão rápido quanto este computador: uma máquina a 100 % nunca espera"
         );
-        let slowly = word!(language, "So that everybody can follow", "Para que todos possam acompanhar");
+        let slowly = word!(language, "Slow enough to follow the run", "Devagar o bastante para acompanhar a execução");
         let all = [
             (Pace::Full, word!(language, "Full speed", "Total"), full),
             (Pace::Lasts(seconds), word!(language, "Slowly", "Devagar"), slowly),
         ];
-        if let Some(tempo) = choice(ui, draft.tempo, &all) {
-            draft.tempo = tempo;
+        if let Some(pace) = choice_buttons(ui, draft.pace, &all) {
+            draft.pace = pace;
         }
     });
-    if let Pace::Lasts(seconds) = &mut draft.tempo {
-        line(ui, word!(language, "Shared well, about", "Bem dividida, uns"), look, |ui| {
+    if let Pace::Lasts(seconds) = &mut draft.pace {
+        labelled_row(ui, word!(language, "If shared well, about", "Bem dividida, cerca de"), look, |ui| {
             let name = word!(language, "Seconds of the run", "Segundos da execução");
-            number(ui, seconds, 1..=Settings::LONGEST_RUN, " s", VALUE, name).on_hover_text(word!(language, 
-                "So long the run takes if nearly all machines work until the end, as in a ring. Bands take longer beside a \
-                 slow machine, and so does this computer in real time while it has other things to do",
-                "Tanto leva a execução se quase todas as máquinas trabalham até o fim, como num anel. Faixas levam mais ao \
-                 lado de uma máquina lenta, e também este computador em tempo real, quando tem outras coisas a fazer"
+            number_field(ui, seconds, 1..=Settings::MAX_RUN_S, " s", VALUE_WIDTH_PT, name).on_hover_text(word!(language, 
+                "The run takes this time if nearly all machines work until the end, as in a ring. Bands take longer with a \
+                 slow machine. In real time, other programs on this computer also make the run longer",
+                "A execução leva esse tempo se quase todas as máquinas trabalham até o fim, como num anel. Faixas levam mais \
+                 com uma máquina lenta. Em tempo real, outros programas neste computador também alongam a execução"
             ));
         });
     }
 }
 
+/// Shows the heading of a group.
 fn heading(ui: &mut Ui, text: &str, look: Look) {
     ui.label(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text));
 }
 
-/// What explains the line above.
-fn small(ui: &mut Ui, text: &str, look: Look) {
+/// Shows an explanation of the row above.
+fn explanation(ui: &mut Ui, text: &str, look: Look) {
     ui.add(Label::new(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap());
 }
 
-/// A line of what is to be pressed.
-fn high_line(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
+/// Shows a row that is high enough for buttons.
+fn high_row(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 4.0 * GRID;
-        line(ui, name, look, content);
+        labelled_row(ui, name, look, content);
     });
 }
 
-/// A line of a name and, at its right end, what is called so.
-fn line(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
+/// Shows a row with a label and, at its right end, the widgets of the setting.
+fn labelled_row(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
         ui.label(RichText::new(name).font(theme::regular(theme::BODY)).color(look.quiet));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), content);

@@ -1,29 +1,29 @@
-//! Who shares the atoms, by which rules, and over what network.
+//! Settings of strategy, driver, network, spare machines and remedies.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Button, ComboBox, Popup, PopupCloseBehavior, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
 
-use super::{VALUE, high_line, line, small};
+use super::{VALUE_WIDTH_PT, explanation, high_row, labelled_row};
 use crate::balance::{Remedy, Strategy};
 use crate::gui::settings::Settings;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, choice, named_button, number, popup_frame};
+use crate::gui::widgets::{Emphasis, choice_buttons, named_button, number_field, popup_frame};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::view::{Sharing, remedies_words, remedy_hint, remedy_name};
 
-/// Who shares the atoms, and how.
+/// Shows the settings of strategy and driver.
 pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     let on = draft.sharing();
     let name = word!(language, "Strategy", "Estratégia");
-    high_line(ui, name, look, |ui| {
-        // Who rayon is, the list tells.
+    high_row(ui, name, look, |ui| {
+        // The short name: the list has the full one.
         let combo = ComboBox::from_id_salt("strategy")
             .selected_text(on.short_name(language))
             .width(20.0 * GRID)
             .height(60.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
-            // All of them are in sight in a window of 1280 × 800.
+            // With these distances the whole list is visible in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.spacing_mut().button_padding.y = 3.0;
             ui.visuals_mut().selection.bg_fill = look.hairline;
@@ -39,81 +39,81 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             info
         });
     });
-    // What it does, its remedies say.
-    let adapts = on == Sharing::By(Strategy::Adaptive);
-    if adapts {
+    // The remedies explain what the adaptive ring does.
+    let is_adaptive = on == Sharing::By(Strategy::Adaptive);
+    if is_adaptive {
         remedies(ui, draft, look, language);
     } else {
-        small(ui, on.hint(language), look);
+        explanation(ui, on.hint(language), look);
     }
     let stealing = on == Sharing::Stealing;
-    high_line(ui, word!(language, "Time", "Tempo"), look, |ui| {
+    high_row(ui, word!(language, "Time", "Tempo"), look, |ui| {
         ui.add_enabled_ui(!stealing, |ui| {
             let virtual_hint = word!(
                 language,
-                "The same rules in simulated time; a changed speed acts in virtual time",
-                "As mesmas regras em tempo simulado; uma nova velocidade vale em tempo virtual"
+                "The same strategy in simulated time, independent of this computer's speed",
+                "A mesma estratégia em tempo simulado, sem depender da velocidade deste computador"
             );
             let real_hint = word!(
                 language,
-                "Threads of this computer trace, as fast as their machines",
-                "Threads deste computador calculam, tão rápido quanto suas máquinas"
+                "Threads of this computer trace at the speeds of the machines",
+                "Threads deste computador calculam nas velocidades das máquinas"
             );
-            // From right to left.
+            // The layout runs from right to left.
             let all = [(true, "Virtual", virtual_hint), (false, "Real", real_hint)];
-            if let Some(is_virtual) = choice(ui, draft.driver == Driver::Sim, &all) {
+            if let Some(is_virtual) = choice_buttons(ui, draft.driver == Driver::Sim, &all) {
                 draft.driver = if is_virtual { Driver::Sim } else { Driver::Threads };
             }
         });
     });
     let is_farm = !stealing && draft.strategy.is_farm();
     let has_part = is_farm || !stealing && draft.strategy.is_ring();
-    let (what, name) = if is_farm {
-        word!(language, ("A part is", "Atoms in a part"), ("Uma parte tem", "Átomos numa parte"))
+    let (label, name) = if is_farm {
+        word!(language, ("A part has", "Atoms in a part"), ("Uma parte tem", "Átomos numa parte"))
     } else {
         word!(
             language,
-            ("Smallest parcel", "Least atoms worth sending"),
-            ("Menor pacote", "Mínimo de átomos que vale enviar")
+            ("Smallest transfer", "Fewest atoms of a transfer"),
+            ("Menor transferência", "Mínimo de átomos de uma transferência")
         )
     };
     ui.add_enabled_ui(has_part, |ui| {
-        line(ui, what, look, |ui| {
+        labelled_row(ui, label, look, |ui| {
             let suffix = if draft.part == 1 {
                 word!(language, " atom", " átomo")
             } else {
                 word!(language, " atoms", " átomos")
             };
-            number(ui, &mut draft.part, 1..=10_000, suffix, VALUE, name);
+            number_field(ui, &mut draft.part, 1..=10_000, suffix, VALUE_WIDTH_PT, name);
         });
     });
-    if adapts {
+    if is_adaptive {
         spares(ui, draft, look, language);
     }
 }
 
-/// What messages cost; rayon's threads send none.
+/// Shows the settings of the network; rayon's threads send no messages.
 pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     ui.add_enabled_ui(draft.sharing() != Sharing::Stealing, |ui| {
-        line(ui, word!(language, "The parent takes", "O pai leva"), look, |ui| {
-            let (most, suffix) = (Settings::MOST_HANDLING, word!(language, " ms each", " ms cada"));
+        labelled_row(ui, word!(language, "The parent takes", "O pai leva"), look, |ui| {
+            let (max, suffix) = (Settings::MAX_HANDLING_MS, word!(language, " ms each", " ms cada"));
             let name = word!(language, "Parent's milliseconds for a message", "Milissegundos do pai por mensagem");
-            number(ui, &mut draft.handling, 0..=most, suffix, 13.0 * GRID, name).on_hover_text(word!(
+            number_field(ui, &mut draft.handling, 0..=max, suffix, 13.0 * GRID, name).on_hover_text(word!(
                 language,
-                "So long the parent is busy with each message. With many of them it cannot keep up: they wait in line, \
-                 and so does whoever needs an answer",
-                "Tanto o pai se ocupa de cada mensagem. Se são muitas, ele não dá conta: elas esperam na fila, \
-                 e com elas quem precisa de resposta"
+                "Time that the parent needs for each message. If messages come faster, they wait in line, and machines \
+                wait for their answers",
+                "Tempo que o pai precisa para cada mensagem. Se chegam mais depressa, esperam na fila, e as máquinas \
+                esperam suas respostas"
             ));
         });
-        line(ui, word!(language, "A link carries", "Um enlace leva"), look, |ui| {
+        labelled_row(ui, word!(language, "A link carries", "Um enlace leva"), look, |ui| {
             let no_limit = word!(language, ": no limit", ": sem limite");
-            let (most, suffix) = (Settings::MOST_BANDWIDTH, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
+            let (max, suffix) = (Settings::MAX_BANDWIDTH_KB_S, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
             let name = word!(language, "Kilobytes a second", "Quilobytes por segundo");
-            number(ui, &mut draft.bandwidth, 0..=most, suffix, VALUE, name).on_hover_text(word!(
+            number_field(ui, &mut draft.bandwidth, 0..=max, suffix, VALUE_WIDTH_PT, name).on_hover_text(word!(
                 language,
-                "An Ethernet of 1997 carried at most 1250 kB/s; 0 is no limit",
-                "Uma Ethernet de 1997 levava no máximo 1250 kB/s; 0 é sem limite"
+                "An Ethernet of 1997 carried at most 1250 kB/s. 0 means no limit",
+                "Uma Ethernet de 1997 levava no máximo 1250 kB/s. 0 significa sem limite"
             ));
         });
         if draft.bandwidth > 0 {
@@ -121,65 +121,69 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             let text = RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
             ui.checkbox(&mut draft.shared_wire, text).on_hover_text(word!(
                 language,
-                "Only one message at a time is sent, whoever sends it; else each pair has a wire",
-                "Só uma mensagem é enviada por vez, seja de quem for; senão cada par tem um cabo"
+                "Only one message at a time travels. Otherwise each pair of machines has its own wire",
+                "Só uma mensagem viaja por vez. Senão, cada par de máquinas tem seu próprio cabo"
             ));
         }
     });
 }
 
-/// Machines that are off at first, and may join while the run goes on.
+/// Shows the number of spare machines.
 fn spares(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    line(ui, word!(language, "Spare machines", "Máquinas de reserva"), look, |ui| {
+    labelled_row(ui, word!(language, "Spare machines", "Máquinas de reserva"), look, |ui| {
         let mut spares = draft.spares.len() as u32;
         let name = word!(language, "Number of spare machines", "Número de máquinas de reserva");
-        number(ui, &mut spares, 0..=Settings::MOST_SPARES as u32, "", VALUE, name).on_hover_text(word!(
+        number_field(ui, &mut spares, 0..=Settings::MAX_SPARES as u32, "", VALUE_WIDTH_PT, name).on_hover_text(word!(
             language,
-            "They are off at first: an empty seat's menu lets one join",
-            "De início, desligadas: o menu de um lugar vazio deixa uma entrar"
+            "They are off at first. Right-click one in the ring to let it join",
+            "Começam desligadas. Clique em uma no anel com o botão direito para ela entrar"
         ));
         draft.set_spares(spares as usize);
     });
 }
 
-/// What the ring does otherwise than the article's, each to be left out.
+/// Shows the remedies of the adaptive ring, each with a check box.
 fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    line(ui, word!(language, "Remedies", "Remédios"), look, |ui| {
-        let words = remedies_words(draft.remedies, language);
-        let name = say!(language, "Remedies: {words}", "Remédios: {words}");
-        let opener = named_button(ui, None, &name, Some(&words), Emphasis::Quiet);
+    labelled_row(ui, word!(language, "Remedies", "Remédios"), look, |ui| {
+        let text = remedies_words(draft.remedies, language);
+        let name = say!(language, "Remedies: {text}", "Remédios: {text}");
+        let opener = named_button(ui, None, &name, Some(&text), Emphasis::Quiet);
         let popup = Popup::from_toggle_button_response(&opener).frame(popup_frame(ui.ctx()));
         popup.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
             ui.set_width(54.0 * GRID);
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.visuals_mut().widgets.inactive.bg_fill = look.hairline;
             for remedy in Remedy::ALL {
-                let mut has = draft.remedies.has(remedy);
+                let mut is_on = draft.remedies.has(remedy);
                 let name =
                     RichText::new(remedy_name(remedy, language)).font(theme::strong(theme::BODY)).color(look.text);
-                if ui.checkbox(&mut has, name).changed() {
+                if ui.checkbox(&mut is_on, name).changed() {
                     let (with, without) = (draft.remedies.with(remedy), draft.remedies.without(remedy));
-                    draft.remedies = if has { with } else { without };
+                    draft.remedies = if is_on { with } else { without };
                 }
-                small(ui, remedy_hint(remedy, language), look);
+                explanation(ui, remedy_hint(remedy, language), look);
                 ui.add_space(0.75 * GRID);
             }
-            let hint = word!(language, "Without any it is the article's ring", "Sem nenhum, é o anel do artigo");
-            small(ui, hint, look);
+            let hint = word!(
+                language,
+                "Without any remedy it is the article's ring",
+                "Sem nenhum remédio, é o anel do artigo"
+            );
+            explanation(ui, hint, look);
         });
     });
 }
 
-/// A strategy in the list: its name, and below it what happens.
+/// Shows a strategy of the list: its name, and below it its description.
 fn strategy(ui: &mut Ui, sharing: Sharing, on: bool, look: Look, language: Language) -> Response {
-    let mut words = LayoutJob::default();
-    let mut line = |text: &str, size, color| {
-        words.append(text, 0.0, TextFormat { font_id: theme::regular(size), color, ..TextFormat::default() });
+    let mut text = LayoutJob::default();
+    let mut add = |part: &str, size, color| {
+        text.append(part, 0.0, TextFormat { font_id: theme::regular(size), color, ..TextFormat::default() });
     };
-    line(&format!("{}\n", sharing.name(language)), theme::BODY, look.text);
-    line(sharing.hint(language), theme::SMALL, look.quiet);
+    add(&format!("{}\n", sharing.name(language)), theme::BODY, look.text);
+    add(sharing.hint(language), theme::SMALL, look.quiet);
     let response =
-        ui.add(Button::selectable(on, words).wrap_mode(TextWrapMode::Extend).min_size(vec2(36.0 * GRID, 0.0)));
+        ui.add(Button::selectable(on, text).wrap_mode(TextWrapMode::Extend).min_size(vec2(36.0 * GRID, 0.0)));
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, on, sharing.name(language)));
     response
 }

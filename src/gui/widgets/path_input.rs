@@ -1,0 +1,135 @@
+//! Input of a path: the text field, the meaning of what was typed, and the answer of the file dialog.
+
+use std::path::{Path, PathBuf};
+
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Key, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+
+use super::theme::{GRID, Look};
+use crate::language::{Language, say, word};
+
+/// Response of a text field.
+pub struct TextFieldResponse {
+    /// The text changed.
+    pub changed: bool,
+    /// Enter was pressed.
+    pub entered: bool,
+    /// The field has the keyboard focus.
+    pub focused: bool,
+}
+
+/// Shows a text field for a path, with a hint while it is empty. It gets the focus if it `wants_focus`, and keeps it on
+/// Enter, so that the user can correct a mistake. `name` is its accessible name.
+pub fn path_field(
+    ui: &mut Ui,
+    (path, hint): (&mut String, &str),
+    width: f32,
+    name: &str,
+    wants_focus: &mut bool,
+) -> TextFieldResponse {
+    let hint = RichText::new(hint).color(Look::of(ui.ctx()).quiet);
+    let field = TextEdit::singleline(path).desired_width(width).hint_text(hint).margin(vec2(GRID, 0.75 * GRID));
+    let field = ui.add(field);
+    field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let begins = std::mem::take(wants_focus);
+    if begins || entered {
+        field.request_focus();
+    }
+    if begins {
+        // Selects the stem of the file name: users change it more often than the directory or the extension.
+        let mut state = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+        let [from, to] = stem_range(path).map(CCursor::new);
+        state.cursor.set_char_range(Some(CCursorRange::two(from, to)));
+        state.store(ui.ctx(), field.id);
+    }
+    TextFieldResponse { changed: field.changed(), entered, focused: field.has_focus() }
+}
+
+/// Returns begin and end of the file name without its extension, in characters.
+fn stem_range(path: &str) -> [usize; 2] {
+    let name = path.rfind(std::path::is_separator).map_or(0, |separator| separator + 1);
+    let end = path[name..].rfind('.').filter(|&dot| dot > 0).map_or(path.len(), |dot| name + dot);
+    [name, end].map(|index| path[..index].chars().count())
+}
+
+/// Turns typed text into the path of a file; a leading `~` is the home directory.
+///
+/// # Errors
+/// A sentence, if the text is empty, names a directory, or the home directory is unknown.
+pub fn resolve(typed: &str, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
+    let typed = typed.trim();
+    if typed.is_empty() {
+        return Err(word!(
+            language,
+            "There is no path. Type one, for example ~/picture.png",
+            "Falta o caminho. Digite um, por exemplo ~/imagem.png"
+        )
+        .into());
+    }
+    let path = match Path::new(typed).strip_prefix("~") {
+        Ok(rest) => {
+            let unknown = word!(
+                language,
+                "The home directory is unknown. Type its path instead of ~",
+                "O diretório pessoal é desconhecido. Digite seu caminho em vez de ~"
+            );
+            home.ok_or(unknown)?.join(rest)
+        }
+        Err(_) => PathBuf::from(typed),
+    };
+    if path.is_dir() || typed.ends_with(std::path::is_separator) {
+        let path = path.display();
+        return Err(say!(
+            language,
+            "{path} is a directory. Add the name of a file",
+            "{path} é um diretório. Acrescente o nome de um arquivo"
+        ));
+    }
+    Ok(path)
+}
+
+/// Says what to do after the file dialog gave no path.
+pub fn no_file_chosen(language: Language) -> &'static str {
+    word!(
+        language,
+        "The file dialog was cancelled or is not available. You can type a path.",
+        "O diálogo de arquivos foi cancelado ou não está disponível. Você pode digitar um caminho."
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stem_range_selects_name_without_directory_and_extension() {
+        let stem = |path: &str| {
+            let [from, to] = stem_range(path);
+            path.chars().skip(from).take(to - from).collect::<String>()
+        };
+        assert_eq!(stem("/home/é/my.picture.png"), "my.picture");
+        assert_eq!(stem("picture"), "picture");
+        assert_eq!(stem("/tmp/.hidden"), ".hidden");
+        assert_eq!((stem("/tmp/"), stem("")), (String::new(), String::new()));
+    }
+
+    #[test]
+    fn tilde_is_the_home_directory() {
+        let language = Language::English;
+        let home = || Some(PathBuf::from("/home/somebody"));
+        assert_eq!(resolve(" ~/x.png ", home(), language), Ok(PathBuf::from("/home/somebody/x.png")));
+        assert_eq!(resolve("~x.png", home(), language), Ok(PathBuf::from("~x.png")));
+        assert_eq!(resolve("a b/x.png", None, language), Ok(PathBuf::from("a b/x.png")));
+        assert!(resolve("~/x.png", None, language).is_err_and(|why| why.contains("home directory")));
+    }
+
+    #[test]
+    fn empty_text_and_directories_are_refused() {
+        let language = Language::English;
+        assert!(resolve("  ", None, language).is_err_and(|why| why.contains("no path")));
+        assert!(resolve(".", None, language).is_err_and(|why| why.contains("is a directory")));
+        assert!(resolve("pictures/", None, language).is_err_and(|why| why.contains("is a directory")));
+    }
+}
