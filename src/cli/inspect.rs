@@ -39,12 +39,12 @@ fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
         json!({ "formula": term.formula, "meaning": term.meaning, "colour": colour, "part_of_pixel": term.part })
     };
     let terms: Vec<_> = inspected.terms(Language::English).into_iter().map(term).collect();
-    let spans: Vec<_> = inspected.figures.iter().map(|(root, figure)| solid_json(*root, figure, scene)).collect();
+    let spans: Vec<_> = inspected.diagrams.iter().map(|(root, diagram)| solid_json(*root, diagram, scene)).collect();
     json!({
         "width": tracer.size().width(),
         "height": tracer.size().height(),
         "quality": tracer.quality(),
-        "pixel": inspected.place,
+        "pixel": inspected.pixel,
         "colour": colour.to_array(),
         "srgb": srgb8(colour.as_vec3().to_array()),
         "rays": inspected.rays,

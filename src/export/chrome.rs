@@ -17,7 +17,7 @@ use crate::picture::{Atom, atoms_in};
 use crate::record::RecordKind;
 use crate::runlog::RunLog;
 use crate::time::Time;
-use crate::view::{Lanes, Traced, node_name};
+use crate::view::{Lanes, Traced, fraction, node_name};
 
 /// Processes of the trace: the machines, and three kinds of messages.
 const MACHINES: u32 = 1;
@@ -121,7 +121,7 @@ fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result
         events.put(&order)?;
     }
     for (node, speed) in (0..).zip(&log.header.speeds) {
-        let name = format!("machine {} ({:.0} %)", node_name(node), 100.0 * speed);
+        let name = format!("machine {} ({})", node_name(node), fraction(*speed));
         let track = track_of(node);
         let about =
             |what: &str, args: Value| json!({ "ph": "M", "name": what, "pid": MACHINES, "tid": track, "args": args });

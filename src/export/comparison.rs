@@ -102,7 +102,7 @@ impl ComparisonEntry {
             tracing_s: of(|account| account.spent.tracing),
             starting_s: of(|account| account.spent.starting),
             asking_s: of(|account| account.spent.asking),
-            stopped_s: of(|account| account.spent.standing),
+            stopped_s: of(|account| account.spent.stopped),
             waiting_s: of(|account| account.spent.waiting),
             alone_s: of(|account| account.last.alone.as_secs_f64()),
             sharing_messages: counted(|account| account.messages.sharing()),

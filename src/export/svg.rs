@@ -147,7 +147,7 @@ impl Svg {
             Hue::Accent => PRINT.accent,
             Hue::Hairline => PRINT.hairline,
             Hue::Ground => PRINT.ground,
-            Hue::Told(colour) => colour,
+            Hue::Fixed(colour) => colour,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Claim, ClaimFigure, Step};
 use crate::language::{Language, decimal, say, word};
-use crate::view::{count, fraction};
+use crate::view::{count, fraction, seconds_words};
 
 impl Step {
     /// What its claims came to, of which these are the values; nothing if it claims nothing.
@@ -55,11 +55,11 @@ impl ClaimFigure {
 
     fn shown(self, value: f64, language: Language) -> String {
         match self {
-            Self::Seconds => format!("{} s", decimal(language, value, 1)),
+            Self::Seconds => seconds_words(value, language),
             Self::Efficiency | Self::Waiting | Self::Asking | Self::Starting | Self::Alone => fraction(value),
             Self::Dearest => decimal(language, value, 1),
             // Counts of what happens in a run that can be shown.
-            _ => count(value as u32),
+            _ => count(value as u64),
         }
     }
 }

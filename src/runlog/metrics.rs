@@ -103,8 +103,8 @@ impl Metrics {
         }
     }
 
-    /// Returns the time from the first band sent (or the start of the estimate before it) to the last atom placed;
-    /// `None` while the picture is incomplete.
+    /// From the first band sent, or the beginning of an estimate that it needs, to the last atom placed; `None` while
+    /// the picture is incomplete.
     pub fn makespan(&self) -> Option<Duration> {
         Some(self.finished?.since(self.start?))
     }
@@ -119,24 +119,35 @@ impl Metrics {
         self.twice
     }
 
-    /// Returns the ideal time, if the work had been shared perfectly: the least T in which the emulated machines,
-    /// limited by the computer's cores, do all the work: ∫₀ᵀ min(Σ speed × pace, cores) dt = [`Metrics::work`]. A new
-    /// speed counts from its change on. A machine that is paused or not well counts as 0; so does one that is cut off,
-    /// since its results do not arrive. `None` if the machines stand still before the work is done.
+    /// How long the work would have taken, had it been shared perfectly: the least T for which the emulated machines,
+    /// never more than the computer's cores, do all the work in T: ∫ min(Σ speed × pace, cores) dt = [`Metrics::work`].
+    /// Speeds that change count from then on, and a machine that is paused or not well does nothing: what one that is
+    /// cut off has done reaches nobody. `None` if the machines stand still before the work is done.
     pub fn ideal(&self) -> Option<Duration> {
         let start = self.start?;
-        let machine = |&speed| MachineCapacity { speed, paused: false, condition: Condition::Well };
-        let mut machines: Vec<_> = self.speeds.iter().map(machine).collect();
+        let powers = self.powers();
         let mut left = self.work.as_secs_f64();
         let mut since = start;
-        for &(at, node, change) in &self.changes {
-            let span = at.since(since).as_secs_f64();
-            let rate = self.rate(&machines);
+        let mut last = 0;
+        for (i, &(at, _)) in powers.iter().enumerate().skip(1) {
+            let (span, rate) = (at.since(since).as_secs_f64(), self.rate(powers[i - 1].1));
             if left <= span * rate {
                 break;
             }
             left -= span * rate;
-            since = since.max(at);
+            (since, last) = (since.max(at), i);
+        }
+        let rest = Duration::try_from_secs_f64(left / self.rate(powers[last].1)).ok()?;
+        since.since(start).checked_add(rest)
+    }
+
+    /// Σ speeds of the machines that work, with the times from which each sum holds, the first from time 0: how many
+    /// reference machines they are worth. A machine that is paused, or not well, counts 0.
+    pub fn powers(&self) -> Vec<(Time, f64)> {
+        let machine = |&speed| MachineCapacity { speed, paused: false, condition: Condition::Well };
+        let mut machines: Vec<_> = self.speeds.iter().map(machine).collect();
+        let mut powers = vec![(Time::ZERO, power(&machines))];
+        for &(at, node, change) in &self.changes {
             if let Some(machine) = machines.get_mut(usize::from(node)) {
                 match change {
                     CapacityChange::Speed(speed) => machine.speed = speed,
@@ -144,9 +155,9 @@ impl Metrics {
                     CapacityChange::Condition(condition) => machine.condition = condition,
                 }
             }
+            powers.push((at, power(&machines)));
         }
-        let rest = Duration::try_from_secs_f64(left / self.rate(&machines)).ok()?;
-        since.since(start).checked_add(rest)
+        powers
     }
 
     /// Returns [`Metrics::ideal`] / [`Metrics::makespan`]: 1 is perfect; `None` while either is unknown.
@@ -155,15 +166,20 @@ impl Metrics {
         (!makespan.is_zero()).then(|| ideal.div_duration_f64(makespan))
     }
 
-    /// Returns the time from the earliest to the latest end of a node's last atom. Nodes that traced nothing do not
-    /// count.
+    /// From the moment at which the first node is done with its last atom to that at which the last is; nodes that
+    /// traced nothing do not count.
     pub fn finish_spread(&self) -> Duration {
-        let ends = || self.nodes.iter().filter(|(atoms, _)| *atoms > 0).map(|(_, end)| end);
-        ends().max().zip(ends().min()).map_or(Duration::ZERO, |(last, first)| last.since(*first))
+        let ends: Vec<Time> = self.last_atoms().into_iter().flatten().collect();
+        ends.iter().max().zip(ends.iter().min()).map_or(Duration::ZERO, |(last, first)| last.since(*first))
     }
 
-    /// Returns the part of the machines' time that lies after their last atoms, weighted by speed; for a node that
-    /// traced nothing, all of its time. `None` while the picture is incomplete.
+    /// By node: when it was done with its last atom; `None` if it traced nothing.
+    pub fn last_atoms(&self) -> Vec<Option<Time>> {
+        self.nodes.iter().map(|(atoms, end)| (*atoms > 0).then_some(*end)).collect()
+    }
+
+    /// The share of the machines' time that lies after their last atoms, a slow machine's time counting less; of a node
+    /// that traced nothing, all of its time. `None` while the picture is incomplete.
     pub fn tail_idle(&self) -> Option<f64> {
         let (start, finished) = (self.start?, self.finished?);
         let idle = |(speed, (atoms, end)): (&f64, &(u32, Time))| {
@@ -184,11 +200,15 @@ impl Metrics {
         self.messages
     }
 
-    /// Returns the CPU seconds of this computer that all machines together do per second.
-    fn rate(&self, machines: &[MachineCapacity]) -> f64 {
-        let speeds = machines.iter().filter(|machine| machine.works()).map(|machine| machine.speed);
-        (speeds.sum::<f64>() * self.pace).min(self.cores as f64)
+    /// CPU seconds of this computer that machines of this power do in a second.
+    fn rate(&self, power: f64) -> f64 {
+        (power * self.pace).min(self.cores as f64)
     }
+}
+
+/// Σ speeds of the machines that work.
+fn power(machines: &[MachineCapacity]) -> f64 {
+    machines.iter().filter(|machine| machine.works()).map(|machine| machine.speed).sum()
 }
 
 struct MachineCapacity {
@@ -299,7 +319,23 @@ mod tests {
     }
 
     #[test]
-    fn ideal_longer_than_a_time_can_be_is_none() {
+    fn power_leaves_out_machines_that_do_not_work() {
+        let header = Header { spares: 1, ..header(&[1.0, 0.5, 0.25]) };
+        let run = [
+            at(1, RecordKind::Paused { node: 0 }),
+            at(2, RecordKind::SpeedSet { node: 0, speed: 0.75 }),
+            at(3, RecordKind::Resumed { node: 0 }),
+            at(4, RecordKind::Condition { node: 1, condition: Condition::CutOff }),
+            at(5, RecordKind::Condition { node: 2, condition: Condition::Well }),
+        ];
+        let powers = metrics_of(&header, &run).powers();
+        let powers: Vec<_> = powers.into_iter().map(|(at, power)| (at.secs(), power)).collect();
+        let changes = [(1.0, 0.5), (2.0, 0.5), (3.0, 1.25), (4.0, 0.75), (5.0, 1.0)];
+        assert_eq!(powers, [&[(0.0, 1.75), (0.0, 1.5)], &changes[..]].concat());
+    }
+
+    #[test]
+    fn an_ideal_beyond_all_time_is_none() {
         let run = [sent(0, PARENT, node(0), Message::Band(0..20)), done(1, 0, 0, 1)];
         // The end of the second that this takes is more than 2⁶⁴ s away, if only since the change.
         let slow = 1.0 / (2f64.powi(64) + 1e10);

@@ -1,4 +1,4 @@
-//! Pure functions from records to what is drawn: no egui, no driver, no clock.
+//! Pure functions from records to drawings and texts: no egui, no driver, no clock.
 //!
 //! The modules in the order of their layers: a module imports only from lower layers (`tests/tidy` checks this).
 //!
@@ -44,14 +44,14 @@ mod print;
 #[cfg(test)]
 mod tests;
 
-pub use analysis::compare_runs::{NamedBudget, contrast};
-pub use analysis::summary::{Summary, figures, parts_words, result_words};
+pub use analysis::compare_runs::{NamedBudget, compare_runs};
+pub use analysis::summary::{Summary, result_words, summary_figures, work_split_words};
 pub use analysis::time_budget::{LastMachine, MachineSeconds, TimeBudget};
 pub use charts::axis::{Axis, Scale};
 pub use charts::bar_chart::{Bar, BarChart};
-pub use charts::line_chart::{CHART_SIZE, LEAST_HIGH, LineChart, Series, Style, series_hue};
-pub use charts::time_budget_chart::{part_names, spent, spent_height, spent_words};
-pub use charts::tradeoff::{Drawn, Tradeoff};
+pub use charts::line_chart::{CHART_SIZE, LineChart, MIN_CHART_HEIGHT, Series, Style, series_hue};
+pub use charts::time_budget_chart::{part_names, time_budget_height, time_budget_marks, time_budget_words};
+pub use charts::tradeoff::{Tradeoff, TradeoffDrawing};
 pub use draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use inspect::{ChosenRay, Inspected, RaySpot, RayTree, SpanPlot, Term, Terms};
 pub use narration::happening::Happening;
@@ -59,7 +59,7 @@ pub use narration::narrator::Narrator;
 pub use narration::record_sentences::{record_words, share_words};
 pub use narration::status::incomplete::unfinished_words;
 pub use picture::canvas::Canvas;
-pub use picture::false_colour::{ERRORS, false_colours, place_of_error, ramp};
+pub use picture::false_colour::{RAMP_ERRORS, false_colours, ramp, ramp_position};
 pub use picture::outlines::outlines;
 pub use picture::overlay::{Layer, picture_pixels};
 pub use playback::clock::{Playback, RATES, rate_of_time_words, short_rate_words};
@@ -74,17 +74,18 @@ pub use state::atom_state::AtomState;
 pub use state::flight::{Cargo, Flight};
 pub use state::lane::{Lane, LanePhase, Traced};
 pub use state::lanes::{Lanes, Load, Trip, Usage};
-pub use state::node_rows::{NodeRow, NodeShare, rows, shares};
+pub use state::node_rows::{NodeRow, NodeShare, node_rows, node_shares};
 pub use state::node_state::{Activity, NodeState, Parcels, Slot};
 pub use state::run_state::{Arrived, RunState};
 pub use state::scheduler::Sharing;
 pub use text::format::{
-    activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_words, time_words,
+    activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words, seconds_words,
+    time_words, two_digits,
 };
-pub use text::quality::{error_words, measured_lines, quality_lines, quality_words, times_words};
+pub use text::quality::{measured_lines, quality_lines, quality_words, times_words};
 pub use text::remedies::{remedies_words, remedy_hint, remedy_name, without};
 pub use text::scene_stats::{needs_lines, needs_warnings};
-pub use text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
+pub use text::tooltips::{atom_words, drawing_notes, flight_words, node_words, parent_words};
 pub use text::trial_names::{change_words, trial_name};
 pub use timeline::conditions::condition_strokes;
 pub use timeline::landmarks::{Landmark, StepUnit, Subject, landmarks, step};

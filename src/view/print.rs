@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::analysis::summary::Summary;
 use super::analysis::time_budget::TimeBudget;
-use super::charts::time_budget_chart::{spent, spent_height};
+use super::charts::time_budget_chart::{time_budget_height, time_budget_marks};
 use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use super::playback::snapshots::Snapshot;
 use super::ring::layout::RingLayout;
@@ -123,8 +123,8 @@ impl PrintedDrawing {
         let title = shown(title, MAX_TITLE_LETTERS);
         let size = fitting(&title, 1.5 * TextSize::BODY, room);
         let mut marks = vec![label([MARGIN, MARGIN + 6.0], Anchor::Left, title, size, Hue::Text)];
-        marks.extend(spent(runs, room, language).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
-        Self { marks, size: [TIMELINE_WIDTH, TOP + spent_height(runs.len()) + MARGIN] }
+        marks.extend(time_budget_marks(runs, room, language).into_iter().map(|mark| mark.moved([MARGIN, TOP])));
+        Self { marks, size: [TIMELINE_WIDTH, TOP + time_budget_height(runs.len()) + MARGIN] }
     }
 }
 

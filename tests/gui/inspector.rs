@@ -48,7 +48,7 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     assert!(window.query_by_label("The ring").is_none(), "the inspector replaces the ring");
     assert!(window.query_by_label(&format!("Pixel {x}, {y}")).is_some());
     let rays = inspected(&window).sentences(language).swap_remove(0);
-    assert!(rays.starts_with("This pixel took "));
+    assert!(rays.starts_with("This pixel needed "));
     assert!(window.query_by_label(&rays).is_some(), "{rays}");
     assert_eq!(value(&window, "Terms of the equation"), inspected(&window).term_words(language));
 
@@ -60,7 +60,7 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     ] {
         key(&mut window, arrow);
         wait_for_pixel(&mut window);
-        assert_eq!((session(&window).inspected_pixel(), inspected(&window).place), (Some(place), place));
+        assert_eq!((session(&window).inspected_pixel(), inspected(&window).pixel), (Some(place), place));
         assert!(window.query_by_label(&format!("Pixel {}, {}", place[0], place[1])).is_some());
     }
     key(&mut window, Key::Escape);
@@ -77,7 +77,7 @@ fn arrows_stop_at_the_edge_of_the_picture_and_the_button_closes() {
     key(&mut window, Key::ArrowLeft);
     key(&mut window, Key::ArrowUp);
     wait_for_pixel(&mut window);
-    assert_eq!(inspected(&window).place, [0, 0]);
+    assert_eq!(inspected(&window).pixel, [0, 0]);
     press(&mut window, "Close inspector");
     assert!(session(&window).inspected().is_none());
 }

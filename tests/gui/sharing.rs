@@ -94,7 +94,7 @@ fn farm_with_a_slow_parent_ends() {
     type_number(&mut window, "Seconds of the run", "2");
     type_number(&mut window, "Parent's milliseconds for a message", "10");
     until(&mut window, "queue at the parent", |window| {
-        session(window).stage().state().waiting(session(window).now()) > 2
+        session(window).stage().state().line_length(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
     let given = |what: &RecordKind| match what {
@@ -108,7 +108,7 @@ fn farm_with_a_slow_parent_ends() {
     assert_eq!(parts.iter().sum::<usize>(), 6144 - 8 * 48);
     window.run_steps(2);
     let said = window.get_by_label("Result").value().unwrap_or_default();
-    assert!(said.ends_with("The parent was asked for 120 parts"), "{said}");
+    assert!(said.ends_with("Machines asked the parent for 120 parts"), "{said}");
 }
 
 #[test]

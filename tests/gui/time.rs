@@ -48,7 +48,7 @@ fn shown_state(window: &Window) -> String {
         "{} {:?} {:?} {}",
         stage.records_shown(),
         state.nodes(),
-        state.places(),
+        state.atom_states(),
         stage.narrator().sentence(state, at, language)
     )
 }
@@ -106,7 +106,7 @@ fn seeking_and_playing_to_a_time_show_the_same() {
     let expected = format!(
         "{records} {:?} {:?} {}",
         state.nodes(),
-        state.places(),
+        state.atom_states(),
         snapshot.narrator.sentence(state, state.head(), language)
     );
     assert_eq!(played, expected);

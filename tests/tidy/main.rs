@@ -42,8 +42,8 @@ fn modules_of_the_crate_name_only_modules_on_lower_layers() {
     }
 }
 
-/// `src/view/mod.rs` and `src/gui/mod.rs` list their modules like `src/lib.rs`. Re-exports count as the file that defines
-/// the item.
+/// `src/view/mod.rs` and `src/gui/mod.rs` list their modules like `src/lib.rs`. Re-exports count as the file that
+/// defines the item.
 #[test]
 fn modules_of_view_and_gui_import_only_from_lower_layers() {
     let files = files(&["src"]);

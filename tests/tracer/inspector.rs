@@ -126,7 +126,7 @@ fn command_explains_a_pixel_in_words_and_as_json() {
     let counted = ["primary", "reflected", "refracted"].map(|kind| object["rays"][kind].as_u64().expect("a number"));
     assert_eq!((samples.len(), rays as u64), (4, counted.iter().sum()));
     assert_eq!(object["terms"].as_array().map(Vec::len), Some(inspected.terms(language).len()));
-    assert_eq!(object["spans"].as_array().map(Vec::len), Some(inspected.figures.len()));
+    assert_eq!(object["spans"].as_array().map(Vec::len), Some(inspected.diagrams.len()));
 }
 
 #[test]

@@ -6,12 +6,12 @@ use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBui
 use crate::gui::session::{Phase, Session};
 use crate::gui::widgets;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, figures, node_name, parts_words, percent, record_words, result_words, shares,
-    unfinished_words,
+    Details, Happening, NodeShare, node_name, node_shares, percent, record_words, result_words, seconds_words,
+    summary_figures, unfinished_words, work_split_words,
 };
 
 const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
@@ -125,7 +125,7 @@ fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a Happening)>, 
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT_HEIGHT_PT), Sense::hover());
         widgets::describe(&response, word!(language, "Event", "Evento"), || event.sentence(language));
         let y = line.center().y;
-        let time = format!("{} s", decimal(language, at.secs(), 1));
+        let time = seconds_words(at.secs(), language);
         ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
         let galley = one_line(ui, &event.sentence(language), &font, look, line.width() - 6.0 * GRID);
         ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
@@ -146,7 +146,7 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let is_high = area.height() > 5.5 * GRID;
     let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
     let mut x = area.left();
-    for (figure, caption) in figures(result, language) {
+    for (figure, caption) in summary_figures(result, language) {
         let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
         let caption = ui.painter().layout_no_wrap(caption.to_owned(), theme::regular(theme::SMALL), look.quiet);
         let (figure_size, caption_size) = (figure.size(), caption.size());
@@ -163,7 +163,7 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| {
         events(ui, stage.narrator().events().rev().take(lines), look, language);
     });
-    let parts = parts_words(stage.state(), language).unwrap_or_default();
+    let parts = work_split_words(stage.state(), language).unwrap_or_default();
     let height =
         |size: f32| ui.painter().layout(parts.clone(), theme::regular(size), look.text, right.width()).size().y;
     // The sentence is left out rather than cut off: the bar shows the shares too.
@@ -187,7 +187,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let language = session.language();
     let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
     let state = session.stage().state();
-    let (shares, all) = (shares(state), state.atoms());
+    let (shares, all) = (node_shares(state), state.atoms());
     widgets::describe(&response, word!(language, "Who has traced how much", "Quem calculou quanto"), || {
         let text = |share: &NodeShare| format!("{} {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(text).collect::<Vec<_>>().join(", ")

@@ -12,8 +12,8 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
-    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name,
-    node_words, parent_words, ring, ring_at, small_print, time_words,
+    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, drawing_notes, flight_words,
+    message_at, node_name, node_words, parent_words, ring, ring_at, time_words,
 };
 
 /// Shows the ring as large as possible. A click selects a machine or a message, the right button opens its menu, and a
@@ -79,7 +79,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
         ui.data_mut(|data| data.insert_temp(response.id, menu));
     }
     if state.finished().is_none() {
-        small_print_corner(&painter, rect, small_print(state, language), look);
+        small_print_corner(&painter, rect, drawing_notes(state, language), look);
     }
     // Presentation mode has no top bar with the time.
     if Look::is_strong(painter.ctx()) {

@@ -317,14 +317,12 @@ fn usage(painter: &Painter, area: Rect, lanes: &TimelineLayout, stage: &Stage, l
 /// Returns the figures of the machines' usage up to the shown time.
 fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
     let usage = stage.lanes().usage(stage.lasted());
-    let [used, asking] = [usage.utilisation, usage.asking].map(fraction);
-    let above = fraction((usage.imbalance - 1.0).max(0.0));
-    let (messages, bytes) =
-        (count(u32::try_from(usage.messages).unwrap_or(u32::MAX)), bytes_words(usage.bytes, language));
+    let [used, above, under_way] = [usage.utilisation, usage.imbalance, usage.on_the_way].map(fraction);
+    let (messages, bytes) = (count(usage.messages as u64), bytes_words(usage.bytes, language));
     [
         say!(language, "{used} of the machines' time used", "{used} do tempo das máquinas usado"),
         say!(language, "busiest machine {above} above the mean", "máquina mais ocupada {above} acima da média"),
-        say!(language, "{asking} spent asking or waiting", "{asking} do tempo pedindo ou esperando"),
+        say!(language, "{under_way} with an offer or atoms on the way", "{under_way} com oferta ou átomos a caminho"),
         say!(language, "{messages} messages, {bytes}", "{messages} mensagens, {bytes}"),
     ]
 }

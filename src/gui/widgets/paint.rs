@@ -27,7 +27,7 @@ impl Inks<'_> {
             Hue::Accent => self.look.accent,
             Hue::Hairline => self.look.hairline,
             Hue::Ground => self.look.ground,
-            Hue::Told(colour) => theme::colour(colour),
+            Hue::Fixed(colour) => theme::colour(colour),
         };
         full.gamma_multiply(ink.alpha)
     }

@@ -74,7 +74,7 @@ pub(super) struct RemedyRow {
     pub worst: Option<f64>,
     pub aim: f64,
     pub messages_per_node: f64,
-    /// CPU time of atoms traced again, over the work.
+    /// Work done twice / work.
     pub twice: f64,
 }
 

@@ -1,55 +1,55 @@
-//! What a finished run amounts to, in figures and in words.
+//! The result of a finished run, in figures and in words.
 
 use std::cmp::Reverse;
 use std::time::Duration;
 
 use crate::balance::{NodeId, Strategy};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::runlog::{Metrics, RunLog};
-use crate::time::Time;
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
-use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name};
+use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, seconds_words};
 
-/// What a finished run amounts to.
+/// Result of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// From the first band sent to the last atom placed.
+    /// From the first band sent, or from the beginning of the estimate that it needs, to the last atom placed.
     pub makespan: Duration,
-    /// What the makespan would have been, had the work been shared perfectly.
+    /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
     pub ideal: Duration,
-    /// The ideal makespan divided by the real one, 0 to 1.
+    /// Ideal makespan / makespan, 0 to 1.
     pub efficiency: f64,
-    /// From the first node that was done with its last atom to the last one.
+    /// From the last atom of the machine that finished first to the last atom of the machine that finished last.
     pub spread: Duration,
 }
 
 impl Summary {
-    /// What the run of a log amounts to, if it came to its end. Sums over all records, so not for every frame.
+    /// Computes the result of a run; `None` unless its picture was completed. It reads all records, so not for every
+    /// frame.
     pub fn of(log: &RunLog) -> Option<Self> {
-        let tally = Metrics::of(log);
-        let (makespan, ideal, efficiency) = (tally.makespan()?, tally.ideal()?, tally.efficiency()?);
-        Some(Self { makespan, ideal, efficiency, spread: tally.finish_spread() })
+        let metrics = Metrics::of(log);
+        let (makespan, ideal, efficiency) = (metrics.makespan()?, metrics.ideal()?, metrics.efficiency()?);
+        Some(Self { makespan, ideal, efficiency, spread: metrics.finish_spread() })
     }
 }
 
-/// The figures of the result, each with what it is, to be shown large.
-pub fn figures(outcome: &Summary, language: Language) -> [(String, &'static str); 4] {
+/// Returns the figures of the result with their captions.
+pub fn summary_figures(summary: &Summary, language: Language) -> [(String, &'static str); 4] {
     [
-        (seconds(outcome.makespan, language), word!(language, "start to finish", "início ao fim")),
-        (seconds(outcome.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
-        (fraction(outcome.efficiency), word!(language, "efficiency", "eficiência")),
-        (seconds(outcome.spread, language), word!(language, "first to last done", "da 1ª à última")),
+        (seconds(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
+        (seconds(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
+        (fraction(summary.efficiency), word!(language, "efficiency", "eficiência")),
+        (seconds(summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
     ]
 }
 
-/// The result in a sentence or two: how well the work was shared, and who did most and least of it, and why.
-pub fn result_words(state: &RunState, outcome: &Summary, language: Language) -> String {
+/// Says how well the work was shared, which machines did most and least of it, and why.
+pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> String {
     let [takes, ideal, spread] =
-        [outcome.makespan, outcome.ideal, outcome.spread].map(|length| seconds(length, language));
-    let efficiency = fraction(outcome.efficiency);
+        [summary.makespan, summary.ideal, summary.spread].map(|length| seconds(length, language));
+    let efficiency = fraction(summary.efficiency);
     let mut words = say!(
         language,
         "Done in {takes}; shared perfectly it takes {ideal}: efficiency {efficiency}",
@@ -59,31 +59,33 @@ pub fn result_words(state: &RunState, outcome: &Summary, language: Language) -> 
     if machines == 1 {
         return words;
     }
-    let what = if state.sharing() == Sharing::Stealing { "threads" } else { word!(language, "machines", "máquinas") };
+    let workers =
+        if state.sharing() == Sharing::Stealing { "threads" } else { word!(language, "machines", "máquinas") };
     if state.sharing() != Sharing::By(Strategy::Serial) {
         words += &say!(
             language,
-            ". {machines} {what} were done within {spread}",
-            ". {machines} {what} terminaram com {spread} de diferença"
+            ". {machines} {workers} were done within {spread}",
+            ". {machines} {workers} terminaram com {spread} de diferença"
         );
     }
-    if let Some(parts) = parts_words(state, language) {
+    if let Some(parts) = work_split_words(state, language) {
         words += &format!(". {parts}");
     }
     words
 }
 
-/// Seconds with a decimal, unless nothing would be left of them.
+/// Writes a length in seconds with a decimal, or in a smaller unit if it is shorter than 0.1 s.
 fn seconds(length: Duration, language: Language) -> String {
     if length < Duration::from_millis(95) {
         duration(length, language)
     } else {
-        format!("{} s", decimal(language, length.as_secs_f64(), 1))
+        seconds_words(length.as_secs_f64(), language)
     }
 }
 
-/// Who did most and least of the work, and why, or who was waited for; `None` if all did about the same.
-pub fn parts_words(state: &RunState, language: Language) -> Option<String> {
+/// Says which machines did most and least of the work, and why, or which machine all others waited for. `None` if all
+/// did about the same.
+pub fn work_split_words(state: &RunState, language: Language) -> Option<String> {
     match state.sharing() {
         _ if state.nodes().len() == 1 => None,
         Sharing::By(Strategy::Serial) => {
@@ -95,54 +97,43 @@ pub fn parts_words(state: &RunState, language: Language) -> Option<String> {
         }
         sharing if sharing.is_farm() => {
             let parts = counted(state.handed_out.count, word!(language, "part", "parte"), language);
-            let handed_out = say!(language, "The parent was asked for {parts}", "Pediram ao pai {parts}");
+            let handed_out =
+                say!(language, "Machines asked the parent for {parts}", "As máquinas pediram {parts} ao pai");
             Some(uneven(state, language).map_or_else(|| handed_out.clone(), |uneven| format!("{uneven}. {handed_out}")))
         }
         Sharing::By(_) | Sharing::Stealing => uneven(state, language),
     }
 }
 
-/// The machine that all others waited for, if they waited long.
+/// Names the machine that all others waited for, if they waited for more than a twentieth of the run.
 fn waited_for(state: &RunState, language: Language) -> Option<String> {
     let end = state.finished()?.secs();
-    let ends = last_atoms(state);
+    // A machine that traced nothing does not count.
+    let ends = || (0..).zip(state.nodes()).filter_map(|(node, of)| Some((node, of.last_atom?)));
     // Of equals the first is named.
-    let (last, &latest) = (0..).zip(&ends).min_by_key(|&(_, &at)| Reverse(at))?;
-    let (first, &earliest) = (0..).zip(&ends).filter(|&(_, &at)| at > Time::ZERO).min_by_key(|&(_, &at)| at)?;
+    let (last, latest) = ends().min_by_key(|&(_, at)| Reverse(at))?;
+    let (first, earliest) = ends().min_by_key(|&(_, at)| at)?;
     let waited = latest.since(earliest);
-    let worth_a_word = waited.as_secs_f64() > 0.05 * end;
+    let is_long = waited.as_secs_f64() > 0.05 * end;
     let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node, language)).unwrap_or_default();
-    worth_a_word.then(|| {
+    is_long.then(|| {
         let (last, first, waited) = (node_name(last), node_name(first), seconds(waited, language));
         say!(
             language,
-            "All waited for {last}, {slow}: {first} was done {waited} before it, and nobody shared",
-            "Todas esperaram por {last}, {slow}: {first} terminou {waited} antes dela, e ninguém dividiu"
+            "All waited for {last}, {slow}: {first} was done {waited} before it, and no machine took over atoms",
+            "Todas esperaram por {last}, {slow}: {first} terminou {waited} antes dela, e nenhuma assumiu átomos"
         )
     })
 }
 
-/// By node: when it was done with its last atom.
-fn last_atoms(state: &RunState) -> Vec<Time> {
-    let mut last = vec![Time::ZERO; state.nodes().len()];
-    for place in state.places() {
-        if let AtomState::Traced { by, at, .. } = *place
-            && let Some(last) = last.get_mut(usize::from(by))
-        {
-            *last = at.max(*last);
-        }
-    }
-    last
-}
-
-/// The nodes that did most and least of the work, of those that were there.
+/// Finds the nodes that did most and least of the work, without spare ones.
 fn most_and_least(state: &RunState) -> Option<[(NodeId, &NodeState); 2]> {
     let nodes = || (0..).zip(state.nodes()).filter(|(_, node)| !node.spare);
     // Of equals the first is named.
     Some([nodes().min_by_key(|(_, node)| Reverse(node.done))?, nodes().min_by_key(|(_, node)| node.done)?])
 }
 
-/// Who did most and least of the work, and why; `None` if all did about the same.
+/// Says which machines did most and least of the work, and why; `None` if all did about the same.
 fn uneven(state: &RunState, language: Language) -> Option<String> {
     let [(most, fast), (least, slow)] = most_and_least(state)?;
     if f64::from(fast.done) < 1.05 * f64::from(slow.done) {
@@ -166,7 +157,7 @@ fn uneven(state: &RunState, language: Language) -> Option<String> {
     })
 }
 
-/// A node's speed in words, as far as one number can tell it.
+/// Describes a node's speed, or its mean speed if it changed.
 fn at_speed(state: &RunState, node: &NodeState, language: Language) -> String {
     let mean = fraction(node.mean_speed(state.finished().unwrap_or(state.head())));
     if mean == fraction(node.speed) {
@@ -176,13 +167,14 @@ fn at_speed(state: &RunState, node: &NodeState, language: Language) -> String {
     }
 }
 
-/// What an atom that `node` has traced cost on average, in seconds of CPU time; 0 if it has traced none.
+/// Mean cost of the atoms that `node` has traced, in seconds of CPU time; 0 if it has traced none.
 fn mean_cost(state: &RunState, node: NodeId) -> f64 {
     let cost = |place: &AtomState| match *place {
         AtomState::Traced { by, cost, .. } if by == node => Some(f64::from(cost)),
         _ => None,
     };
-    let (sum, atoms) = state.places().iter().filter_map(cost).fold((0.0, 0_u32), |(sum, n), cost| (sum + cost, n + 1));
+    let (sum, atoms) =
+        state.atom_states().iter().filter_map(cost).fold((0.0, 0_u32), |(sum, n), cost| (sum + cost, n + 1));
     sum / f64::from(atoms.max(1))
 }
 
@@ -192,16 +184,17 @@ mod tests {
     use crate::balance::Rules;
     use crate::record::{Record, RecordKind};
     use crate::runlog::Header;
+    use crate::time::Time;
     use crate::view::tests::sample_runs;
 
-    const OUTCOME: Summary = Summary {
+    const SUMMARY: Summary = Summary {
         makespan: Duration::from_millis(20_440),
         ideal: Duration::from_millis(19_800),
         efficiency: 0.9687,
         spread: Duration::from_millis(300),
     };
 
-    /// How a run ends in which each node traces so many atoms at its speed and a cost in milliseconds.
+    /// Describes a run in which each machine, given as (speed, atoms, cost in ms), traces its atoms.
     fn ended(machines: &[(f64, u32, u64)], language: Language) -> String {
         let speeds: Vec<_> = machines.iter().map(|&(speed, ..)| speed).collect();
         let header = sample_runs::header(&speeds, machines.iter().map(|&(_, atoms, _)| atoms).sum());
@@ -214,20 +207,20 @@ mod tests {
             }
         }
         state.apply(&Record { at: Time::from_secs(20.44), what: RecordKind::Finished });
-        result_words(&state, &OUTCOME, language)
+        result_words(&state, &SUMMARY, language)
     }
 
     #[test]
-    fn the_figures_say_what_they_are() {
+    fn figures_have_captions() {
         let language = Language::English;
         assert_eq!(
-            figures(&OUTCOME, language).map(|(value, caption)| format!("{value} {caption}")),
+            summary_figures(&SUMMARY, language).map(|(value, caption)| format!("{value} {caption}")),
             ["20.4 s start to finish", "19.8 s shared perfectly", "97 % efficiency", "0.3 s first to last done"]
         );
     }
 
     #[test]
-    fn who_did_most_and_least_is_told_with_the_reason() {
+    fn most_and_least_work_has_a_reason() {
         let language = Language::English;
         let all = "Done in 20.4 s; shared perfectly it takes 19.8 s: efficiency 97 %";
         assert_eq!(ended(&[(1.0, 5, 1)], language), all);
@@ -241,32 +234,47 @@ mod tests {
         assert!(dearer.ends_with("2 least: 25 at 100 % (its atoms took longer)"), "{dearer}");
     }
 
-    /// What is said of a whole run by this strategy whose last machine is slow.
+    /// Describes a run by a strategy, with three machines of which the last one is slow.
     fn shared(strategy: Strategy, language: Language) -> String {
         let mut header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
         header.rules = Rules { strategy, part: 10, ..header.rules };
         let mut state = RunState::new(&header);
         sample_runs::records(&header).iter().for_each(|record| state.apply(record));
-        result_words(&state, &OUTCOME, language)
+        result_words(&state, &SUMMARY, language)
     }
 
     #[test]
-    fn what_came_of_other_strategies_is_told_in_their_words() {
+    fn each_strategy_has_its_own_sentence() {
         let language = Language::English;
         let all = "Done in 20.4 s; shared perfectly it takes 19.8 s: efficiency 97 %";
         assert_eq!(shared(Strategy::Serial, language), format!("{all}. 1 traced all of it alone"));
         let three = format!("{all}. 3 machines were done within 0.3 s");
         assert_eq!(
             shared(Strategy::Static, language),
-            format!("{three}. All waited for 3, at 10 %: 1 was done 9.0 s before it, and nobody shared")
+            format!("{three}. All waited for 3, at 10 %: 1 was done 9.0 s before it, and no machine took over atoms")
         );
         let farm = shared(Strategy::Farm, language);
         assert!(farm.starts_with(&format!("{three}. 1 traced most: ")), "{farm}");
-        assert!(farm.ends_with(" at 10 %. The parent was asked for 27 parts"), "{farm}");
+        assert!(farm.ends_with(" at 10 %. Machines asked the parent for 27 parts"), "{farm}");
     }
 
     #[test]
-    fn a_speed_that_changed_is_told_as_a_mean() {
+    fn state_and_metrics_agree_on_last_atoms() {
+        for strategy in Strategy::ALL {
+            let mut header = sample_runs::header(&[1.0, 0.5, 0.1], 300);
+            header.rules = Rules { strategy, part: 10, ..header.rules };
+            let (mut state, mut metrics) = (RunState::new(&header), Metrics::new(&header));
+            for record in sample_runs::records(&header) {
+                state.apply(&record);
+                metrics.add(&record);
+            }
+            let ends: Vec<_> = state.nodes().iter().map(|node| node.last_atom).collect();
+            assert_eq!(ends, metrics.last_atoms(), "{strategy:?}");
+        }
+    }
+
+    #[test]
+    fn changed_speed_is_described_as_a_mean() {
         let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 3));
         for (at, what) in [
@@ -277,12 +285,12 @@ mod tests {
         ] {
             state.apply(&Record { at: Time::from_secs(at), what });
         }
-        let words = result_words(&state, &OUTCOME, language);
+        let words = result_words(&state, &SUMMARY, language);
         assert!(words.ends_with("1 traced most: 1 atom at 100 %; 2 least: 0 at 50 % on average"), "{words}");
     }
 
     #[test]
-    fn who_was_not_there_did_not_do_least() {
+    fn spare_machine_did_not_do_least() {
         let language = Language::English;
         let header = Header { spares: 1, ..sample_runs::header(&[1.0, 0.5, 1.0], 3) };
         let mut state = RunState::new(&header);

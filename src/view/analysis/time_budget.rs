@@ -1,199 +1,171 @@
-//! Where the machines' time went: what they traced, what they waited for, and who kept all others waiting.
+//! The time budget of a finished run: where the machines' time went, and which machine finished last.
 
 use std::time::Duration;
 
-use crate::balance::{Condition, Message, NodeId, Party};
+use crate::balance::{Message, NodeId, Party};
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::time::Time;
-use crate::view::state::lane::{Lane, LanePhase};
+use crate::view::state::lane::Lane;
 use crate::view::state::lanes::Lanes;
 use crate::view::state::scheduler::Sharing;
 
-/// What a run that came to its end amounts to, and where its time went.
+/// Time budget of a finished run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeBudget {
-    /// How the atoms were shared.
+    /// Scheduler of the run.
     pub sharing: Sharing,
-    /// From the first band sent to the last atom placed.
+    /// From the first band sent, or from the beginning of the estimate that it needs, to the last atom placed.
     pub makespan: Duration,
-    /// How long it would have taken, had the work been shared perfectly.
+    /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
     pub ideal: Duration,
-    /// From when on the machines' speeds together are how much: how many reference machines they are worth.
-    pub powers: Vec<(Duration, f64)>,
-    /// Where the time of all machines went.
+    /// Σ speeds of the machines that work, with the times from which each sum holds ([`Metrics::powers`]).
+    pub powers: Vec<(Time, f64)>,
+    /// Seconds of all machines, from time 0 to the last atom placed.
     pub spent: MachineSeconds,
-    /// What was said.
+    /// Numbers of messages.
     pub messages: MessageCounts,
-    /// Whoever traced the last atom.
+    /// The machine that traced the last atom.
     pub last: LastMachine,
-    /// How long messages waited at the parent, all of them together.
+    /// Σ waiting times of all messages at the parent.
     pub waited_at_parent: Duration,
-    /// How long the parent sampled the picture before it gave bands.
+    /// Time from the beginning of the estimate to the first band sent.
     pub estimating: Duration,
 }
 
 /// The machine that traced the last atom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LastMachine {
-    /// Which.
+    /// The machine.
     pub node: NodeId,
     /// Its speed at the end.
     pub speed: f64,
-    /// How long no other traced any more.
+    /// Time from the last atom of the machine that finished last but one to its own last atom. A machine that traced
+    /// nothing finished at 0.
     pub alone: Duration,
-    /// How many atoms it traced.
+    /// Atoms that it traced.
     pub traced: u32,
-    /// How many it gave to others.
+    /// Atoms that it gave to others.
     pub gave: u32,
 }
 
-/// Seconds of all machines: a run of eight machines has eight in each second.
+/// Machine seconds: a second of a run of eight machines has eight.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MachineSeconds {
-    /// Atoms were traced.
+    /// In which the machine traced atoms and was not stopped.
     pub tracing: f64,
-    /// Until the first atom was begun.
+    /// Before its first atom.
     pub starting: f64,
-    /// Between atoms: offers, requests and atoms were on their way.
+    /// Between its first and its last atom, in which it traced nothing and was not stopped.
     pub asking: f64,
-    /// A worker was made to stand still.
-    pub standing: f64,
-    /// After the last atom of a machine, while others still traced, and until the picture was complete.
+    /// Between its first and its last atom, in which it was paused, hung, off or at speed 0.
+    pub stopped: f64,
+    /// After its last atom, until the picture was complete; all seconds of a machine that traced nothing.
     pub waiting: f64,
 }
 
 impl MachineSeconds {
-    /// All of it.
+    /// Sum of the parts.
     pub fn sum(&self) -> f64 {
         self.parts().iter().sum()
     }
 
-    /// The parts, in the order of the fields.
+    /// Parts in the order of the fields.
     pub fn parts(&self) -> [f64; 5] {
-        [self.tracing, self.starting, self.asking, self.standing, self.waiting]
+        [self.tracing, self.starting, self.asking, self.stopped, self.waiting]
     }
 
-    /// What one machine spent until `end`.
+    /// Divides the time of one machine until `end`.
     fn of(lane: &Lane, end: Time) -> Self {
         let (Some(first), Some(last)) = (lane.bars().first(), lane.bars().last()) else {
-            let starting =
-                lane.stays().last().filter(|(_, stay)| *stay == LanePhase::Waits).map_or(Time::ZERO, |_| end);
-            return Self { starting: starting.secs(), waiting: end.since(starting).as_secs_f64(), ..Self::default() };
+            return Self { waiting: end.secs(), ..Self::default() };
         };
-        let stood = |from: Time, to: Time| -> f64 {
-            let overlap = |&(start, until): &(Time, Option<Time>)| {
-                until.unwrap_or(end).min(to).since(start.max(from)).as_secs_f64()
-            };
-            lane.pauses().iter().map(overlap).sum()
-        };
-        let traced: f64 = lane.bars().iter().map(|bar| bar.to.since(bar.from).as_secs_f64()).sum();
-        let stood_tracing: f64 = lane.bars().iter().map(|bar| stood(bar.from, bar.to)).sum();
         let (begun, done) = (first.from.min(end), last.to.min(end));
-        let between = done.since(begun).as_secs_f64() - traced;
-        let stood_between = stood(begun, done) - stood_tracing;
+        let tracing: f64 = lane.bars().iter().map(|bar| lane.running_seconds(bar.from, bar.to)).sum();
         Self {
-            tracing: (traced - stood_tracing).max(0.0),
+            tracing,
             starting: begun.secs(),
-            asking: (between - stood_between).max(0.0),
-            standing: stood_tracing + stood_between,
+            asking: (lane.running_seconds(begun, done) - tracing).max(0.0),
+            stopped: lane.stopped_seconds(begun, done),
             waiting: end.since(done).as_secs_f64(),
         }
     }
 }
 
 impl TimeBudget {
-    /// The account of a run; `None` unless its picture was completed.
+    /// Computes the budget of a run; `None` unless its picture was completed.
     pub fn of(log: &RunLog) -> Option<Self> {
         Self::new(log, &Lanes::of(log))
     }
 
-    /// The same, where what each machine did is known already.
+    /// Computes the budget of a run whose lanes are known already.
     pub(crate) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
-        let tally = Metrics::of(log);
-        let (makespan, ideal) = (tally.makespan()?, tally.ideal()?);
+        let metrics = Metrics::of(log);
+        let (makespan, ideal) = (metrics.makespan()?, metrics.ideal()?);
         let end = log.records().iter().rfind(|record| record.what == RecordKind::Finished)?.at;
         let mut spent = MachineSeconds::default();
         for lane in lanes.lanes().iter().map(|lane| MachineSeconds::of(lane, end)) {
             spent.tracing += lane.tracing;
             spent.starting += lane.starting;
             spent.asking += lane.asking;
-            spent.standing += lane.standing;
+            spent.stopped += lane.stopped;
             spent.waiting += lane.waiting;
         }
         Some(Self {
             sharing: Sharing::of(&log.header),
             makespan,
             ideal,
-            powers: powers(log),
+            powers: metrics.powers(),
             spent,
-            messages: tally.messages(),
-            last: last(log, lanes)?,
+            messages: metrics.messages(),
+            last: LastMachine::of(log, &metrics)?,
             waited_at_parent: waited_at_parent(log),
             estimating: estimating(log.records()),
         })
     }
 
-    /// The machines' speeds together, on the average of this time from the beginning.
-    pub fn power(&self, until: Duration) -> f64 {
+    /// The machines' power on the average of the time from 0 to `until`: how many reference machines they are worth.
+    pub fn power(&self, until: Time) -> f64 {
         let ends = self.powers.iter().skip(1).map(|(at, _)| *at).chain([until]);
         let spans = self.powers.iter().zip(ends).map(|((from, power), end)| {
-            let span = end.min(until).saturating_sub(*from);
+            let span = end.min(until).since(*from);
             power * span.as_secs_f64()
         });
-        spans.sum::<f64>() / until.as_secs_f64().max(f64::MIN_POSITIVE)
+        spans.sum::<f64>() / until.secs().max(f64::MIN_POSITIVE)
     }
 
-    /// Ideal over makespan, at most about 1.
+    /// Ideal makespan / makespan, at most about 1.
     pub fn efficiency(&self) -> f64 {
         self.ideal.as_secs_f64() / self.makespan.as_secs_f64().max(f64::MIN_POSITIVE)
     }
 }
 
-/// From when on the machines' speeds together are how much.
-fn powers(log: &RunLog) -> Vec<(Duration, f64)> {
-    let mut speeds = log.header.speeds.clone();
-    let mut works: Vec<bool> = (0..).zip(&speeds).map(|(node, _)| !log.header.is_spare(node)).collect();
-    let power = |speeds: &[f64], works: &[bool]| {
-        speeds.iter().zip(works).filter(|(_, works)| **works).map(|(speed, _)| speed).sum()
-    };
-    let mut powers = vec![(Duration::ZERO, power(&speeds, &works))];
-    for record in log.records() {
-        match record.what {
-            RecordKind::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
-            RecordKind::Condition { node, condition } => {
-                works[usize::from(node)] = matches!(condition, Condition::Well | Condition::CutOff);
+impl LastMachine {
+    /// Finds the machine that traced the last atom.
+    fn of(log: &RunLog, metrics: &Metrics) -> Option<Self> {
+        let ends = metrics.last_atoms().into_iter().map(Option::unwrap_or_default);
+        let mut ends: Vec<(Time, NodeId)> = ends.zip(0..).collect();
+        ends.sort_unstable();
+        let (end, node) = ends.pop()?;
+        let before = ends.pop().map_or(Time::ZERO, |(end, _)| end);
+        let mut speed = *log.header.speeds.get(usize::from(node))?;
+        let mut gave = 0;
+        for record in log.records() {
+            match &record.what {
+                RecordKind::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
+                RecordKind::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
+                    gave += atoms_in(ranges);
+                }
+                _ => {}
             }
-            _ => continue,
         }
-        powers.push((record.at.since(Time::ZERO), power(&speeds, &works)));
+        let traced = metrics.atoms_by_node()[usize::from(node)];
+        Some(Self { node, speed, alone: end.since(before), traced, gave })
     }
-    powers
 }
 
-fn last(log: &RunLog, lanes: &Lanes) -> Option<LastMachine> {
-    let ends = (0..).zip(lanes.lanes()).map(|(node, lane)| (lane.bars().last().map_or(Time::ZERO, |bar| bar.to), node));
-    let mut ends: Vec<(Time, NodeId)> = ends.collect();
-    ends.sort_unstable();
-    let (end, node) = ends.pop()?;
-    let before = ends.pop().map_or(Time::ZERO, |(end, _)| end);
-    let mut speed = *log.header.speeds.get(usize::from(node))?;
-    let mut gave = 0;
-    for record in log.records() {
-        match &record.what {
-            RecordKind::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
-            RecordKind::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
-                gave += atoms_in(ranges);
-            }
-            _ => {}
-        }
-    }
-    let traced = lanes.lanes()[usize::from(node)].bars().len() as u32;
-    Some(LastMachine { node, speed, alone: end.since(before), traced, gave })
-}
-
-/// The parent is busy with one message after the other; those that come meanwhile wait.
+/// Adds up how long messages waited at the parent, which handles one after the other.
 fn waited_at_parent(log: &RunLog) -> Duration {
     let mut arrivals: Vec<Time> = log
         .records()
@@ -213,6 +185,7 @@ fn waited_at_parent(log: &RunLog) -> Duration {
     waited
 }
 
+/// Returns the time from the beginning of the estimate to the first band sent.
 fn estimating(records: &[Record]) -> Duration {
     let at =
         |wanted: fn(&RecordKind) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
@@ -226,7 +199,7 @@ mod tests {
     use crate::language::Language;
     use proptest::prelude::*;
 
-    use super::super::compare_runs::{NamedBudget, contrast};
+    use super::super::compare_runs::{NamedBudget, compare_runs};
     use super::*;
     use crate::balance::{Rules, Strategy};
     use crate::record::Record;
@@ -244,21 +217,21 @@ mod tests {
 
     proptest! {
         #[test]
-        fn all_of_the_machines_time_is_accounted_for(
+        fn parts_add_up_to_all_machine_seconds(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), strategy in 0..6usize, handling in 0..20u64,
         ) {
             let log = log(Strategy::ALL[strategy], &speeds, handling);
-            let account = TimeBudget::of(&log).expect("it came to its end");
+            let budget = TimeBudget::of(&log).expect("it came to its end");
             let end = log.records().iter().find(|record| record.what == RecordKind::Finished).expect("its end").at.secs();
-            let (spent, parts) = (account.spent, account.spent.parts());
+            let (spent, parts) = (budget.spent, budget.spent.parts());
             prop_assert!((spent.sum() - end * speeds.len() as f64).abs() < 1e-6, "{spent:?}");
             prop_assert!(parts.iter().all(|part| *part >= 0.0), "{spent:?}");
-            prop_assert!(account.efficiency() <= 1.0 + 1e-9 && account.ideal <= account.makespan);
+            prop_assert!(budget.efficiency() <= 1.0 + 1e-9 && budget.ideal <= budget.makespan);
         }
     }
 
     #[test]
-    fn with_bands_the_slow_machine_is_alone_at_the_end() {
+    fn slow_machine_is_alone_at_the_end_of_static_bands() {
         let bands = TimeBudget::of(&log(Strategy::Static, &[1.0, 1.0, 1.0, 0.1], 0)).expect("it came to its end");
         let LastMachine { node, speed, alone, traced, gave } = bands.last;
         assert_eq!((node, speed, traced, gave), (3, 0.1, 300, 0));
@@ -269,7 +242,27 @@ mod tests {
     }
 
     #[test]
-    fn messages_wait_for_a_parent_that_is_busy() {
+    fn paused_machine_counts_as_stopped_whatever_its_speed() {
+        let plain = log(Strategy::Static, &[1.0, 1.0], 0);
+        let mut records = plain.records().to_vec();
+        let at = |second: f64| Time::from_secs(second);
+        for (at, what) in [
+            (at(0.2), RecordKind::Paused { node: 1 }),
+            (at(0.3), RecordKind::SpeedSet { node: 1, speed: 0.5 }),
+            (at(0.4), RecordKind::Resumed { node: 1 }),
+        ] {
+            let place = records.partition_point(|record| record.at <= at);
+            records.insert(place, Record { at, what });
+        }
+        let mut paused = RunLog::new(plain.header.clone());
+        paused.add(records);
+        let budget = TimeBudget::of(&paused).expect("it came to its end");
+        assert!((budget.spent.stopped - 0.2).abs() < 1e-9, "{:?}", budget.spent);
+        assert!((budget.power(at(0.4)) - 1.5).abs() < 1e-9, "a paused machine is worth nothing");
+    }
+
+    #[test]
+    fn messages_wait_at_a_busy_parent() {
         let waited =
             |handling| TimeBudget::of(&log(Strategy::Farm, &[1.0; 5], handling)).expect("its end").waited_at_parent;
         assert_eq!(waited(0), Duration::ZERO);
@@ -277,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_machine_that_was_slowed_down_explains_why_a_run_took_longer() {
+    fn slowed_machine_explains_a_longer_run() {
         let language = Language::English;
         let plain = log(Strategy::Ring, &[1.0, 1.0], 0);
         let quick = TimeBudget::of(&plain).expect("it came to its end");
@@ -288,15 +281,15 @@ mod tests {
         let mut slowed = RunLog::new(plain.header.clone());
         slowed.add(records);
         let slow = TimeBudget::of(&slowed).expect("it came to its end");
-        let half = Duration::from_nanos(half.0);
         assert_eq!(slow.power(half), 2.0);
-        assert!((slow.power(2 * half) - 1.75).abs() < 1e-9, "{}", slow.power(2 * half));
+        let whole = Time(2 * half.0);
+        assert!((slow.power(whole) - 1.75).abs() < 1e-9, "{}", slow.power(whole));
         let slow = TimeBudget { makespan: quick.makespan.mul_f64(1.2), ..slow };
-        let told = contrast(
-            NamedBudget { name: "One", account: &quick },
-            NamedBudget { name: "The other", account: &slow },
+        let text = compare_runs(
+            NamedBudget { name: "One", budget: &quick },
+            NamedBudget { name: "The other", budget: &slow },
             language,
         );
-        assert!(told.contains("Its machines together are slower: the other's are worth 1.1"), "{told}");
+        assert!(text.contains("Its machines together are slower: those of the other run are 1.1"), "{text}");
     }
 }

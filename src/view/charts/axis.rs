@@ -1,60 +1,62 @@
-//! Axes: which part of the numbers is seen, and which of them are written beside it.
+//! Axes: their ranges, and the numbers written beside them.
 
-use crate::language::{Language, comma};
-use crate::view::text::format::count;
+use crate::language::Language;
+use crate::view::text::format::{count, number_to_power};
 
-/// How numbers become lengths.
+/// Scale of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Equal differences are equal lengths.
     #[default]
     Linear,
-    /// Equal ratios are equal lengths; powers of ten, and 1, 2, 5 where these are few.
+    /// Equal ratios are equal lengths. Ticks at powers of ten, and at 1, 2, 5 where these are few.
     Log10,
-    /// Equal ratios are equal lengths; powers of two.
+    /// Equal ratios are equal lengths. Ticks at powers of two.
     Log2,
 }
 
-/// What is measured along one side of a chart.
+/// Quantity along one side of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
-    /// What is measured, and its unit.
+    /// Name of the quantity, and its unit.
     pub label: String,
-    /// How numbers become lengths.
+    /// The scale.
     pub scale: Scale,
-    /// The least and the greatest number seen; otherwise what the numbers need, on a linear scale together with 0.
+    /// Least and greatest number; `None`: those of the values, on a linear scale with 0.
     pub range: Option<(f64, f64)>,
 }
 
-/// An axis laid out.
+/// An axis with its range and ticks.
 #[derive(Clone, Debug)]
 pub(crate) struct Ruler {
     scale: Scale,
     from: f64,
     to: f64,
-    /// What is written beside the axis, ascending.
+    /// Ticks, ascending.
     pub(crate) ticks: Vec<Tick>,
 }
 
-/// A number beside an axis.
+/// A number written beside an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
     pub(crate) text: String,
 }
 
-/// The most numbers that an axis has; on a base of two 1 to 1024.
-const MOST: usize = 8;
-const MOST_POWERS: usize = 11;
-/// No measurement is greater, and none but 0 is nearer to 0.
-const LIMIT: f64 = 1e30;
-/// A range of a smaller part of its numbers is taken for none.
-const LEAST: f64 = 1e-6;
-/// So many steps, each greater than the one before, lead to two numbers on any axis.
-const TRIES: i32 = 100;
+/// Most ticks of an axis.
+const MAX_TICKS: usize = 8;
+/// Most ticks of an axis of powers of two: 1 to 1024.
+const MAX_LOG2_TICKS: usize = 11;
+/// Greatest number of an axis; its inverse is the least one that is not 0.
+const MAX_NUMBER: f64 = 1e30;
+/// Least width of a range, relative to its numbers.
+const MIN_RELATIVE_WIDTH: f64 = 1e-6;
+/// Number of step widths, each greater than the one before, after which any axis has two ticks.
+const STEP_WIDTHS: i32 = 100;
 
 impl Ruler {
-    /// The finest numbers that stand apart on an axis so long; `extent` is what a text takes of it.
+    /// Chooses the finest ticks whose texts do not touch on an axis of this length; `extent` returns the length of a
+    /// text.
     pub(crate) fn new(
         axis: &Axis,
         values: impl Iterator<Item = f64>,
@@ -64,20 +66,20 @@ impl Ruler {
     ) -> Self {
         let scale = axis.scale;
         let given = axis.range.filter(|&range| is_usable(scale, range));
-        let (from, to) = given.unwrap_or_else(|| needed(scale, values));
+        let (from, to) = given.unwrap_or_else(|| values_range(scale, values));
         let at = |i: i32| Self::with(Steps::nth(scale, from, to, i), scale, (from, to), given.is_some(), language);
-        let fits = |ruler: &Self| ruler.is_apart(length, &extent);
-        (0..TRIES).map(at).find(fits).unwrap_or_else(|| at(TRIES))
+        let fits = |ruler: &Self| ruler.fits(length, &extent);
+        (0..STEP_WIDTHS).map(at).find(fits).unwrap_or_else(|| at(STEP_WIDTHS))
     }
 
-    /// Where on the axis a number is: 0 at its beginning, 1 at its end; what is beyond has its place beyond, and what
-    /// no number of the scale is has none.
+    /// Position of a number on the axis: 0 at its beginning, 1 at its end, also beyond. `None` if the scale does not
+    /// have the number.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
-        let (from, to) = (self.scale.unrolled(self.from), self.scale.unrolled(self.to));
-        Some((self.scale.unrolled(value) - from) / (to - from)).filter(|place| place.is_finite())
+        let (from, to) = (self.scale.to_length(self.from), self.scale.to_length(self.to));
+        Some((self.scale.to_length(value) - from) / (to - from)).filter(|place| place.is_finite())
     }
 
-    /// The axis with these steps: a range that was given stays as it is if two of them are in it.
+    /// Creates the axis with these steps. A given range is kept if two ticks are in it.
     fn with(steps: Steps, scale: Scale, (from, to): (f64, f64), given: bool, language: Language) -> Self {
         let outer = steps.round(from, to);
         let inner: Vec<f64> = outer.iter().copied().filter(|value| (from..=to).contains(value)).collect();
@@ -89,8 +91,9 @@ impl Ruler {
         Self { scale, from, to, ticks }
     }
 
-    fn is_apart(&self, length: f32, extent: &impl Fn(&str) -> f32) -> bool {
-        let most = if self.scale == Scale::Log2 { MOST_POWERS } else { MOST };
+    /// Whether there are not too many ticks, and their texts do not touch.
+    fn fits(&self, length: f32, extent: &impl Fn(&str) -> f32) -> bool {
+        let most = if self.scale == Scale::Log2 { MAX_LOG2_TICKS } else { MAX_TICKS };
         let place = |tick: &Tick| self.place(tick.value).unwrap_or(0.0) as f32 * length;
         self.ticks.len() <= most
             && self
@@ -105,50 +108,51 @@ impl Scale {
         self != Self::Linear
     }
 
-    /// The number as a length, in any unit.
-    fn unrolled(self, value: f64) -> f64 {
+    /// Converts a number to a length, in any unit.
+    fn to_length(self, value: f64) -> f64 {
         if self.is_log() { value.log2() } else { value }
     }
 }
 
+/// Whether a range can be shown on a scale.
 fn is_usable(scale: Scale, (from, to): (f64, f64)) -> bool {
     let greatest = from.abs().max(to.abs());
-    let seen = if scale.is_log() { from >= 1.0 / LIMIT } else { greatest >= 1.0 / LIMIT };
-    seen && greatest <= LIMIT && to - from > LEAST * greatest
+    let seen = if scale.is_log() { from >= 1.0 / MAX_NUMBER } else { greatest >= 1.0 / MAX_NUMBER };
+    seen && greatest <= MAX_NUMBER && to - from > MIN_RELATIVE_WIDTH * greatest
 }
 
-/// From the least to the greatest of what can be on the scale.
-fn needed(scale: Scale, values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let least = if scale.is_log() { 1.0 / LIMIT } else { -LIMIT };
-    let seen = values.filter(|value| (least..=LIMIT).contains(value));
-    let start = if scale.is_log() { (LIMIT, 1.0 / LIMIT) } else { (0.0, 0.0) };
+/// Returns the least and the greatest value that the scale can show.
+fn values_range(scale: Scale, values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let least = if scale.is_log() { 1.0 / MAX_NUMBER } else { -MAX_NUMBER };
+    let seen = values.filter(|value| (least..=MAX_NUMBER).contains(value));
+    let start = if scale.is_log() { (MAX_NUMBER, 1.0 / MAX_NUMBER) } else { (0.0, 0.0) };
     let (from, to) = seen.fold(start, |(from, to), value| (value.min(from), value.max(to)));
     match scale {
-        Scale::Linear if to - from < 1.0 / LIMIT => (0.0, 1.0),
+        Scale::Linear if to - from < 1.0 / MAX_NUMBER => (0.0, 1.0),
         Scale::Log10 | Scale::Log2 if from > to => (1.0, 10.0),
         _ => (from, to),
     }
 }
 
-/// Round numbers.
+/// A sequence of round numbers.
 #[derive(Clone, Copy, Debug)]
 enum Steps {
-    /// Multiples of `digit` times ten to `power`.
+    /// Multiples of `digit` × 10^`power`.
     Even { digit: i64, power: i32 },
     /// 1, 2 and 5 times every power of ten.
     Thirds,
-    /// Every so many powers of ten.
+    /// Each power of ten whose exponent is a multiple of this.
     Tens(i64),
-    /// Every so many powers of two.
+    /// Each power of two whose exponent is a multiple of this.
     Twos(i64),
 }
 
 impl Steps {
-    /// The `i`-th steps for a range, each wider than the one before.
+    /// Returns the `i`-th steps for a range, each wider than the one before.
     fn nth(scale: Scale, from: f64, to: f64, i: i32) -> Self {
         match scale {
             Scale::Linear => {
-                let power = ((to - from) / MOST as f64).log10().floor() as i32 + i / 3;
+                let power = ((to - from) / MAX_TICKS as f64).log10().floor() as i32 + i / 3;
                 Self::Even { digit: [1, 2, 5][(i % 3) as usize], power }
             }
             Scale::Log10 if i == 0 => Self::Thirds,
@@ -157,7 +161,8 @@ impl Steps {
         }
     }
 
-    /// The round numbers from the last that is not above `from` to the first that is not below `to`, two at least.
+    /// Returns the round numbers from the last that is not above `from` to the first that is not below `to`, two at
+    /// least.
     fn round(self, from: f64, to: f64) -> Vec<f64> {
         let index = |value: f64| match self {
             Self::Even { digit, power } => value / tenfold(digit, power),
@@ -165,7 +170,7 @@ impl Steps {
             Self::Tens(every) => value.log10() / every as f64,
             Self::Twos(every) => value.log2() / every as f64,
         };
-        // Two more at each end than needed, since thirds are not even and logarithms are rounded.
+        // Two more at each end, since thirds are not even and logarithms are rounded.
         let (first, last) = (index(from).floor() as i64 - 2, index(to).ceil() as i64 + 2);
         let mut values: Vec<f64> = (first..=last).map(|i| self.value(i)).collect();
         let below = values.iter().filter(|value| **value <= from).count().saturating_sub(1);
@@ -184,7 +189,7 @@ impl Steps {
         }
     }
 
-    /// The number in words: plain digits where they are few.
+    /// Writes a tick's number.
     fn text(self, value: f64, language: Language) -> String {
         let own = value.abs().log10().floor() as i32;
         let power = match self {
@@ -195,25 +200,11 @@ impl Steps {
             Self::Twos(_) if (1.0..1e9).contains(&value) => 0,
             Self::Twos(_) => own - 1,
         };
-        let sign = if value < 0.0 { "−" } else { "" };
-        let value = value.abs();
-        if value >= 1e9 || power < -4 {
-            let digits = format!("{value:.*e}", (own - power).clamp(0, 9) as usize);
-            let (digits, exponent) = digits.split_at(digits.find('e').unwrap_or(digits.len()));
-            return comma(language, format!("{sign}{}{exponent}", trimmed(digits)));
-        }
-        let digits = format!("{value:.*}", (-power).max(0) as usize);
-        let (whole, decimals) = trimmed(&digits).split_at(digits.find('.').unwrap_or(digits.len()));
-        comma(language, format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
+        number_to_power(value, power, language)
     }
 }
 
-/// Decimals without zeros at their end.
-fn trimmed(digits: &str) -> &str {
-    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
-}
-
-/// `digits` times ten to `power`, rounded once while both can be written exactly.
+/// Returns `digits` × 10^`power`, rounded once as long as both factors are exact.
 fn tenfold(digits: i64, power: i32) -> f64 {
     if power < 0 { digits as f64 / 10f64.powi(-power) } else { digits as f64 * 10f64.powi(power) }
 }
@@ -232,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_those_that_people_would_write() {
+    fn ticks_are_round_numbers() {
         let language = Language::English;
         assert_eq!(texts(Scale::Linear, None, &[0.2, 0.97], language), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
         assert_eq!(texts(Scale::Linear, Some((0.0, 1.0)), &[], language), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
@@ -250,14 +241,14 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_of_nothing_has_numbers_too() {
+    fn axis_without_values_has_ticks() {
         let language = Language::English;
         assert_eq!(texts(Scale::Linear, None, &[f64::NAN, f64::INFINITY], language)[..2], ["0", "0.2"]);
         assert_eq!(texts(Scale::Log2, Some((-1.0, f64::NAN)), &[0.0], language), ["1", "2", "4", "8", "16"]);
         assert_eq!(texts(Scale::Log10, Some((7.0, 7.0)), &[100.0], language), ["100", "200"]);
     }
 
-    /// Numbers of every magnitude, some that are none, and often of one magnitude.
+    /// Numbers of all magnitudes, some of them not finite, and often of one magnitude.
     fn numbers() -> impl Strategy<Value = Vec<f64>> {
         let one = prop_oneof![
             8 => (-1.0..1.0f64, -9..12i32).prop_map(|(digits, power)| digits * 10f64.powi(power)),
@@ -272,7 +263,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn ticks_ascend_stand_apart_and_are_few(
+        fn ticks_ascend_and_do_not_touch(
             scale in scales(), values in numbers(), given in any::<bool>(), length in 150.0..1500.0f32, letter in 5.0..10.0f32,
         ) {
         let language = Language::English;
@@ -280,7 +271,7 @@ mod tests {
             let axis = Axis { range, scale, ..Axis::default() };
             let extent = |text: &str| letter * text.chars().count() as f32;
             let ruler = Ruler::new(&axis, values.iter().copied(), length, extent, language);
-            let most = if scale == Scale::Log2 { MOST_POWERS } else { MOST };
+            let most = if scale == Scale::Log2 { MAX_LOG2_TICKS } else { MAX_TICKS };
             prop_assert!((2..=most).contains(&ruler.ticks.len()), "{ruler:?}");
             let places: Vec<f32> = ruler
                 .ticks
@@ -296,12 +287,12 @@ mod tests {
         }
 
         #[test]
-        fn ticks_cover_what_is_seen(scale in scales(), values in numbers()) {
+        fn ticks_cover_the_values(scale in scales(), values in numbers()) {
         let language = Language::English;
             let axis = Axis { scale, ..Axis::default() };
             let ruler = Ruler::new(&axis, values.iter().copied(), 600.0, |_| 10.0, language);
             let [first, .., last] = &ruler.ticks[..] else { panic!("an axis has two ends: {ruler:?}") };
-            let is_seen = |value: &&f64| (1.0 / LIMIT..=LIMIT).contains(&if scale.is_log() { **value } else { value.abs() });
+            let is_seen = |value: &&f64| (1.0 / MAX_NUMBER..=MAX_NUMBER).contains(&if scale.is_log() { **value } else { value.abs() });
             for &value in values.iter().filter(is_seen) {
                 prop_assert!((first.value..=last.value).contains(&value), "{value} is not in {ruler:?}");
                 let place = ruler.place(value).expect("it is on the axis");
@@ -310,7 +301,7 @@ mod tests {
         }
 
         #[test]
-        fn a_range_that_is_given_is_kept(from in -1e6..1e6f64, more in 1.0..1e6f64) {
+        fn given_range_is_kept(from in -1e6..1e6f64, more in 1.0..1e6f64) {
         let language = Language::English;
             let axis = Axis { range: Some((from, from + more)), ..Axis::default() };
             let ruler = Ruler::new(&axis, [1e9].into_iter(), 600.0, |_| 10.0, language);

@@ -1,127 +1,130 @@
-//! Charts of measurements: what is known of them, and a display list.
+//! Line charts: measurements over a quantity that was varied.
 
 use super::axis::{Axis, Ruler};
-use super::frame::{ChartFrame, ChartHeading, DASHES, DOTTED, LINE, width_of_name};
+use super::frame::{ChartFrame, ChartHeading, DASHES, DOTTED, LINE_HEIGHT, width_of_name};
 use crate::language::Language;
 use crate::palette::CHART_NODES;
 use crate::view::draw::display_list::{Hue, Mark, Point};
 use crate::view::draw::polyline::{clipped, is_inside, spread};
 
-/// The size of a chart on a slide.
+/// Size of a chart on a slide.
 pub const CHART_SIZE: Point = [960.0, 540.0];
 
-/// The least height of a chart without a title.
-pub const LEAST_HIGH: f32 = ChartFrame::LEAST[1];
+/// Least height of a chart without a title.
+pub const MIN_CHART_HEIGHT: f32 = ChartFrame::MIN_SIZE[1];
 
-/// Measurements over something that was varied.
+/// A line chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineChart {
-    /// What it is about.
+    /// Title.
     pub title: String,
-    /// What is to be seen in it, in one line; may be empty.
+    /// A line below the title; may be empty.
     pub note: String,
-    /// What was varied.
+    /// Axis of the varied quantity.
     pub x: Axis,
-    /// What was measured.
+    /// Axis of the measured quantity.
     pub y: Axis,
     /// The measurements.
     pub series: Vec<Series>,
 }
 
-/// Points that belong together.
+/// A series of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What they are of.
+    /// Name.
     pub name: String,
-    /// Their colour: see [`series_hue`].
+    /// Colour, from [`series_hue`].
     pub hue: Hue,
-    /// What was varied, and what came of it. A point that an axis cannot show is left out, and the line is broken there.
+    /// Varied and measured values. A point that an axis cannot show is left out, and the line is broken there.
     pub points: Vec<(f64, f64)>,
-    /// How they are drawn.
+    /// Style.
     pub style: Style,
 }
 
-/// How a series is drawn.
+/// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// A line with a dot at every point: measurements.
     #[default]
     Line,
-    /// Dots that nothing connects.
+    /// Dots without a line.
     Dots,
-    /// The same, hollow: somebody else's measurements beside ours.
+    /// Hollow dots without a line: somebody else's measurements beside ours.
     Hollow,
-    /// A dashed line: what theory says, a bound, somebody else's figures.
+    /// A dashed line: a theory, a bound, somebody else's figures.
     Dashed,
 }
 
-/// The colour of the `i`-th series of a chart; from the ninth on they repeat. It is that of a node in a ring of
-/// [`crate::palette::DISTINCT_COLOURS`].
+/// Returns the colour of the `i`-th series of a chart: that of a node in a ring of [`crate::palette::DISTINCT_COLOURS`]. From
+/// the ninth on colours repeat.
 pub fn series_hue(i: usize) -> Hue {
     Hue::Node(CHART_NODES[i % CHART_NODES.len()])
 }
 
-/// With more series than this, names stand in a legend and not where the lines end.
-const NAMED: usize = 8;
-/// The most of the width that names at the lines' ends take.
-const NAMES: f32 = 0.34;
-/// How broad lines are, and how large dots.
-const BROAD: f32 = 3.0;
-const THIN: f32 = 2.5;
-const DOT: f32 = 5.0;
-/// Between the plot and the names.
-const ASIDE: f32 = 16.0;
-/// How thick the line of a hollow dot is.
-const HOLLOW: f32 = 2.0;
+/// Most series whose names are written at the ends of their lines; more of them have a legend.
+const MAX_NAMED_SERIES: usize = 8;
+/// Greatest part of the width that names at the ends of lines take.
+const MAX_NAMES_WIDTH: f32 = 0.34;
+/// Width of lines of measurements.
+const LINE_WIDTH: f32 = 3.0;
+/// Width of dashed lines.
+const DASHED_WIDTH: f32 = 2.5;
+/// Radius of dots.
+const DOT_RADIUS: f32 = 5.0;
+/// Space between the plot and the names.
+const NAME_DISTANCE: f32 = 16.0;
+/// Thickness of the line of a hollow dot.
+const HOLLOW_WIDTH: f32 = 2.0;
 
 impl LineChart {
-    /// The chart as a display list whose corner is at 0, 0; it needs 480 × 360 at least, without a title [`LEAST_HIGH`].
+    /// Draws the chart with its corner at 0, 0. It needs 480 × 360 at least, or a height of [`MIN_CHART_HEIGHT`]
+    /// without a title.
     pub fn marks(&self, size: Point, language: Language) -> Vec<Mark> {
-        let are_named = self.series.len() <= NAMED;
+        let are_named = self.series.len() <= MAX_NAMED_SERIES;
         let legend: Vec<_> = self.series.iter().map(|series| (&*series.name, series.hue)).collect();
         let names = self.series.iter().map(|series| width_of_name(&series.name)).fold(0.0, f32::max);
-        let aside = if are_named && names > 0.0 { ASIDE + names.min(NAMES * size[0]) } else { 0.0 };
+        let aside = if are_named && names > 0.0 { NAME_DISTANCE + names.min(MAX_NAMES_WIDTH * size[0]) } else { 0.0 };
         let legend = if are_named { &[] } else { &legend[..] };
-        let below = if self.x.label.is_empty() { 1 } else { 2 };
-        let words = ChartHeading { title: &self.title, note: &self.note, legend, below };
+        let lines_below = if self.x.label.is_empty() { 1 } else { 2 };
+        let heading = ChartHeading { title: &self.title, note: &self.note, legend, lines_below };
         let points = || self.series.iter().flat_map(|series| series.points.iter().copied());
         let (from, to) = self.x.range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let heights = points().filter(|(x, _)| (from..=to).contains(x)).map(|(_, y)| y);
-        let (mut sheet, y) = ChartFrame::new(size, &words, &self.y, heights, aside, language);
-        let x = sheet.columns(&self.x, points().map(|(x, _)| x), language);
-        let ends: Vec<_> = self.series.iter().map(|series| series.draw(&mut sheet, &x, &y)).collect();
+        let (mut frame, y) = ChartFrame::new(size, &heading, &self.y, heights, aside, language);
+        let x = frame.columns(&self.x, points().map(|(x, _)| x), language);
+        let ends: Vec<_> = self.series.iter().map(|series| series.draw(&mut frame, &x, &y)).collect();
         if are_named {
-            self.put_names(&mut sheet, &ends);
+            self.draw_names(&mut frame, &ends);
         }
-        sheet.marks
+        frame.marks
     }
 
-    /// Each name beside the end of its line, or dots that lead from there to its name.
-    fn put_names(&self, sheet: &mut ChartFrame, ends: &[Option<Point>]) {
+    /// Writes each name beside the end of its line, or joins both with a dotted line.
+    fn draw_names(&self, frame: &mut ChartFrame, ends: &[Option<Point>]) {
         let all = self.series.iter().zip(ends).filter(|(series, _)| !series.name.is_empty());
         let named: Vec<_> = all.filter_map(|(series, end)| Some((series, (*end)?))).collect();
         let heights: Vec<f32> = named.iter().map(|(_, end)| end[1]).collect();
-        let places = spread(&heights, LINE, sheet.top, sheet.bottom);
-        let x = sheet.right + ASIDE;
+        let places = spread(&heights, LINE_HEIGHT, frame.top, frame.bottom);
+        let x = frame.right + NAME_DISTANCE;
         for ((series, end), y) in named.into_iter().zip(places) {
-            if (x - ASIDE - end[0]).hypot(y - end[1]) > LINE / 2.0 {
-                let bend = [x - ASIDE / 2.0, end[1]];
-                sheet.dashed(&[[end[0] + DOT, end[1]], bend, [x - 3.0, y]], DOTTED, 1.5, series.hue.full());
+            if (x - NAME_DISTANCE - end[0]).hypot(y - end[1]) > LINE_HEIGHT / 2.0 {
+                let bend = [x - NAME_DISTANCE / 2.0, end[1]];
+                frame.dashed(&[[end[0] + DOT_RADIUS, end[1]], bend, [x - 3.0, y]], DOTTED, 1.5, series.hue.full());
             }
-            sheet.name([x, y], &series.name, series.hue, sheet.room_from(x));
+            frame.name([x, y], &series.name, series.hue, frame.room_from(x));
         }
     }
 }
 
 impl Series {
-    /// Draws the series and gives its last point that is seen.
-    fn draw(&self, sheet: &mut ChartFrame, x: &Ruler, y: &Ruler) -> Option<Point> {
+    /// Draws the series and returns its last visible point.
+    fn draw(&self, frame: &mut ChartFrame, x: &Ruler, y: &Ruler) -> Option<Point> {
         let place = |&(u, v): &(f64, f64)| Some([x.place(u)?, y.place(v)?]);
         let places: Vec<_> = self.points.iter().map(place).collect();
         let lines: Vec<Vec<Point>> =
-            clipped(&places).iter().map(|line| line.iter().map(|&place| sheet.at(place)).collect()).collect();
+            clipped(&places).iter().map(|line| line.iter().map(|&place| frame.at(place)).collect()).collect();
         let inside = places.iter().flatten().filter(|&&place| is_inside(place));
-        let dots: Vec<Point> = inside.map(|&place| sheet.at(place)).collect();
+        let dots: Vec<Point> = inside.map(|&place| frame.at(place)).collect();
         let end = match self.style {
             Style::Line | Style::Dashed => lines.last().and_then(|line| line.last()),
             Style::Dots | Style::Hollow => dots.last(),
@@ -129,15 +132,15 @@ impl Series {
         let (end, ink) = (end.copied(), self.hue.full());
         let disc = |centre, radius, ink| Mark::Disc { centre, radius, ink };
         match self.style {
-            Style::Line => lines.into_iter().for_each(|line| sheet.line(line, BROAD, ink)),
-            Style::Dashed => lines.iter().for_each(|line| sheet.dashed(line, DASHES, THIN, ink)),
+            Style::Line => lines.into_iter().for_each(|line| frame.line(line, LINE_WIDTH, ink)),
+            Style::Dashed => lines.iter().for_each(|line| frame.dashed(line, DASHES, DASHED_WIDTH, ink)),
             Style::Dots | Style::Hollow => {}
         }
         if self.style != Style::Dashed {
-            sheet.marks.extend(dots.iter().map(|&centre| disc(centre, DOT, ink)));
+            frame.marks.extend(dots.iter().map(|&centre| disc(centre, DOT_RADIUS, ink)));
         }
         if self.style == Style::Hollow {
-            sheet.marks.extend(dots.iter().map(|&centre| disc(centre, DOT - HOLLOW, Hue::Ground.full())));
+            frame.marks.extend(dots.iter().map(|&centre| disc(centre, DOT_RADIUS - HOLLOW_WIDTH, Hue::Ground.full())));
         }
         end
     }
@@ -188,25 +191,25 @@ mod tests {
 
     proptest! {
         #[test]
-        fn words_are_inside_and_apart(chart in charts(0..9), width in 480.0..1600.0f32, height in 360.0..1000.0f32) {
+        fn texts_are_inside_and_do_not_touch(chart in charts(0..9), width in 480.0..1600.0f32, height in 360.0..1000.0f32) {
         let language = Language::English;
             check_words(&chart.marks([width, height], language), [width, height])?;
         }
 
         #[test]
-        fn without_a_title_less_is_enough(chart in charts(0..6), width in 480.0..1600.0f32) {
+        fn chart_without_a_title_needs_less_height(chart in charts(0..6), width in 480.0..1600.0f32) {
         let language = Language::English;
-            check_words(&LineChart { title: String::new(), ..chart }.marks([width, LEAST_HIGH], language), [width, LEAST_HIGH])?;
+            check_words(&LineChart { title: String::new(), ..chart }.marks([width, MIN_CHART_HEIGHT], language), [width, MIN_CHART_HEIGHT])?;
         }
 
         #[test]
-        fn a_legend_is_inside_too(chart in charts(9..14)) {
+        fn legend_is_inside(chart in charts(9..14)) {
         let language = Language::English;
             check_words(&chart.marks(CHART_SIZE, language), CHART_SIZE)?;
         }
 
         #[test]
-        fn all_that_is_in_range_is_drawn_in_the_plot(mut chart in charts(1..9), x in even_axes(), y in even_axes()) {
+        fn points_in_range_are_drawn_in_the_plot(mut chart in charts(1..9), x in even_axes(), y in even_axes()) {
         let language = Language::English;
             let is_seen = |axis: &Axis, value| axis.range.is_some_and(|(from, to)| from <= value && value <= to);
             let points = chart.series.iter().flat_map(|series| &series.points);
@@ -217,7 +220,7 @@ mod tests {
             let dots = dots(&marks);
             prop_assert_eq!(dots.len(), seen);
             let lines = marks.iter().filter_map(|mark| match mark {
-                Mark::Line { points, width, .. } if *width == BROAD => Some(points),
+                Mark::Line { points, width, .. } if *width == LINE_WIDTH => Some(points),
                 _ => None,
             });
             for [x, y] in dots.iter().chain(lines.flatten()) {
@@ -228,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_where_their_numbers_say() {
+    fn points_are_at_their_values() {
         let language = Language::English;
         let (x, y) = (Axis { scale: Scale::Log2, ..Axis::default() }, Axis::default());
         let points = vec![(1.0, 0.0), (32.0, 1.0), (1024.0, 2.0), (2.0, f64::NAN), (0.0, 1.0)];

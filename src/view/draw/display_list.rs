@@ -1,69 +1,69 @@
-//! A display list: what is to be drawn, without a word on how.
+//! Display lists: marks to be drawn, for the window, SVG and films.
 
 use crate::balance::NodeId;
 use crate::palette::Rgb;
 
-/// A place in the picture: x to the right, y down, in the units of the size that the list was made for.
+/// A point of a drawing: x to the right, y down, in the units of the size that the list was made for.
 pub type Point = [f32; 2];
 
-/// One thing to be drawn; later ones lie on top.
+/// One thing to be drawn. Later marks lie on top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
     /// A filled circle.
     Disc {
-        /// Its middle.
+        /// The centre.
         centre: Point,
-        /// Its radius.
+        /// The radius.
         radius: f32,
-        /// Its colour.
+        /// The colour.
         ink: Ink,
     },
     /// A filled box with round corners.
     Box {
-        /// Its middle.
+        /// The centre.
         centre: Point,
-        /// Half its width and height.
+        /// Half the width and half the height.
         half: Point,
-        /// Radius of its corners.
+        /// Radius of the corners.
         round: f32,
-        /// Its colour.
+        /// The colour.
         ink: Ink,
     },
     /// A line through points.
     Line {
         /// At least two points.
         points: Vec<Point>,
-        /// How broad the line is.
+        /// Width of the line.
         width: f32,
-        /// Its colour.
+        /// The colour.
         ink: Ink,
     },
-    /// A line that grows from nothing at its first point to `width` at its last.
+    /// A line whose width grows from 0 at its first point to `width` at its last.
     Trail {
         /// At least two points.
         points: Vec<Point>,
-        /// How broad it is at its head.
+        /// Width at the last point.
         width: f32,
-        /// Its colour at its head.
+        /// The colour at the last point.
         ink: Ink,
     },
     /// Text on one line.
     Label {
-        /// Where it stands.
+        /// The anchor's position.
         at: Point,
-        /// What of it stands there.
+        /// Which point of the text is at `at`.
         anchor: Anchor,
-        /// What it says.
+        /// The text.
         text: String,
-        /// How large it is.
+        /// The size of the text.
         size: TextSize,
-        /// Its colour.
+        /// The colour.
         ink: Ink,
     },
 }
 
 impl Mark {
-    /// The same, so far to the right and down.
+    /// Moves the mark to the right and down.
     pub(crate) fn moved(mut self, [right, down]: Point) -> Self {
         let shift = |[x, y]: &mut Point| (*x, *y) = (*x + right, *y + down);
         match &mut self {
@@ -75,30 +75,30 @@ impl Mark {
     }
 }
 
-/// Which point of a text its place names; it is always the middle of its height.
+/// Point of a text that is at a label's position, always at the middle of its height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its left end.
+    /// The left end.
     Left,
-    /// Its middle.
+    /// The middle.
     Centre,
-    /// Its right end.
+    /// The right end.
     Right,
 }
 
-/// How large text is.
+/// Size of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextSize {
-    /// For what stands beside something, so many times its usual size.
+    /// A label beside something, as a multiple of [`TextSize::SMALL`].
     Small(f32),
-    /// For what is read, so many times its usual size.
+    /// A text to be read, as a multiple of [`TextSize::BODY`].
     Body(f32),
-    /// In the units of the list: for text that has to fit a shape.
+    /// A text that has to fit a shape, in the units of the list.
     Fit(f32),
 }
 
 impl Anchor {
-    /// The left end of a text of `width` whose place is `x`.
+    /// Left end of a text of `width` whose anchor is at `x`.
     pub fn left(self, x: f32, width: f32) -> f32 {
         match self {
             Self::Left => x,
@@ -109,12 +109,12 @@ impl Anchor {
 }
 
 impl TextSize {
-    /// The usual size of what stands beside something, in the units of the list.
+    /// Usual size of labels, in the units of the list.
     pub const SMALL: f32 = 13.0;
-    /// The usual size of what is read.
+    /// Usual size of texts to be read, in the units of the list.
     pub const BODY: f32 = 16.0;
 
-    /// The size in the units of the list, if the usual sizes are these.
+    /// The size in the units of the list.
     pub fn units(self) -> f32 {
         match self {
             Self::Small(times) => Self::SMALL * times,
@@ -123,54 +123,54 @@ impl TextSize {
         }
     }
 
-    /// How high a line is.
+    /// Height of a line.
     pub(crate) fn line(self) -> f32 {
         1.2 * self.units()
     }
 
-    /// How broad so many letters are, rather too broad than too narrow.
+    /// Width of a number of letters, estimated rather too large than too small.
     pub(crate) fn width(self, letters: usize) -> f32 {
         0.6 * self.units() * letters as f32
     }
 }
 
-/// A colour's name and how much of it is seen.
+/// A colour's name and its opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ink {
-    /// Which colour.
+    /// The colour.
     pub hue: Hue,
-    /// From 0 (nothing) to 1.
+    /// Opacity, 0 to 1.
     pub alpha: f32,
 }
 
-/// Colours by what they are for, so that a theme can choose them.
+/// A colour by its purpose, so that a theme can choose it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hue {
     /// A node's own colour.
     Node(NodeId),
-    /// What can be read on a node's own colour.
+    /// Text on a node's own colour.
     OnNode(NodeId),
     /// Text.
     Text,
     /// Text that explains.
     Quiet,
-    /// What was chosen.
+    /// Something selected.
     Accent,
-    /// Lines that order.
+    /// Lines of a grid.
     Hairline,
-    /// What everything lies on.
+    /// The background.
     Ground,
-    /// A colour that is itself what is told: a material's, or that of light.
-    Told(Rgb),
+    /// A given colour that no theme changes: of a material, or of light.
+    Fixed(Rgb),
 }
 
 impl Hue {
-    /// The colour, fully seen.
+    /// The colour, opaque.
     pub fn full(self) -> Ink {
         Ink { hue: self, alpha: 1.0 }
     }
 
-    /// The colour, only partly seen.
+    /// The colour with an opacity, 0 to 1.
     pub fn faint(self, alpha: f32) -> Ink {
         Ink { hue: self, alpha }
     }

@@ -1,4 +1,4 @@
-//! What is drawn, as data: marks, inks, polylines.
+//! Drawings as data: marks, inks, polylines.
 
 pub mod display_list;
 pub mod polyline;

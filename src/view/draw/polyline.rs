@@ -1,17 +1,17 @@
-//! Lines cut to what is seen of them, lines in pieces, and what is pushed apart.
+//! Polylines: clipping, dashes, and spreading of labels.
 
 use super::display_list::Point;
 
-/// Nothing that is farther away than this, in sizes of the plot, changes what is seen of a line.
-const FAR: f64 = 1e6;
+/// Farthest coordinate, in sizes of the plot: beyond it a point's distance does not change the visible part of a line.
+const MAX_COORDINATE: f64 = 1e6;
 
-/// What is seen of a line through places in a plot whose corners are 0, 0 and 1, 1. It is broken where a place is
-/// missing; a place that has no neighbours is a line of one point.
+/// Clips a line through points to a plot with the corners 0, 0 and 1, 1. The line is broken where a point is missing; a
+/// point without neighbours is a line of one point.
 pub(crate) fn clipped(places: &[Option<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
     let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut before = None;
     for place in places {
-        let place = place.map(|place| place.map(|v| v.clamp(-FAR, FAR)));
+        let place = place.map(|place| place.map(|v| v.clamp(-MAX_COORDINATE, MAX_COORDINATE)));
         let seen = match (before, place) {
             (Some(from), Some(to)) => clip(from, to),
             (None, Some(lone)) => is_inside(lone).then_some((lone, lone)),
@@ -29,12 +29,12 @@ pub(crate) fn clipped(places: &[Option<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
     lines
 }
 
-/// Whether a place is in the plot.
+/// Whether a point is in the plot.
 pub(crate) fn is_inside(place: [f64; 2]) -> bool {
     place.iter().all(|v| (0.0..=1.0).contains(v))
 }
 
-/// The part of a straight line that is in the plot (Liang and Barsky 1984).
+/// Clips a straight line to the plot (Liang and Barsky 1984).
 fn clip(from: [f64; 2], to: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for axis in 0..2 {
@@ -56,7 +56,7 @@ fn clip(from: [f64; 2], to: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
     (start <= end).then(|| (at(start), at(end)))
 }
 
-/// A line in pieces of length `dash`, `gap` apart.
+/// Cuts a line into pieces of length `dash`, `gap` apart.
 pub(crate) fn dashes(points: &[Point], dash: f32, gap: f32) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     let mut piece: Vec<Point> = points.first().copied().into_iter().collect();
@@ -87,13 +87,13 @@ pub(crate) fn dashes(points: &[Point], dash: f32, gap: f32) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// The places nearest to those wanted (least squares) that are in the same order, at least `apart` from each other,
-/// and from `from` to `to` as far as there is room.
+/// Returns the positions nearest to those wanted (least squares) that have the same order, a distance of at least
+/// `apart`, and lie between `from` and `to` as far as there is room.
 pub(crate) fn spread(wanted: &[f32], apart: f32, from: f32, to: f32) -> Vec<f32> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by(|&i, &j| wanted[i].total_cmp(&wanted[j]));
-    // Without the distances between them, places that may not change their order: neighbours that would are put at
-    // their mean.
+    // After subtracting the distances this is isotonic regression: neighbours in the wrong order are put at their mean
+    // (pool adjacent violators).
     let mut groups: Vec<(f32, usize)> = Vec::new();
     for (rank, &i) in order.iter().enumerate() {
         let mut group = (wanted[i] - rank as f32 * apart, 1);
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_is_cut_where_it_leaves_the_plot() {
+    fn line_is_clipped_to_the_plot() {
         let places =
             [Some([0.5, 0.5]), Some([0.5, 1.5]), None, Some([2.0, 0.5]), Some([-1.0, 0.5]), None, Some([0.1, 0.2])];
         let lines = [vec![[0.5, 0.5], [0.5, 1.0]], vec![[1.0, 0.5], [0.0, 0.5]], vec![[0.1, 0.2]]];
@@ -135,14 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn what_wants_one_place_is_spread_round_it() {
+    fn labels_at_one_position_are_spread_round_it() {
         assert_eq!(spread(&[50.0, 50.0, 10.0], 20.0, 0.0, 100.0), [40.0, 60.0, 10.0]);
         assert_eq!(spread(&[99.0, 98.0], 20.0, 0.0, 100.0), [100.0, 80.0]);
     }
 
     proptest! {
         #[test]
-        fn all_that_is_seen_is_inside_and_all_that_is_inside_is_seen(
+        fn clipped_line_has_exactly_the_points_inside(
             places in prop::collection::vec(prop::option::weighted(0.9, [-1.0..2.0f64, -1.0..2.0f64]), 0..20),
         ) {
             let lines = clipped(&places);
@@ -153,7 +153,7 @@ mod tests {
         }
 
         #[test]
-        fn what_is_spread_keeps_its_order_its_distance_and_its_bounds(
+        fn spread_keeps_order_distance_and_bounds(
             wanted in prop::collection::vec(-50.0..350.0f32, 0..9), apart in 1.0..30.0f32,
         ) {
             let places = spread(&wanted, apart, 0.0, 300.0);

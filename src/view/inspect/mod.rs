@@ -1,7 +1,7 @@
-//! One pixel: what made its colour and what took its time. The tree of its rays is the article's Figure 3, the spans along
-//! one of them are its Figure 2, and the terms are those of its equation (§3).
+//! The inspector: why a pixel has its colour, and why it takes its time. It shows the tree of rays (the article's
+//! Figure 3), the spans along a ray (Figure 2), and the terms of the equation (§3).
 
-mod format;
+mod phrases;
 mod rays;
 mod spans;
 mod terms;
@@ -23,38 +23,38 @@ pub use rays::{RaySpot, RayTree};
 pub use spans::SpanPlot;
 pub use terms::{Term, Terms};
 
-/// A pixel and all that is known of it, and one of its rays, which is looked at more closely.
+/// An inspected pixel, and the one of its rays that is shown in detail.
 #[derive(Clone, Debug)]
 pub struct Inspected {
-    /// Its column and its row, from 0 in the upper left corner.
-    pub place: [u32; 2],
-    /// Its samples; one at least.
+    /// Column and row, from 0 at the upper left corner.
+    pub pixel: [u32; 2],
+    /// Samples; one at least.
     pub samples: Arc<[ExplainedSample]>,
-    /// What it took.
+    /// Numbers of rays.
     pub rays: RayCounts,
-    /// The ray that is looked at.
+    /// The chosen ray.
     pub chosen: ChosenRay,
-    /// What this ray passes: the root of each solid, and the stays in it and in what it is made of.
-    pub figures: Vec<(RootId, SpanDiagram)>,
+    /// Solids on the chosen ray: the root of each, and the spans of the solid and of its operands.
+    pub diagrams: Vec<(RootId, SpanDiagram)>,
     materials: Arc<[(String, Material)]>,
     lights: usize,
 }
 
-/// A ray of a pixel.
+/// Position of a ray among those of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChosenRay {
-    /// Its sample.
+    /// Index of the sample.
     pub sample: usize,
-    /// Its number among the sample's rays; 0 is the primary ray.
+    /// Index among the sample's rays; 0 is the primary ray.
     pub ray: usize,
 }
 
 impl Inspected {
-    /// Traces a pixel of the picture once more and looks at it; nothing if there is no such pixel. `scene` is the one that
-    /// `tracer` was made of.
-    pub fn new(tracer: &Tracer, scene: &Scene, place: [u32; 2]) -> Option<Self> {
+    /// Traces a pixel once more and notes its rays. `scene` is the one that `tracer` was compiled from. `None` if the
+    /// picture does not have the pixel.
+    pub fn new(tracer: &Tracer, scene: &Scene, pixel: [u32; 2]) -> Option<Self> {
         let size = tracer.size();
-        let [x, y] = place;
+        let [x, y] = pixel;
         if x >= size.width() || y >= size.height() {
             return None;
         }
@@ -63,49 +63,50 @@ impl Inspected {
         let materials = scene.names.iter().cloned().zip(scene.materials.iter().copied()).collect();
         let (rays, lights) = (scratch.rays, scene.lights.len());
         let chosen = ChosenRay { sample: samples.iter().position(|sample| sample.counts)?, ray: 0 };
-        let unseen = Self { place, samples, rays, chosen, figures: Vec::new(), materials, lights };
-        unseen.choose(tracer, chosen)
+        let inspected = Self { pixel, samples, rays, chosen, diagrams: Vec::new(), materials, lights };
+        inspected.choose(tracer, chosen)
     }
 
-    /// The same pixel, seen along another of its rays; nothing if it has no such ray.
+    /// Returns the pixel with another chosen ray; `None` if it does not have that ray.
     pub fn choose(&self, tracer: &Tracer, chosen: ChosenRay) -> Option<Self> {
         let ray = self.samples.get(chosen.sample)?.rays.get(chosen.ray)?;
-        let figures = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
-        Some(Self { chosen, figures, ..self.clone() })
+        let diagrams = tracer.span_diagrams(&ray.path.ray, ray.path.start, ray.path.to);
+        Some(Self { chosen, diagrams, ..self.clone() })
     }
 
-    /// Its colour in linear light.
+    /// Colour of the pixel in linear light.
     pub fn colour(&self) -> DVec3 {
         ExplainedSample::mean(&self.samples)
     }
 
-    /// The sample that is looked at.
+    /// Sample of the chosen ray.
     pub fn sample(&self) -> &ExplainedSample {
         &self.samples[self.chosen.sample]
     }
 
-    /// The ray that is looked at.
+    /// The chosen ray.
     pub fn ray(&self) -> &ExplainedRay {
         &self.sample().rays[self.chosen.ray]
     }
 
-    /// What a material is called, if it has a name.
+    /// Name of a material, if it has one.
     fn name(&self, tag: MaterialTag) -> Option<&str> {
         self.materials.get(tag.index()).map(|(name, _)| &**name).filter(|name| !name.is_empty())
     }
 
+    /// A material; the default one for an unknown tag.
     fn material(&self, tag: MaterialTag) -> Material {
         self.materials.get(tag.index()).map(|(_, material)| *material).unwrap_or_default()
     }
 
-    /// What a ray met, in a word or two.
-    fn what(&self, ray: &ExplainedRay, language: Language) -> &str {
+    /// Name of the material that a ray met.
+    fn met_name(&self, ray: &ExplainedRay, language: Language) -> &str {
         let nameless = word!(language, "a solid without a material", "um sólido sem material");
         ray.met.map_or(word!(language, "nothing", "nada"), |met| self.name(met.tag).unwrap_or(nameless))
     }
 
-    /// The colour of what a ray met, as it is shown.
-    fn colour_of(&self, ray: &ExplainedRay) -> Rgb {
+    /// Colour of the material that a ray met, in sRGB.
+    fn met_colour(&self, ray: &ExplainedRay) -> Rgb {
         match ray.met {
             Some(met) => shown(self.material(met.tag).colour),
             None => shown(ray.ambient),
@@ -113,40 +114,40 @@ impl Inspected {
     }
 }
 
-/// Linear light as it is shown.
+/// Converts linear light to sRGB.
 fn shown(colour: DVec3) -> Rgb {
     srgb8(colour.as_vec3().to_array())
 }
 
-/// How bright it is (Rec. ITU-R BT.709), in linear light.
+/// Luminance of linear light (Rec. ITU-R BT.709).
 fn brightness(colour: DVec3) -> f64 {
     colour.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// A line of the usual small text.
+/// Size of the inspector's texts.
 const SMALL: TextSize = TextSize::Small(1.0);
 
 fn label(at: Point, anchor: Anchor, text: impl Into<String>, hue: Hue) -> Mark {
     Mark::Label { at, anchor, text: text.into(), size: SMALL, ink: hue.full() }
 }
 
-/// A box of a colour with an edge that is seen on every ground.
+/// Draws a box of a colour with an edge that is visible on every ground.
 fn swatch(centre: Point, half: Point, colour: Rgb) -> [Mark; 2] {
     let part = |by: f32, colour| {
         let half = half.map(|half| half - by);
-        Mark::Box { centre, half, round: 2.0, ink: Hue::Told(colour).full() }
+        Mark::Box { centre, half, round: 2.0, ink: Hue::Fixed(colour).full() }
     };
     [part(0.0, edge(colour)), part(1.0, colour)]
 }
 
-/// A colour's edge, which is seen on a dark and on a light ground.
+/// Returns the colour of an edge that is visible on a dark and on a light ground.
 fn edge(colour: Rgb) -> Rgb {
     mix(colour, [0x80; 3], 0.7)
 }
 
-/// The beginning of a text that has so much room.
-fn cut(text: &str, room: f32) -> String {
-    let most = (room / SMALL.width(1)) as usize;
+/// Cuts a text to a width.
+fn cut(text: &str, width: f32) -> String {
+    let most = (width / SMALL.width(1)) as usize;
     if text.chars().count() <= most {
         return text.to_owned();
     }
@@ -163,7 +164,7 @@ mod tests {
     use crate::picture::{Quality, Size};
     use crate::scene::BUILT_IN;
 
-    /// Pixels of every built-in scene.
+    /// Calls `each` with pixels of each built-in scene.
     pub(super) fn each(quality: Quality, mut each: impl FnMut(&Tracer, Inspected)) {
         let size = Size::new(24, 18).expect("a small picture");
         for (_, text) in BUILT_IN {
@@ -176,7 +177,7 @@ mod tests {
         }
     }
 
-    /// Whether everything is drawn within a size.
+    /// Asserts that all marks are within a size.
     pub(super) fn assert_within(marks: &[Mark], [width, height]: Point) {
         for mark in marks {
             let places: Vec<Point> = match mark {
@@ -197,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_beyond_the_picture_and_a_ray_beyond_the_tree_are_not_there() {
+    fn pixel_outside_the_picture_and_missing_ray_are_none() {
         let scene = Scene::parse(BUILT_IN[0].1).expect("a built-in scene");
         let tracer = Tracer::new(&scene, Size::new(4, 3).expect("small"), Quality::default());
         assert!([[4, 0], [0, 3], [u32::MAX; 2]].iter().all(|&place| Inspected::new(&tracer, &scene, place).is_none()));
@@ -208,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_long_is_cut() {
+    fn long_text_is_cut() {
         assert_eq!([cut("box", 100.0), cut("a long name", 40.0), cut("x", 0.0)], ["box", "a lo…", "…"]);
     }
 }

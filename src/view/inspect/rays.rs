@@ -1,70 +1,73 @@
-//! The tree of rays (Figure 3): the eye above, and below each ray's end the rays that start there.
+//! The tree of rays (Figure 3): the eye at the top, and below each ray's end the rays that start there.
 
-use super::format::{kind_word, share_words};
+use super::phrases::kind_word;
 use super::{Inspected, cut, edge, label, line};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::tracer::{ExplainedRay, RayKind};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::draw::polyline::dashes;
-use crate::view::text::format::count;
+use crate::view::text::format::{count, fine_fraction};
 
-/// The tree as it is drawn.
+/// A drawn tree of rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayTree {
-    /// What is to be drawn.
+    /// Marks of the drawing.
     pub marks: Vec<Mark>,
-    /// Its rays, to be chosen from.
+    /// Rays that can be chosen.
     pub spots: Vec<RaySpot>,
-    /// How high it is.
+    /// Height of the drawing.
     pub height: f32,
 }
 
-/// Where a ray can be pointed at.
+/// The place where a ray can be chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaySpot {
-    /// Its number among the sample's rays.
+    /// Index among the sample's rays.
     pub ray: usize,
-    /// Where it ends in the drawing.
+    /// End of the ray in the drawing.
     pub at: Point,
-    /// What it is, in words.
+    /// Description of the ray.
     pub name: String,
 }
 
 impl RaySpot {
-    /// So far round its place it can be pointed at.
-    pub const REACH: f32 = RADIUS + 2.0;
+    /// Greatest distance from `at` at which the ray is chosen.
+    pub const REACH: f32 = END_RADIUS + 2.0;
 }
 
-/// So large a ray's end is.
-const RADIUS: f32 = 8.0;
-/// Between the ends of two rays, from middle to middle.
-const LEAST_APART: f32 = 22.0;
-const MOST_APART: f32 = 58.0;
-/// From one level to the next, while they are few and when they are many.
-const STEP: f32 = 40.0;
-const LOW_STEP: f32 = 27.0;
-const FEW: u32 = 5;
-/// No deeper level is drawn.
-const DEEPEST: u32 = 12;
+/// Radius of a ray's end.
+const END_RADIUS: f32 = 8.0;
+/// Least distance of the centres of two ends.
+const MIN_END_DISTANCE: f32 = 22.0;
+/// Greatest distance of the centres of two ends.
+const MAX_END_DISTANCE: f32 = 58.0;
+/// Height of a level in a tree of few levels.
+const LEVEL_HEIGHT: f32 = 40.0;
+/// Height of a level in a tree of many levels.
+const LOW_LEVEL_HEIGHT: f32 = 27.0;
+/// Most levels of a tree of few levels.
+const FEW_LEVELS: u32 = 5;
+/// Deepest level that is drawn.
+const MAX_LEVEL: u32 = 12;
 
 impl Inspected {
-    /// The tree of rays of the chosen sample. Rays were traced in the order of their weights, the strongest first: of so many
-    /// that they do not fit, the strongest are drawn.
+    /// Draws the tree of rays of the chosen sample. Rays were traced in the order of their weights, so that the
+    /// strongest are drawn if not all fit.
     pub fn ray_tree(&self, width: f32, language: Language) -> RayTree {
         let rays = &self.sample().rays;
         let fitting = fitting(rays, width);
         let places = places(&rays[..fitting], width);
         let deepest = rays[..fitting].iter().map(|ray| ray.path.level).max().unwrap_or(1);
-        let step = if deepest > FEW { LOW_STEP } else { STEP };
-        let top = SMALL_LINE;
-        let at = |ray: usize| -> Point { [places[ray], top + rays[ray].path.level as f32 * step] };
+        let level_height = if deepest > FEW_LEVELS { LOW_LEVEL_HEIGHT } else { LEVEL_HEIGHT };
+        let top = TEXT_HEIGHT;
+        let at = |ray: usize| -> Point { [places[ray], top + rays[ray].path.level as f32 * level_height] };
         let eye = [places[0], top];
         let mut marks =
             vec![label([eye[0], top / 2.0], Anchor::Centre, word!(language, "the eye", "observador"), Hue::Quiet)];
         for (number, ray) in rays[..fitting].iter().enumerate() {
             let from = ray.path.from.map_or(eye, |from| at(from as usize));
-            marks.extend(way(ray, from, at(number)));
+            marks.extend(draw_ray(ray, from, at(number)));
         }
         let spots: Vec<RaySpot> = rays[..fitting]
             .iter()
@@ -72,8 +75,8 @@ impl Inspected {
             .map(|(number, ray)| {
                 let (kind, what, weight) = (
                     kind_word(ray.path.kind, language),
-                    self.what(ray, language),
-                    share_words(ray.path.weight, language),
+                    self.met_name(ray, language),
+                    fine_fraction(ray.path.weight, language),
                 );
                 let which = number + 1;
                 let name =
@@ -82,42 +85,43 @@ impl Inspected {
             })
             .collect();
         for spot in &spots {
-            marks.extend(self.end(&rays[spot.ray], spot.at, spot.ray == self.chosen.ray));
+            marks.extend(self.draw_end(&rays[spot.ray], spot.at, spot.ray == self.chosen.ray));
         }
-        let mut height = top + deepest as f32 * step + RADIUS + 5.0;
+        let mut height = top + deepest as f32 * level_height + END_RADIUS + 5.0;
         if fitting < rays.len() {
             let weight = rays[fitting..].iter().map(|ray| ray.path.weight).fold(0.0, f64::max);
-            let more = count(u32::try_from(rays.len() - fitting).unwrap_or(u32::MAX));
-            let weight = share_words(weight, language);
+            let more = count((rays.len() - fitting) as u64);
+            let weight = fine_fraction(weight, language);
             let text =
                 say!(language, "and {more} more, none above {weight}", "e mais {more}, nenhum acima de {weight}");
-            marks.push(label([width / 2.0, height + SMALL_LINE / 2.0], Anchor::Centre, cut(&text, width), Hue::Quiet));
-            height += SMALL_LINE;
+            marks.push(label([width / 2.0, height + TEXT_HEIGHT / 2.0], Anchor::Centre, cut(&text, width), Hue::Quiet));
+            height += TEXT_HEIGHT;
         }
         RayTree { marks, spots, height }
     }
 
-    /// A ray's end: round on a solid, square where there is none. Its letter says how the ray came.
-    fn end(&self, ray: &ExplainedRay, at: Point, is_chosen: bool) -> Vec<Mark> {
-        let colour = self.colour_of(ray);
+    /// Draws a ray's end: round if it met a solid, else square, with the letter of its kind.
+    fn draw_end(&self, ray: &ExplainedRay, at: Point, is_chosen: bool) -> Vec<Mark> {
+        let colour = self.met_colour(ray);
         let shape = |radius: f32, hue: Hue| match ray.met {
             Some(_) => Mark::Disc { centre: at, radius, ink: hue.full() },
             None => Mark::Box { centre: at, half: [radius - 0.5; 2], round: 1.5, ink: hue.full() },
         };
         let mut marks = Vec::new();
         if is_chosen {
-            marks.extend([shape(RADIUS + 4.5, Hue::Text), shape(RADIUS + 2.0, Hue::Ground)]);
+            marks.extend([shape(END_RADIUS + 4.5, Hue::Text), shape(END_RADIUS + 2.0, Hue::Ground)]);
         }
-        marks.extend([shape(RADIUS, Hue::Told(edge(colour))), shape(RADIUS - 1.0, Hue::Told(colour))]);
-        let (size, ink) = (TextSize::Small(0.85), Hue::Told(text_on(colour)).full());
+        marks.extend([shape(END_RADIUS, Hue::Fixed(edge(colour))), shape(END_RADIUS - 1.0, Hue::Fixed(colour))]);
+        let (size, ink) = (TextSize::Small(0.85), Hue::Fixed(text_on(colour)).full());
         marks.push(Mark::Label { at, anchor: Anchor::Centre, text: letter(ray.path.kind).into(), size, ink });
         marks
     }
 }
 
-const SMALL_LINE: f32 = 18.0;
+/// Height of a line of text.
+const TEXT_HEIGHT: f32 = 18.0;
 
-/// What tells rays apart without colours.
+/// Returns the letter of a kind of ray, since colours do not tell them apart.
 fn letter(kind: RayKind) -> &'static str {
     match kind {
         RayKind::Primary => "P",
@@ -127,8 +131,8 @@ fn letter(kind: RayKind) -> &'static str {
     }
 }
 
-/// A ray's way, as broad as its weight; dashed if it is reflected.
-fn way(ray: &ExplainedRay, from: Point, to: Point) -> Vec<Mark> {
+/// Draws a ray: its width is its weight, and it is dashed if it is reflected.
+fn draw_ray(ray: &ExplainedRay, from: Point, to: Point) -> Vec<Mark> {
     let (width, ink) = (1.0 + 6.0 * ray.path.weight as f32, Hue::Quiet.full());
     match ray.path.kind {
         RayKind::Reflected => {
@@ -143,30 +147,30 @@ fn way(ray: &ExplainedRay, from: Point, to: Point) -> Vec<Mark> {
     }
 }
 
-/// How many of the first rays can be drawn.
+/// Returns how many of the first rays fit into a width.
 fn fitting(rays: &[ExplainedRay], width: f32) -> usize {
-    let most = ((width / LEAST_APART) as usize).max(2);
+    let most = ((width / MIN_END_DISTANCE) as usize).max(2);
     let mut has_followers = vec![false; rays.len()];
     let mut ends = 0;
     let fits = |ray: &ExplainedRay| {
-        // The first that follows takes the place of the ray at whose end it starts.
+        // The first follower takes the place of the ray from whose end it starts.
         match ray.path.from.map(|from| std::mem::replace(&mut has_followers[from as usize], true)) {
             Some(false) => {}
             _ => ends += 1,
         }
-        ends <= most && ray.path.level <= DEEPEST
+        ends <= most && ray.path.level <= MAX_LEVEL
     };
     rays.iter().map(fits).take_while(|fits| *fits).count()
 }
 
-/// Where each ray's end is from left to right: those that have no followers side by side, the others above the middle of
-/// theirs.
+/// Returns the horizontal position of each ray's end: ends without followers side by side, each other end above the
+/// middle of its followers.
 fn places(rays: &[ExplainedRay], width: f32) -> Vec<f32> {
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); rays.len()];
     for (number, ray) in rays.iter().enumerate() {
         ray.path.from.into_iter().for_each(|from| followers[from as usize].push(number));
     }
-    // Reflected to the left, whichever was traced first.
+    // The reflected ray is on the left.
     followers.iter_mut().for_each(|all| all.sort_by_key(|&number| rays[number].path.kind != RayKind::Reflected));
     let (mut places, mut waiting, mut ends) = (vec![0.0; rays.len()], vec![0], 0.0);
     while let Some(number) = waiting.pop() {
@@ -180,7 +184,7 @@ fn places(rays: &[ExplainedRay], width: f32) -> Vec<f32> {
         let sum: f32 = followers[number].iter().map(|&follower| places[follower]).sum();
         places[number] = sum / followers[number].len() as f32;
     }
-    let apart = (width / ends.max(1.0)).min(MOST_APART);
+    let apart = (width / ends.max(1.0)).min(MAX_END_DISTANCE);
     let left = (width - apart * ends) / 2.0;
     places.into_iter().map(|place| left + apart * (place + 0.5)).collect()
 }
@@ -193,7 +197,7 @@ mod tests {
     use crate::picture::Quality;
 
     #[test]
-    fn ends_stand_apart_below_the_rays_they_come_from() {
+    fn ends_do_not_touch_and_are_below_their_parents() {
         let language = Language::English;
         let quality = Quality { cutoff: 1e-4, max_depth: 30, ..Quality::default() };
         each(quality, |_, inspected| {
@@ -219,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn the_chosen_ray_and_only_that_is_marked() {
+    fn only_the_chosen_ray_is_marked() {
         let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(3) {

@@ -1,39 +1,39 @@
-//! The equation with its numbers.
+//! The terms of the illumination equation with their numbers.
 //!
 //! Cp = Ka Ia + Kd Σ Il (N·L) + Ks Σ Il (S·R)ⁿ + Ks Is + Kt It (§3).
 
 use glam::DVec3;
 
-use super::format::share_words;
 use super::{Inspected, brightness, label, line, shown, swatch};
 use crate::language::{Language, decimal, word};
 use crate::tracer::RayKind;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point};
+use crate::view::text::format::fine_fraction;
 
-/// A term of the equation of one ray.
+/// A term of the equation for one ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// As the article writes it.
+    /// The term as the article writes it.
     pub formula: &'static str,
-    /// What it is, in a word.
+    /// Name of the term.
     pub meaning: &'static str,
-    /// What it adds to the ray's colour, in linear light.
+    /// Its contribution to the ray's colour, in linear light.
     pub colour: DVec3,
-    /// What part of the pixel's brightness comes by it; nothing if the pixel is black.
+    /// Part of the pixel's luminance that comes by it; `None` if the pixel is black.
     pub part: Option<f64>,
 }
 
-/// The terms as they are drawn.
+/// A drawn table of terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terms {
-    /// What is to be drawn.
+    /// Marks of the drawing.
     pub marks: Vec<Mark>,
-    /// How high it is.
+    /// Height of the drawing.
     pub height: f32,
 }
 
 impl Inspected {
-    /// The terms of the chosen ray, and at last their sum; of a ray that met nothing, only the background.
+    /// Returns the terms of the chosen ray and their sum at the end; for a ray that met nothing, only the background.
     pub fn terms(&self, language: Language) -> Vec<Term> {
         let (sample, ray) = (self.sample(), self.ray());
         let whole = brightness(self.colour());
@@ -65,50 +65,53 @@ impl Inspected {
         ]
     }
 
-    /// The terms as a table: formula, colour, red, green, blue, and part of the pixel.
+    /// Draws the terms as a table: formula, colour, red, green, blue, and part of the pixel.
     pub fn draw_terms(&self, width: f32, language: Language) -> Terms {
-        const ROW: f32 = 24.0;
+        const ROW_HEIGHT: f32 = 24.0;
         let terms = self.terms(language);
-        // From right to left: the part, three numbers, the colour.
-        let column = ((width - FORMULA - SWATCH - PART) / 3.0).clamp(32.0, 56.0);
+        // From right to left: part of the pixel, three numbers, colour.
+        let column = ((width - FORMULA_WIDTH - SWATCH_WIDTH - PART_WIDTH) / 3.0).clamp(32.0, 56.0);
         let decimals = if column < 46.0 { 2 } else { 3 };
-        let blue = width - PART;
+        let blue = width - PART_WIDTH;
         let places = [blue - 2.0 * column, blue - column, blue];
-        let swatch_at = places[0] - column - SWATCH / 2.0 + 6.0;
+        let swatch_at = places[0] - column - SWATCH_WIDTH / 2.0 + 6.0;
         let mut marks = Vec::new();
         let colours = word!(language, ["red", "green", "blue"], ["verm.", "verde", "azul"]);
         for (name, x) in colours.into_iter().zip(places).chain([(word!(language, "of pixel", "do pixel"), width)]) {
-            marks.push(label([x, ROW / 2.0], Anchor::Right, name, Hue::Quiet));
+            marks.push(label([x, ROW_HEIGHT / 2.0], Anchor::Right, name, Hue::Quiet));
         }
         for (index, term) in terms.iter().enumerate() {
-            let y = ROW * (index as f32 + 1.5);
+            let y = ROW_HEIGHT * (index as f32 + 1.5);
             let is_sum = index + 1 == terms.len();
             let hue = if is_sum || term.colour != DVec3::ZERO { Hue::Text } else { Hue::Quiet };
             if is_sum {
-                let y = y - ROW / 2.0;
+                let y = y - ROW_HEIGHT / 2.0;
                 marks.push(line([[0.0, y], [width, y]], 1.0, Hue::Hairline.full()));
             }
             marks.push(label([0.0, y], Anchor::Left, term.formula, hue));
-            if swatch_at - FORMULA > MEANING {
-                marks.push(label([FORMULA, y], Anchor::Left, term.meaning, Hue::Quiet));
+            if swatch_at - FORMULA_WIDTH > MEANING_WIDTH {
+                marks.push(label([FORMULA_WIDTH, y], Anchor::Left, term.meaning, Hue::Quiet));
             }
             let middle: Point = [swatch_at, y];
             marks.extend(swatch(middle, [8.0, 7.0], shown(term.colour)));
             for (value, x) in term.colour.to_array().into_iter().zip(places) {
                 marks.push(label([x, y], Anchor::Right, decimal(language, value, decimals), hue));
             }
-            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| fine_fraction(part, language));
             marks.push(label([width, y], Anchor::Right, part, hue));
         }
-        Terms { marks, height: ROW * (terms.len() as f32 + 1.0) }
+        Terms { marks, height: ROW_HEIGHT * (terms.len() as f32 + 1.0) }
     }
 }
 
-/// What the columns take at least.
-const FORMULA: f32 = 116.0;
-const MEANING: f32 = 90.0;
-const SWATCH: f32 = 28.0;
-const PART: f32 = 66.0;
+/// Least width of the column of formulas.
+const FORMULA_WIDTH: f32 = 116.0;
+/// Least width of the column of names.
+const MEANING_WIDTH: f32 = 90.0;
+/// Width of the column of colours.
+const SWATCH_WIDTH: f32 = 28.0;
+/// Width of the column of parts.
+const PART_WIDTH: f32 = 66.0;
 
 #[cfg(test)]
 mod tests {
@@ -118,7 +121,7 @@ mod tests {
     use crate::picture::Quality;
 
     #[test]
-    fn the_terms_of_each_ray_are_what_comes_by_it() {
+    fn terms_add_up_to_the_light_of_each_ray() {
         let language = Language::English;
         each(Quality::default(), |tracer, inspected| {
             for ray in 0..inspected.sample().rays.len().min(5) {
@@ -138,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn the_primary_rays_of_all_samples_are_the_pixel() {
+    fn primary_rays_of_all_samples_add_up_to_the_pixel() {
         let language = Language::English;
         let quality = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         each(quality, |tracer, inspected| {
@@ -152,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_stays_within_its_width() {
+    fn table_is_within_its_width() {
         let language = Language::English;
         each(Quality::default(), |_, inspected| {
             for width in [310.0, 380.0, 620.0] {

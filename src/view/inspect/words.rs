@@ -1,15 +1,15 @@
-//! What there is to say of a pixel, in sentences and as a text.
+//! An inspected pixel in sentences, and as a text.
 
 use std::fmt::Write;
 
-use super::format::{kind_word, number, passes_nothing, share_words};
+use super::phrases::{kind_word, passes_nothing};
 use super::{Inspected, shown};
 use crate::language::{Language, decimal, say, word};
 use crate::tracer::{ExplainedRay, RayKind};
-use crate::view::text::format::{count, counted};
+use crate::view::text::format::{count, counted, distance_words, fine_fraction};
 
 impl Inspected {
-    /// Why the pixel took as long as it did: its rays, its samples, and what was left out.
+    /// Explains the pixel's time: its rays, its samples, and rays left out.
     pub fn sentences(&self, language: Language) -> Vec<String> {
         let rays = &self.rays;
         let kinds = [
@@ -21,38 +21,39 @@ impl Inspected {
         let kinds: Vec<_> = kinds
             .iter()
             .filter(|(many, _)| *many > 0)
-            .map(|(many, what)| format!("{} {}", big(*many), what[usize::from(*many > 1)]))
+            .map(|(many, what)| format!("{} {}", count(*many), what[usize::from(*many > 1)]))
             .collect();
         let (took, kinds) = (several_rays(rays.total(), language), kinds.join(", "));
-        let mut said = vec![say!(language, "This pixel took {took}: {kinds}.", "Este pixel levou {took}: {kinds}.")];
+        let mut sentences =
+            vec![say!(language, "This pixel needed {took}: {kinds}.", "Este pixel precisou de {took}: {kinds}.")];
         let (all, counting) = (self.samples.len(), self.samples.iter().filter(|sample| sample.counts).count());
-        let others = big((all - counting) as u64);
+        let others = count((all - counting) as u64);
         if all > counting {
-            let all = big(all as u64);
-            said.push(say!(
+            let all = count(all as u64);
+            sentences.push(say!(
                 language,
-                "It has {all} samples; {others} at its corners only told that more were needed.",
-                "Tem {all} amostras; {others} nos cantos só mostraram que eram precisas mais."
+                "It has {all} samples. {others} at its corners only showed that more were needed.",
+                "Tem {all} amostras. {others} nos cantos só mostraram que eram necessárias mais."
             ));
         } else if all > 1 {
-            let all = big(all as u64);
-            said.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
+            let all = count(all as u64);
+            sentences.push(say!(language, "It is the mean of {all} samples.", "É a média de {all} amostras."));
         }
         let left_out: u64 = self.samples.iter().map(|sample| sample.rays_left_out).sum();
         if left_out > 0 {
             let weight = self.samples.iter().map(|sample| sample.left_out * sample.share(&self.samples)).sum();
-            let (rays, part) = (several_rays(left_out, language), share_words(weight, language));
-            said.push(if left_out == 1 {
+            let (rays, part) = (several_rays(left_out, language), fine_fraction(weight, language));
+            sentences.push(if left_out == 1 {
                 say!(
                     language,
-                    "{rays} was left out; it would have counted {part}.",
-                    "{rays} foi omitido; contaria {part}."
+                    "{rays} was left out. Its weight was {part}.",
+                    "{rays} foi omitido. Seu peso era {part}."
                 )
             } else {
                 say!(
                     language,
-                    "{rays} were left out; they would have counted {part} together.",
-                    "{rays} foram omitidos; juntos contariam {part}."
+                    "{rays} were left out. The sum of their weights was {part}.",
+                    "{rays} foram omitidos. A soma de seus pesos era {part}."
                 )
             });
         }
@@ -63,17 +64,17 @@ impl Inspected {
             .map(|sample| sample.share(&self.samples) * sample.rays.iter().map(too_deep).sum::<f64>())
             .sum();
         if deep > 0.0 {
-            let part = share_words(deep, language);
-            said.push(say!(
+            let part = fine_fraction(deep, language);
+            sentences.push(say!(
                 language,
-                "The limit of the tree of rays cut off what would have counted {part}.",
-                "O limite da árvore de raios cortou o que contaria {part}."
+                "The limit of the tree of rays cut off rays with a weight of {part}.",
+                "O limite da árvore de raios cortou raios com peso de {part}."
             ));
         }
-        said
+        sentences
     }
 
-    /// What the chosen ray is, what it met, and which light arrives there.
+    /// Describes the chosen ray, the solid that it met, and the light that arrives there.
     pub fn ray_sentences(&self, language: Language) -> Vec<String> {
         let ray = self.ray();
         let path = &ray.path;
@@ -83,34 +84,35 @@ impl Inspected {
             RayKind::Reflected => word!(language, "Reflected", "Refletido"),
             RayKind::Refracted => word!(language, "Through a surface", "Através de uma superfície"),
         };
-        let (level, weight) = (path.level, share_words(path.weight, language));
-        let which = say!(
+        let (level, weight) = (path.level, fine_fraction(path.weight, language));
+        let ray_words = say!(
             language,
-            "{kind}, on level {level}, it counts {weight} of its sample",
-            "{kind}, no nível {level}, conta {weight} de sua amostra"
+            "{kind}, on level {level}. Its weight in the sample is {weight}.",
+            "{kind}, no nível {level}. Seu peso na amostra é {weight}."
         );
         let Some(met) = ray.met else {
-            return vec![say!(language, "{which} and meets nothing.", "{which} e não encontra nada.")];
+            return vec![say!(language, "{ray_words} It meets nothing.", "{ray_words} Não encontra nada.")];
         };
-        let does = if met.enters {
-            word!(language, "enters", "entra em")
+        let verb = if met.enters {
+            word!(language, "It enters", "Entra em")
         } else {
-            word!(language, "meets from within", "atinge por dentro")
+            word!(language, "It meets, from the inside,", "Atinge por dentro")
         };
-        let (what, distance) = (self.what(ray, language), number(path.to, language));
-        let mut said = vec![say!(
+        let (material, distance) = (self.met_name(ray, language), distance_words(path.to, language));
+        let mut sentences = vec![say!(
             language,
-            "{which} and {does} {what} at a distance of {distance}.",
-            "{which} e {does} {what} à distância de {distance}."
+            "{ray_words} {verb} {material} at a distance of {distance}.",
+            "{ray_words} {verb} {material} à distância de {distance}."
         )];
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
             let lights = lights.join(", ");
-            said.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
+            sentences.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
         }
-        said
+        sentences
     }
 
+    /// Says how much of a light arrives where a ray ended.
     fn light_words(&self, ray: &ExplainedRay, light: usize, language: Language) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
@@ -118,15 +120,15 @@ impl Inspected {
             Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
             Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
             Some(part) => {
-                let part = share_words(part, language);
-                say!(language, "of {name} {part} arrives", "de {name} chega {part}")
+                let part = fine_fraction(part, language);
+                say!(language, "{part} of {name} arrives", "de {name} chega {part}")
             }
         }
     }
 
-    /// Everything as a text of several lines.
+    /// Returns everything as a text of several lines.
     pub fn text(&self, language: Language) -> String {
-        let [x, y] = self.place;
+        let [x, y] = self.pixel;
         let colour = self.colour();
         let [red, green, blue] = shown(colour);
         let linear = colour.to_array().map(|value| decimal(language, value, 4)).join(" ");
@@ -156,33 +158,37 @@ impl Inspected {
             ),
         );
         self.term_words(language).lines().for_each(|line| put(&mut text, 1, line));
-        put(&mut text, 0, word!(language, "\nIts stays in what it passes", "\nSuas permanências no que atravessa"));
+        put(
+            &mut text,
+            0,
+            word!(language, "\nIts spans in the solids that it enters", "\nSeus trechos nos sólidos em que entra"),
+        );
         self.span_words(language).lines().for_each(|line| put(&mut text, 1, line));
         text
     }
 
-    /// The terms of the chosen ray, a line each.
+    /// Returns the terms of the chosen ray, one on each line.
     pub fn term_words(&self, language: Language) -> String {
         let mut text = String::new();
         for term in self.terms(language) {
             let name = format!("{} ({})", term.formula, term.meaning);
             let [red, green, blue] = term.colour.to_array().map(|value| decimal(language, value, 4));
-            let part = term.part.map_or_else(|| "–".to_owned(), |part| share_words(part, language));
+            let part = term.part.map_or_else(|| "–".to_owned(), |part| fine_fraction(part, language));
             put(&mut text, 0, &format!("{name:28} {red:>8} {green:>8} {blue:>8}   {part}"));
         }
         text
     }
 
-    /// What the chosen ray passes and its stays in there, a line each.
+    /// Returns the solids that the chosen ray enters, with its spans in them, one on each line.
     pub fn span_words(&self, language: Language) -> String {
         let (rows, mut text) = (self.rows(), String::new());
-        for row in rows.iter().take(MOST_LINES) {
-            let stay = |stay: &[f64; 2]| {
-                let [enter, leave] = stay.map(|distance| number(distance, language));
+        for row in rows.iter().take(MAX_LINES) {
+            let span = |span: &[f64; 2]| {
+                let [enter, leave] = span.map(|distance| distance_words(distance, language));
                 say!(language, "{enter} to {leave}", "{enter} a {leave}")
             };
-            let stays: Vec<_> = row.figure.spans.iter().map(stay).collect();
-            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.figure, language), stays.join(", ")));
+            let spans: Vec<_> = row.diagram.spans.iter().map(span).collect();
+            put(&mut text, row.depth, &format!("{}: {}", self.row_name(row.diagram, language), spans.join(", ")));
         }
         put_more(&mut text, rows.len(), language);
         if rows.is_empty() {
@@ -191,10 +197,10 @@ impl Inspected {
         text
     }
 
-    /// The tree of rays, each below that from whose end it starts.
+    /// Writes the tree of rays, each ray below the one from whose end it starts.
     fn put_rays(&self, text: &mut String, language: Language) {
         let rays = &self.sample().rays;
-        let shown = rays.len().min(MOST_LINES);
+        let shown = rays.len().min(MAX_LINES);
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); shown];
         for (number, ray) in rays[..shown].iter().enumerate() {
             ray.path.from.into_iter().for_each(|from| followers[from as usize].push(number));
@@ -202,8 +208,11 @@ impl Inspected {
         let mut waiting = vec![0];
         while let Some(number) = waiting.pop() {
             let ray = &rays[number];
-            let (kind, what, counts) =
-                (kind_word(ray.path.kind, language), self.what(ray, language), share_words(ray.path.weight, language));
+            let (kind, what, weight) = (
+                kind_word(ray.path.kind, language),
+                self.met_name(ray, language),
+                fine_fraction(ray.path.weight, language),
+            );
             let rays = several_rays(ray.lights.len() as u64, language);
             let shadows = match ray.lights.len() {
                 0 => String::new(),
@@ -212,8 +221,8 @@ impl Inspected {
             let (name, depth) = (number + 1, ray.path.level as usize);
             let line = say!(
                 language,
-                "{name} {kind}: {what}, counts {counts}{shadows}",
-                "{name} {kind}: {what}, conta {counts}{shadows}"
+                "{name} {kind}: {what}, weight {weight}{shadows}",
+                "{name} {kind}: {what}, peso {weight}{shadows}"
             );
             put(text, depth, &line);
             waiting.extend(followers[number].iter().rev());
@@ -222,27 +231,25 @@ impl Inspected {
     }
 }
 
-/// Of longer lists only the beginning is told.
-const MOST_LINES: usize = 60;
+/// Most lines of a list.
+const MAX_LINES: usize = 60;
 
+/// Writes an indented line.
 fn put(text: &mut String, depth: usize, line: &str) {
     let _ = writeln!(text, "{:1$}{line}", "", 2 * depth);
 }
 
-/// That there are more lines than are told.
+/// Writes how many lines a list has beyond [`MAX_LINES`].
 fn put_more(text: &mut String, all: usize, language: Language) {
-    if all > MOST_LINES {
-        let more = big((all - MOST_LINES) as u64);
+    if all > MAX_LINES {
+        let more = count((all - MAX_LINES) as u64);
         put(text, 1, &say!(language, "and {more} more", "e mais {more}"));
     }
 }
 
-fn big(number: u64) -> String {
-    count(u32::try_from(number).unwrap_or(u32::MAX))
-}
-
+/// Writes a number of rays.
 fn several_rays(number: u64, language: Language) -> String {
-    counted(u32::try_from(number).unwrap_or(u32::MAX), word!(language, "ray", "raio"), language)
+    counted(number, word!(language, "ray", "raio"), language)
 }
 
 #[cfg(test)]
@@ -252,27 +259,18 @@ mod tests {
     use crate::picture::Quality;
 
     #[test]
-    fn parts_and_distances_are_short() {
-        let said = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(|part| share_words(part, Language::English));
-        assert_eq!(said, ["0 %", "< 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
-        let said =
-            [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY].map(|distance| number(distance, Language::English));
-        assert_eq!(said, ["0", "1.000", "12.35", "−3.500", "1.00e9", "1.00e−7", "−∞"]);
-    }
-
-    #[test]
-    fn the_sentences_count_the_rays_and_what_was_left_out() {
+    fn sentences_count_rays_and_rays_left_out() {
         let language = Language::English;
         let mut seen = [false; 3];
         let quality = Quality { max_depth: 4, samples: 2, ..Quality::default() };
         each(quality, |_, inspected| {
-            let said = inspected.sentences(language);
-            let begins = format!("This pixel took {} ray", big(inspected.rays.total()));
-            assert!(said[0].starts_with(&begins), "{said:?}");
+            let sentences = inspected.sentences(language);
+            let begins = format!("This pixel needed {} ray", count(inspected.rays.total()));
+            assert!(sentences[0].starts_with(&begins), "{sentences:?}");
             let left_out = inspected.samples.iter().any(|sample| sample.rays_left_out > 0);
             let too_deep = inspected.samples.iter().any(|sample| sample.rays.iter().any(|ray| ray.too_deep > 0.0));
-            let says = |words: &str| said.iter().any(|sentence| sentence.contains(words));
-            assert_eq!([says("left out"), says("limit of the tree")], [left_out, too_deep], "{said:?}");
+            let says = |words: &str| sentences.iter().any(|sentence| sentence.contains(words));
+            assert_eq!([says("left out"), says("limit of the tree")], [left_out, too_deep], "{sentences:?}");
             assert!(says("the mean of 4 samples"));
             seen = [seen[0] || left_out, seen[1] || too_deep, true];
         });
@@ -280,13 +278,13 @@ mod tests {
     }
 
     #[test]
-    fn the_text_has_every_ray_term_and_row() {
+    fn text_has_every_ray_term_and_row() {
         let language = Language::English;
         each(Quality::default(), |_, inspected| {
             let text = inspected.text(language);
-            let [x, y] = inspected.place;
+            let [x, y] = inspected.pixel;
             assert!(text.starts_with(&format!("Pixel {x}, {y}: ")), "{text}");
-            for number in 1..=inspected.sample().rays.len().min(MOST_LINES) {
+            for number in 1..=inspected.sample().rays.len().min(MAX_LINES) {
                 assert!(
                     text.lines().any(|line| line.trim_start().starts_with(&format!("{number} "))),
                     "{number}: {text}"

@@ -46,12 +46,12 @@ impl Failure {
     pub(crate) fn condition(state: &RunState, node: NodeId) -> Option<Self> {
         let machine = state.nodes().get(usize::from(node))?;
         let is_recovered = state.has(Remedy::Leases);
-        Some(match (machine.condition, machine.condition_before) {
-            (Condition::Off, _) => Self::SwitchedOff { node, atoms: machine.took, is_recovered },
+        Some(match (machine.condition, machine.previous_condition) {
+            (Condition::Off, _) => Self::SwitchedOff { node, atoms: machine.lost_atoms, is_recovered },
             (Condition::Hung, _) => Self::Hung { node, atoms: machine.left(), is_recovered },
             (Condition::CutOff, _) => Self::CutOff(node),
             (Condition::Well, Condition::Off) if !state.sharing.is_adaptive() => Self::RestartedOutside(node),
-            (Condition::Well, Condition::Off) if machine.heard.is_none() => Self::Joined(node),
+            (Condition::Well, Condition::Off) if machine.last_heard.is_none() => Self::Joined(node),
             (Condition::Well, Condition::Off) => Self::Restarted(node),
             (Condition::Well, Condition::CutOff) => Self::Reachable(node),
             (Condition::Well, _) => Self::Continues(node),
@@ -63,12 +63,12 @@ impl Failure {
         let without = |all: &[NodeId], others: &[NodeId]| -> Vec<NodeId> {
             all.iter().copied().filter(|node| !others.contains(node)).collect()
         };
-        let (gone, back) = (without(&state.gone, &state.gone_before), without(&state.gone_before, &state.gone));
+        let (gone, back) = (without(&state.gone, &state.previous_gone), without(&state.previous_gone, &state.gone));
         match *gone {
             [] if back.is_empty() => None,
             [] => Some(Self::Returned(back)),
             [node] => {
-                let heard = state.nodes().get(usize::from(node)).and_then(|of| of.heard).unwrap_or_default();
+                let heard = state.nodes().get(usize::from(node)).and_then(|of| of.last_heard).unwrap_or_default();
                 Some(Self::Missed { node, silent: now.since(heard) })
             }
             _ => Some(Self::MissedMany(gone)),

@@ -142,7 +142,7 @@ impl Happening {
         Some(match &record.what {
             RecordKind::Estimating => Self::Estimating,
             RecordKind::SpeedSet { node, speed } => {
-                let before = machine(state, *node).map_or(*speed, |node| node.speed_before);
+                let before = machine(state, *node).map_or(*speed, |node| node.previous_speed);
                 Self::speed(state, *node, before, *speed)
             }
             RecordKind::Paused { node } => Self::paused(state, *node),

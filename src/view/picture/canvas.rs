@@ -1,4 +1,4 @@
-//! The picture as it is shown: the render, the owners, or anything between.
+//! The shown picture: the render, a layer of colour, or a mixture of both.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,9 +9,9 @@ use crate::palette::{Rgb, mix};
 use crate::picture::{Atom, Colour, Division, Size, srgb8};
 use crate::view::state::run_state::RunState;
 
-/// The shown picture in 8-bit sRGB, kept up to date piece by piece.
+/// The shown picture in 8-bit sRGB, updated atom by atom.
 ///
-/// An atom that is not there yet has a shade of the node in whose queue it is, and stands out while it is traced.
+/// An atom that is not traced yet has a shade of the node that has it, and the node's full colour while it is traced.
 #[derive(Clone, Debug)]
 pub struct Canvas {
     size: Size,
@@ -20,21 +20,22 @@ pub struct Canvas {
     tones: Shades,
     ground: Rgb,
     blend: f32,
-    /// What an atom costs on the average, as far as costs are shown by it.
+    /// Mean cost of an atom with which the layer of costs compares.
     mean_cost: f64,
     render: Vec<Rgb>,
     /// By atom: whether `render` has its pixels.
-    known: Vec<bool>,
-    /// What the render will about look like; empty if that is not known. Of its own, so that a moment that is shown again
-    /// looks the same.
+    has_pixels: Vec<bool>,
+    /// Preview of the render; may be empty. It is apart from `render`, so that a time that is shown again looks the
+    /// same.
     preview: Arc<[Rgb]>,
     shown: Vec<Rgb>,
-    /// By atom: what `shown` shows of it.
+    /// By atom: its look in `shown`.
     painted: Vec<Painted>,
+    /// By row: whether it has changed since [`Canvas::take_dirty`].
     dirty: Vec<bool>,
 }
 
-/// What decides how an atom is drawn.
+/// Properties of an atom that decide its look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Painted {
     holder: Option<NodeId>,
@@ -45,7 +46,7 @@ struct Painted {
 }
 
 impl Canvas {
-    /// An empty canvas for nodes of these colours.
+    /// Creates an empty canvas for nodes with these colours.
     pub fn new(size: Size, division: Division, colours: Vec<Rgb>, ground: Rgb) -> Self {
         let pixels = size.pixels() as usize;
         Self {
@@ -57,7 +58,7 @@ impl Canvas {
             blend: 0.0,
             mean_cost: 0.0,
             render: vec![[0; 3]; pixels],
-            known: vec![false; division.atoms() as usize],
+            has_pixels: vec![false; division.atoms() as usize],
             preview: Arc::default(),
             shown: vec![ground; pixels],
             painted: vec![Painted::default(); division.atoms() as usize],
@@ -70,27 +71,27 @@ impl Canvas {
         self.size
     }
 
-    /// What is seen where nothing is.
+    /// Colour where nothing is drawn.
     pub fn ground(&self) -> Rgb {
         self.ground
     }
 
-    /// Takes in traced pixels: `pixels` are those of `atoms`. They are seen once the parent has placed them.
+    /// Adds the traced pixels of atoms. They are shown once the parent has placed them.
     pub fn take(&mut self, atoms: Range<Atom>, pixels: &[Colour]) {
         let start = self.division.pixels(atoms.start).start as usize;
         for (to, &from) in self.render[start..].iter_mut().zip(pixels) {
             *to = srgb8(from);
         }
-        self.known[atoms.start as usize..atoms.end as usize].fill(true);
+        self.has_pixels[atoms.start as usize..atoms.end as usize].fill(true);
     }
 
-    /// Shows faintly what all pixels, in scan order, will look like; nothing if there are none.
-    pub fn preview(&mut self, guess: Arc<[Rgb]>, state: &RunState) {
-        self.preview = guess;
+    /// Shows a preview of all pixels, in scan order, faintly; none if it is empty.
+    pub fn preview(&mut self, preview: Arc<[Rgb]>, state: &RunState) {
+        self.preview = preview;
         self.paint(0..self.division.atoms(), state);
     }
 
-    /// Draws atoms anew after what `state` knows of them.
+    /// Redraws atoms.
     pub fn paint(&mut self, atoms: Range<Atom>, state: &RunState) {
         for atom in atoms {
             let pixels = self.division.pixels(atom);
@@ -104,7 +105,7 @@ impl Canvas {
         }
     }
 
-    /// Draws anew what of these atoms looks different by now.
+    /// Redraws those of the atoms whose look has changed.
     pub fn show(&mut self, atoms: Range<Atom>, state: &RunState) {
         for atom in atoms {
             if self.painted[atom as usize] != self.to_paint(atom, state) {
@@ -113,21 +114,21 @@ impl Canvas {
         }
     }
 
-    /// Shows another moment.
+    /// Redraws all atoms whose look has changed.
     pub fn show_all(&mut self, state: &RunState) {
         self.show(0..self.division.atoms(), state);
     }
 
-    /// Shows the render (0), a layer (1) or something between, on `ground`. Nothing is drawn if nothing changes.
+    /// Sets the mixture of the render (`blend` 0) and a layer (1), and the ground. Redraws only if something changes.
     pub fn set_look(&mut self, (layer, blend): (Layer, f32), ground: Rgb, state: &RunState) {
-        /// What costs are compared with follows the mean in steps, or each atom would be drawn anew with every other.
-        const STEP: f64 = 1.1;
+        /// The mean cost of the layer follows in steps of this ratio, or each new atom would redraw all others.
+        const MEAN_COST_STEP: f64 = 1.1;
         if layer != self.tones.layer() {
             self.tones = Shades::new(layer, &self.colours);
             self.blend = f32::NAN;
         }
         let mean = state.mean_cost();
-        let is_off = !(self.mean_cost / STEP..=self.mean_cost * STEP).contains(&mean);
+        let is_off = !(self.mean_cost / MEAN_COST_STEP..=self.mean_cost * MEAN_COST_STEP).contains(&mean);
         if layer == Layer::Costs && is_off {
             self.mean_cost = mean;
             self.show_all(state);
@@ -138,34 +139,40 @@ impl Canvas {
         }
     }
 
-    /// The rows that have changed since this was last asked; runs that nearly touch are one.
+    /// Takes the rows that have changed since the last call; ranges that nearly touch are joined.
     pub fn take_dirty(&mut self) -> Vec<Range<u32>> {
-        const NEAR: u32 = 8;
+        const MAX_GAP_ROWS: u32 = 8;
         let mut runs: Vec<Range<u32>> = Vec::new();
         for (row, dirty) in (0..).zip(&mut self.dirty) {
             if !std::mem::take(dirty) {
                 continue;
             }
             match runs.last_mut() {
-                Some(run) if row < run.end + NEAR => run.end = row + 1,
+                Some(run) if row < run.end + MAX_GAP_ROWS => run.end = row + 1,
                 _ => runs.push(row..row + 1),
             }
         }
         runs
     }
 
-    /// The shown pixels of some rows.
+    /// Shown pixels of a range of rows.
     pub fn rows(&self, rows: Range<u32>) -> &[Rgb] {
         let width = self.size.width() as usize;
         &self.shown[rows.start as usize * width..rows.end as usize * width]
     }
 
     fn to_paint(&self, atom: Atom, state: &RunState) -> Painted {
-        let place = state.places()[atom as usize];
-        let (holder, is_traced) = (place.holder(), place.owner().is_some());
+        let atom_state = state.atom_states()[atom as usize];
+        let (holder, is_traced) = (atom_state.holder(), atom_state.owner().is_some());
         let is_traced_now = holder.is_some_and(|node| state.nodes()[usize::from(node)].atom == Some(atom));
         let tone = self.tones.of(atom, state, self.mean_cost);
-        Painted { holder, tone, is_traced, is_traced_now, is_render: place.is_placed() && self.known[atom as usize] }
+        Painted {
+            holder,
+            tone,
+            is_traced,
+            is_traced_now,
+            is_render: atom_state.is_placed() && self.has_pixels[atom as usize],
+        }
     }
 
     fn paint_atom(&mut self, atom: Atom, pixels: Range<usize>, state: &RunState) {
@@ -184,14 +191,14 @@ impl Canvas {
             (false, true) => 1.0,
             (true, _) => 0.6,
         };
-        // Under another layer it is of no interest whose an atom will be.
+        // Under other layers the future owner is shown faintly.
         let strength = if self.tones.layer() == Layer::Owners { strength } else { strength * (1.0 - 0.7 * self.blend) };
         let plain = colour.map_or(self.ground, |colour| mix(self.ground, colour, strength));
         if !self.preview.is_empty() && !is_traced_now {
-            // Fainter the more owners are shown, so that what is done stands out.
+            // Fainter the more of the layer is shown, so that traced atoms stand out.
             let share = 0.35 - 0.2 * self.blend;
-            for (to, &guess) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels]) {
-                *to = mix(plain, guess, share);
+            for (to, &preview) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels]) {
+                *to = mix(plain, preview, share);
             }
         } else {
             self.shown[pixels].fill(plain);
@@ -220,13 +227,13 @@ mod tests {
     }
 
     #[test]
-    fn the_render_is_shown_as_it_is_saved() {
+    fn render_is_shown_as_it_is_saved() {
         let (canvas, _) = finished();
         assert!(canvas.rows(0..20).iter().all(|&pixel| pixel == srgb8([0.0, 1.0, 0.0])));
     }
 
     #[test]
-    fn the_owners_colour_what_they_traced() {
+    fn owners_colour_their_atoms() {
         let (mut canvas, state) = finished();
         canvas.set_look((Layer::Owners, 1.0), GROUND, &state);
         let [first, last] = [canvas.rows(0..1)[0], canvas.rows(19..20)[49]];
@@ -235,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_changed_is_drawn_again() {
+    fn only_changed_rows_are_drawn_again() {
         let (mut canvas, state) = finished();
         canvas.take_dirty();
         canvas.set_look((Layer::Owners, 0.0), GROUND, &state);
@@ -246,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_yet_shows_whose_it_will_be() {
+    fn untraced_atom_has_a_shade_of_its_holder() {
         let header = sample_runs::header(&[1.0, 1.0], 20);
         let mut state = RunState::new(&header);
         let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), GROUND);

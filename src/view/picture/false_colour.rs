@@ -1,27 +1,27 @@
-//! How far each pixel is from a reference, in false colour.
+//! False colours for the error of each pixel against a reference.
 
 use crate::palette::Rgb;
 use crate::picture::{Colour, Frame, srgb8};
 
-/// Errors beside which the colours of the ramp are written, ascending. The ramp is logarithmic: it begins with the first
-/// and ends with the last, and what is beyond has its end's colour.
-pub const ERRORS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
+/// Errors written beside the ramp of colours, ascending. The ramp is logarithmic: it begins with the first and ends
+/// with the last, and errors beyond have the colour of its end.
+pub const RAMP_ERRORS: [f64; 4] = [1e-3, 1e-2, 1e-1, 1.0];
 
-/// A colour for each pixel: the root of the mean squared error of its channels in linear light, so that the mean square of
-/// all pixels is that of the picture; as [`ramp`] has it at [`place_of_error`].
+/// Returns a colour for each pixel by its error: the root of the mean squared error of its channels in linear light, so
+/// that the mean square of all pixels is that of the picture.
 pub fn false_colours(picture: &Frame, reference: &Frame) -> Vec<Rgb> {
     let pairs = picture.pixels().iter().zip(reference.pixels());
-    pairs.map(|(&one, &other)| ramp(place_of_error(error(one, other)))).collect()
+    pairs.map(|(&one, &other)| ramp(ramp_position(error(one, other)))).collect()
 }
 
-/// Where on the ramp an error is, from 0 to 1.
-pub fn place_of_error(error: f64) -> f64 {
-    let [least, .., most] = ERRORS;
+/// Position of an error on the ramp, 0 to 1.
+pub fn ramp_position(error: f64) -> f64 {
+    let [least, .., most] = RAMP_ERRORS;
     ((error.max(f64::MIN_POSITIVE) / least).log10() / (most / least).log10()).clamp(0.0, 1.0)
 }
 
-/// A colour of the ramp, from 0 to 1: equal steps look about equal, and each is lighter than the one before (in Oklab:
-/// B. Ottosson, *A perceptual color space for image processing*, 2020), also for those who tell no hues.
+/// Returns the colour at a position of the ramp, 0 to 1. Equal steps look about equal, and each is lighter than the one
+/// before, also for colour-blind people (in Oklab: B. Ottosson, *A perceptual color space for image processing*, 2020).
 pub fn ramp(place: f64) -> Rgb {
     let place = place.clamp(0.0, 1.0);
     let lightness = 0.22 + 0.74 * place;
@@ -40,6 +40,7 @@ pub fn ramp(place: f64) -> Rgb {
     srgb8(linear.map(|channel| channel as f32))
 }
 
+/// Root of the mean squared error of the channels.
 fn error(one: Colour, other: Colour) -> f64 {
     let squares = one.iter().zip(other).map(|(&a, b)| (f64::from(a) - f64::from(b)).powi(2));
     (squares.sum::<f64>() / 3.0).sqrt()
@@ -59,13 +60,13 @@ mod tests {
 
     proptest! {
         #[test]
-        fn whatever_is_further_away_is_lighter(one in 1e-3..1.0f64, more in 1.02..3.0f64) {
-            let at = |error| luminance(ramp(place_of_error(error)));
+        fn greater_error_is_lighter(one in 1e-3..1.0f64, more in 1.02..3.0f64) {
+            let at = |error| luminance(ramp(ramp_position(error)));
             prop_assert!(one * more > 1.0 || at(one * more) > at(one));
         }
 
         #[test]
-        fn the_pixels_errors_make_the_pictures(
+        fn mean_square_of_pixel_errors_is_that_of_the_picture(
             pixels in prop::collection::vec((prop::array::uniform3(0.0..1.0f32), prop::array::uniform3(0.0..1.0f32)), 1..40)
         ) {
             let (one, other): (Vec<Colour>, Vec<Colour>) = pixels.iter().copied().unzip();
@@ -76,16 +77,16 @@ mod tests {
     }
 
     #[test]
-    fn what_is_the_same_has_the_first_colour_and_what_is_all_wrong_the_last() {
+    fn ramp_begins_at_no_error_and_ends_at_the_greatest() {
         let (black, white) = ([0.0; 3], [1.0; 3]);
         let found = false_colours(&frame(&[black, black, [0.01; 3]]), &frame(&[black, white, black]));
         assert_eq!(found, [ramp(0.0), ramp(1.0), ramp(1.0 / 3.0)]);
-        assert_eq!([place_of_error(0.0), place_of_error(9.0), place_of_error(f64::NAN)], [0.0, 1.0, 0.0]);
+        assert_eq!([ramp_position(0.0), ramp_position(9.0), ramp_position(f64::NAN)], [0.0, 1.0, 0.0]);
     }
 
     #[test]
-    fn steps_of_the_ramp_are_about_equal() {
-        // The lightness that people see, 0 to 100 (CIE 1976).
+    fn steps_of_the_ramp_are_about_equally_light() {
+        // Perceived lightness, 0 to 100 (CIE 1976).
         let lightness = |place: f64| 116.0 * luminance(ramp(place)).max(0.0089).cbrt() - 16.0;
         let steps: Vec<f32> =
             (0..16).map(|i| f64::from(i) / 16.0).map(|at| lightness(at + 1.0 / 16.0) - lightness(at)).collect();

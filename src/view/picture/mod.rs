@@ -1,4 +1,4 @@
-//! The picture as the window shows it: pixels and what is laid over them.
+//! The picture as the window shows it: pixels, and layers of colour on them.
 
 pub mod canvas;
 pub mod false_colour;

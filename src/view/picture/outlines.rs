@@ -1,9 +1,9 @@
-//! Lines round pieces of a picture.
+//! Outlines of pieces of a picture.
 
 use std::ops::Range;
 
-/// The lines round all of these pixels, in scan order, of a picture so many pixels wide: from x, y to x, y, in pixels.
-/// Where two pieces touch there is none. There are about as many as rows are touched.
+/// Returns the outline of ranges of pixels, in scan order, of a picture with a width in pixels: lines from x, y to x, y
+/// in pixels. There is no line where two ranges touch. The number of lines is about proportional to the number of rows.
 pub fn outlines(pieces: impl Iterator<Item = Range<u32>>, width: u32) -> Vec<[u32; 4]> {
     let mut rows: Vec<(u32, Range<u32>)> = Vec::new();
     for piece in pieces.filter(|piece| !piece.is_empty()) {
@@ -31,7 +31,7 @@ pub fn outlines(pieces: impl Iterator<Item = Range<u32>>, width: u32) -> Vec<[u3
     touched.dedup();
     for row in touched {
         let above: Vec<_> = row.checked_sub(1).map_or_else(Vec::new, |above| runs(above).collect());
-        // Between two rows there is a line where only one of both has a piece.
+        // There is a line between two rows where only one of them has a piece.
         let mut edges: Vec<u32> = above.iter().cloned().chain(runs(row)).flat_map(|run| [run.start, run.end]).collect();
         edges.sort_unstable();
         let (pairs, _) = edges.as_chunks::<2>();
@@ -52,7 +52,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_line_is_where_one_side_is_inside_and_the_other_is_not(
+        fn lines_are_between_inside_and_outside(
             pieces in prop::collection::vec((0..60u32, 0..25u32), 0..5), width in 1..12u32,
         ) {
             let pieces: Vec<_> = pieces.into_iter().map(|(start, length)| start..start + length).collect();

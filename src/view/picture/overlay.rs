@@ -1,4 +1,4 @@
-//! The render in the colours of what else one wants to know of it: who traced it, what it cost, or when it came.
+//! Layers of colour on the render: owners, costs, or order of arrival.
 
 use super::false_colour::ramp;
 use crate::language::{Language, word};
@@ -7,15 +7,15 @@ use crate::picture::{Atom, Frame, srgb8};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::run_state::RunState;
 
-/// What lies over the render.
+/// Layer of colour on the render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layer {
-    /// Who traced it.
+    /// The machine that traced each atom.
     #[default]
     Owners,
-    /// What it cost: from an eighth of the mean atom to eight times as much.
+    /// Cost of each atom: from an eighth of the mean cost to eight times as much.
     Costs,
-    /// When it came, the first dark, the last light.
+    /// Order in which atoms were traced, the first dark, the last light.
     Arrival,
 }
 
@@ -23,7 +23,7 @@ impl Layer {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Owners, Self::Costs, Self::Arrival];
 
-    /// What it shows, in a few words.
+    /// Returns its name.
     pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::Owners => word!(language, "Who traced it", "Quem calculou"),
@@ -32,13 +32,12 @@ impl Layer {
         }
     }
 
-    /// The colour of something that is a `share`, 0 to 1, of what a layer with two ends shows: neither black nor white, which
-    /// tell nothing.
-    pub fn ramp(share: f64) -> Rgb {
-        ramp(0.12 + 0.8 * share)
+    /// Returns the colour at a position, 0 to 1, of a layer with two ends: neither black nor white.
+    pub fn ramp(position: f64) -> Rgb {
+        ramp(0.12 + 0.8 * position)
     }
 
-    /// What its darkest and its lightest colour mean, if it has such.
+    /// Meanings of its darkest and its lightest colour; `None` for a layer without ends.
     pub fn ends(self, language: Language) -> Option<[&'static str; 2]> {
         match self {
             Self::Owners => None,
@@ -48,10 +47,10 @@ impl Layer {
     }
 }
 
-/// Steps of a ramp that can be told apart.
-const STEPS: usize = 48;
+/// Number of colours of a ramp.
+const RAMP_STEPS: usize = 48;
 
-/// For each colour of a layer, 256 levels of light.
+/// Colours of a layer, each with 256 levels of light.
 #[derive(Clone, Debug)]
 pub(crate) struct Shades {
     layer: Layer,
@@ -59,26 +58,26 @@ pub(crate) struct Shades {
 }
 
 impl Shades {
-    /// The tones of a layer, where nodes have these colours.
+    /// Computes the tones of a layer for nodes with these colours.
     pub(crate) fn new(layer: Layer, colours: &[Rgb]) -> Self {
         let tones = match layer {
             Layer::Owners => colours.iter().map(|&colour| tones(colour)).collect(),
             Layer::Costs | Layer::Arrival => {
-                (0..STEPS).map(|step| tones(Layer::ramp(step as f64 / (STEPS - 1) as f64))).collect()
+                (0..RAMP_STEPS).map(|step| tones(Layer::ramp(step as f64 / (RAMP_STEPS - 1) as f64))).collect()
             }
         };
         Self { layer, tones }
     }
 
-    /// Which layer it is.
+    /// The layer.
     pub(crate) fn layer(&self) -> Layer {
         self.layer
     }
 
-    /// Which of the tones an atom has, where atoms cost so much on the average; `None` if it is not traced.
+    /// Returns the index of an atom's tone; `mean` is the mean cost of an atom. `None` if the atom is not traced.
     pub(crate) fn of(&self, atom: Atom, state: &RunState, mean: f64) -> Option<u16> {
-        let AtomState::Traced { by, cost, .. } = state.places()[atom as usize] else { return None };
-        let step = |share: f64| (share.clamp(0.0, 1.0) * (STEPS - 1) as f64).round() as u16;
+        let AtomState::Traced { by, cost, .. } = state.atom_states()[atom as usize] else { return None };
+        let step = |share: f64| (share.clamp(0.0, 1.0) * (RAMP_STEPS - 1) as f64).round() as u16;
         Some(match self.layer {
             Layer::Owners => by,
             Layer::Costs if mean > 0.0 => step(0.5 + (f64::from(cost) / mean).log2() / 6.0),
@@ -87,7 +86,7 @@ impl Shades {
         })
     }
 
-    /// A pixel of the render in a tone: the render (`blend` 0), the layer (1), or between.
+    /// Mixes a pixel of the render (`blend` 0) with its tone (1).
     pub(crate) fn shown(&self, render: Rgb, tone: Option<u16>, blend: f32) -> Rgb {
         match tone.and_then(|tone| self.tones.get(usize::from(tone))) {
             Some(tones) if blend > 0.0 => mix(render, tones[light(render)], blend),
@@ -96,8 +95,8 @@ impl Shades {
     }
 }
 
-/// The picture as it is shown, as 8-bit RGB in scan order: the render (`blend` 0, exactly [`Frame::to_srgb8`]), in the
-/// colours of a layer (1; those of nodes are given), or between. What is not traced yet is black.
+/// Returns the shown picture as 8-bit RGB in scan order: the render (`blend` 0, exactly [`Frame::to_srgb8`]), the layer
+/// (1), or a mixture. Untraced pixels are black. `colours` are those of the nodes.
 pub fn picture_pixels(frame: &Frame, state: &RunState, colours: &[Rgb], (layer, blend): (Layer, f32)) -> Vec<u8> {
     let (tones, division, mean) = (Shades::new(layer, colours), state.division(), state.mean_cost());
     let atoms = (0..state.atoms()).map(|atom| (division.pixels(atom), tones.of(atom, state, mean)));
@@ -108,23 +107,23 @@ pub fn picture_pixels(frame: &Frame, state: &RunState, colours: &[Rgb], (layer, 
     pixels.flat_map(|(render, tone)| tones.shown(render, tone, blend)).collect()
 }
 
-/// How light a shown pixel looks, 0 to 255 (Rec. 601 luma, which is made for encoded values).
+/// Luma of a shown pixel, 0 to 255 (Rec. 601, which is made for encoded values).
 fn light(pixel: Rgb) -> usize {
     let [r, g, b] = pixel.map(usize::from);
     (299 * r + 587 * g + 114 * b) / 1000
 }
 
-/// A node's colour at each level of light: dark but still itself in the shadows, full in the middle, towards white
-/// in highlights, so that the shapes stay as clear as the owners.
+/// Returns a colour at each level of light: dark in shadows, full in the middle, towards white in highlights, so that
+/// shapes stay as clear as owners.
 fn tones(colour: Rgb) -> [Rgb; 256] {
-    const FULL: f32 = 0.62;
+    const FULL_COLOUR_LEVEL: f32 = 0.62;
     let dark = mix([0; 3], colour, 0.16);
     std::array::from_fn(|level| {
         let level = level as f32 / 255.0;
-        if level <= FULL {
-            mix(dark, colour, level / FULL)
+        if level <= FULL_COLOUR_LEVEL {
+            mix(dark, colour, level / FULL_COLOUR_LEVEL)
         } else {
-            mix(colour, [0xff; 3], 0.8 * (level - FULL) / (1.0 - FULL))
+            mix(colour, [0xff; 3], 0.8 * (level - FULL_COLOUR_LEVEL) / (1.0 - FULL_COLOUR_LEVEL))
         }
     })
 }
@@ -139,12 +138,12 @@ mod tests {
 
     const COLOURS: [Rgb; 2] = [[200, 0, 0], [0, 0, 200]];
 
-    /// A run of two nodes after so many of its records, and a frame that holds `pixel` wherever that is traced.
+    /// Runs two nodes for a number of records; all traced pixels of the frame are `pixel`.
     fn traced(records: usize, pixel: Colour) -> (Frame, RunState) {
         let header = sample_runs::header(&[1.0, 1.0], 20);
         let (mut state, mut frame) = (RunState::new(&header), Frame::new(header.size));
         sample_runs::records(&header).iter().take(records).for_each(|record| state.apply(record));
-        for (atom, place) in (0..).zip(state.places()) {
+        for (atom, place) in (0..).zip(state.atom_states()) {
             if place.owner().is_some() {
                 frame.place(header.division.pixels(atom), &[pixel; 50]);
             }
@@ -154,7 +153,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn without_a_layer_it_is_the_render_byte_for_byte(
+        fn picture_without_a_layer_is_the_render_byte_for_byte(
             records in 0..400usize, pixel in prop::array::uniform3(-0.5..1.5f32), layer in prop::sample::select(&Layer::ALL),
         ) {
             let (frame, state) = traced(records, pixel);
@@ -162,17 +161,17 @@ mod tests {
         }
 
         #[test]
-        fn what_is_not_traced_is_black(records in 0..60usize, blend in 0.0..=1.0f32) {
+        fn untraced_pixels_are_black(records in 0..60usize, blend in 0.0..=1.0f32) {
             let (frame, state) = traced(records, [0.4, 0.5, 0.6]);
             let bytes = picture_pixels(&frame, &state, &COLOURS, (Layer::Owners, blend));
             for (pixel, bytes) in bytes.chunks(3).enumerate() {
-                prop_assert_eq!(bytes == [0; 3], state.places()[pixel / 50].owner().is_none());
+                prop_assert_eq!(bytes == [0; 3], state.atom_states()[pixel / 50].owner().is_none());
             }
         }
     }
 
     #[test]
-    fn the_owners_colour_what_they_traced() {
+    fn owners_colour_their_atoms() {
         let (frame, state) = traced(usize::MAX, [0.2; 3]);
         let picture = |blend| picture_pixels(&frame, &state, &COLOURS, (Layer::Owners, blend));
         let (render, between, owners) = (picture(0.0), picture(0.5), picture(1.0));
@@ -185,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_to_come_is_lighter_than_the_first() {
+    fn last_atom_is_lighter_than_the_first() {
         let (_, state) = traced(usize::MAX, [0.2; 3]);
         let tones = Shades::new(Layer::Arrival, &COLOURS);
         let of =
@@ -195,14 +194,14 @@ mod tests {
     }
 
     #[test]
-    fn whatever_costs_twice_the_mean_is_lighter_than_the_mean() {
+    fn cost_above_the_mean_is_lighter() {
         let (_, state) = traced(usize::MAX, [0.2; 3]);
         let tones = Shades::new(Layer::Costs, &COLOURS);
         let mean = state.mean_cost();
         assert!((mean - sample_runs::COST.as_secs_f64()).abs() < 1e-9);
         let of = |mean| tones.of(3, &state, mean);
         assert!(of(mean / 2.0) > of(mean) && of(mean) > of(mean * 2.0));
-        assert_eq!([of(mean / 100.0), of(mean * 100.0)], [Some(STEPS as u16 - 1), Some(0)]);
+        assert_eq!([of(mean / 100.0), of(mean * 100.0)], [Some(RAMP_STEPS as u16 - 1), Some(0)]);
     }
 
     #[test]

@@ -82,7 +82,7 @@ impl Details {
         match self.subject {
             Subject::Node(node) => {
                 let mut atoms = Vec::new();
-                for (atom, place) in (0..).zip(state.places()) {
+                for (atom, place) in (0..).zip(state.atom_states()) {
                     if place.holder() == Some(node) {
                         push_atom(&mut atoms, atom);
                     }
@@ -90,7 +90,7 @@ impl Details {
                 Highlight { nodes: vec![node], atoms, ..Highlight::default() }
             }
             Subject::Atom(atom) => {
-                let holder = state.places().get(atom as usize).and_then(|place| place.holder());
+                let holder = state.atom_states().get(atom as usize).and_then(|place| place.holder());
                 let atoms = std::iter::once(atom..atom.saturating_add(1)).collect();
                 Highlight { nodes: holder.into_iter().collect(), atoms, bar: self.bar, ..Highlight::default() }
             }

@@ -80,7 +80,7 @@ impl SnapshotCache {
             self.stride = MIN_STRIDE.max(first.state.atoms() as usize / 8);
             self.kept.push(first);
         }
-        let most = (MAX_CACHE_BYTES / size_of_val(self.kept[0].state.places()).max(1)).clamp(2, 64);
+        let most = (MAX_CACHE_BYTES / size_of_val(self.kept[0].state.atom_states()).max(1)).clamp(2, 64);
         // Never empty: the first snapshot stays.
         while let Some(last) = self.kept.last().filter(|last| last.records + self.stride <= records) {
             let mut next = last.clone();
@@ -112,7 +112,7 @@ mod tests {
         let flights: Vec<_> = state.flights().iter().filter(|flight| flight.gone() > at).collect();
         let events: Vec<_> = narrator.events().collect();
         let sentence = narrator.sentence(state, at, language);
-        format!("{records} {:?} {:?} {flights:?} {events:?} {sentence}", state.nodes(), state.places())
+        format!("{records} {:?} {:?} {flights:?} {events:?} {sentence}", state.nodes(), state.atom_states())
     }
 
     proptest! {

@@ -15,7 +15,7 @@ use crate::view::text::format::{duration, fraction, percent};
 
 /// Draws the parent, the share of the picture that is traced, and whether the parent is busy.
 pub(crate) fn parent(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>, language: Language) {
-    let waiting = state.waiting(now);
+    let waiting = state.line_length(now);
     if waiting > 0 || state.is_estimating {
         marks.push(Mark::Disc { centre: layout.centre, radius: layout.parent_radius, ink: Hue::Hairline.faint(0.6) });
     }

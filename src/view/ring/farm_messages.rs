@@ -12,7 +12,7 @@ use crate::view::text::format::count;
 
 /// Draws requests, parts, and the queue at the parent.
 pub(crate) fn draw(layout: &RingLayout, state: &RunState, now: Time, marks: &mut RingMarks) {
-    if state.presence(now) == 0.0 {
+    if state.opacity(now) == 0.0 {
         return;
     }
     let marks = marks.layer(RingLayer::FarmMessages);
@@ -53,7 +53,7 @@ const MAX_NODES_WITH_TEXT: usize = 12;
 
 fn discs<'a>(layout: &RingLayout, state: &'a RunState, now: Time) -> Vec<FarmDisc<'a>> {
     let disc = |flight: &'a Flight| {
-        let alpha = flight.presence(now) * state.presence(now);
+        let alpha = flight.opacity(now) * state.opacity(now);
         if flight.sent > now || !flight.shown().contains(&now) || alpha == 0.0 {
             return None;
         }
@@ -225,7 +225,7 @@ mod tests {
         let language = Language::English;
         let (mut most, mut said, mut activities) = (0, BTreeSet::new(), BTreeSet::new());
         for_each_record(&header(Strategy::Farm, &[1.0; 8], 20), |state, now| {
-            let waiting = state.waiting(now);
+            let waiting = state.line_length(now);
             most = most.max(waiting);
             let drawn = texts(state, now, [640.0, 490.0], language);
             assert_eq!(drawn.iter().any(|text| *text == format!("{waiting} waiting")), waiting > 1, "{drawn:?}");
@@ -238,7 +238,7 @@ mod tests {
             assert!(activities.contains(&format!("{activity:?}")), "{activity:?} {activities:?}");
         }
         // A parent that needs no time has no queue.
-        for_each_record(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.waiting(now), 0));
+        for_each_record(&header(Strategy::Farm, &[1.0; 8], 0), |state, now| assert_eq!(state.line_length(now), 0));
     }
 
     #[test]

@@ -52,9 +52,9 @@ fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, langua
     let (left, done) = (say!(language, "{left} left", "{rest} {left}"), say!(language, "{done} done", "{done} {made}"));
     match activity {
         _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
-        Activity::Waiting | Activity::Spare => [activity_word(activity, language).into(), String::new()],
+        Activity::NoBand | Activity::Spare => [activity_word(activity, language).into(), String::new()],
         _ if activity.is_out() => [done, activity_word(activity, language).into()],
-        Activity::Computing => {
+        Activity::Tracing => {
             let rate = rate_words(of.rate(now), language);
             let both = format!("{} · {rate}", fraction(of.speed));
             [left, if of.speed < 0.995 && both.chars().count() <= SECOND_LINE_LETTERS { both } else { rate }]
@@ -98,7 +98,7 @@ mod tests {
             }
             let mut of = state.nodes[0].clone();
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
-            for activity in [Activity::Computing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::Waiting] {
+            for activity in [Activity::Tracing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::NoBand] {
                 let [first, second] = lines(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
                 prop_assert!(first <= first_line_letters(language) && second <= SECOND_LINE_LETTERS, "{:?}", lines(&state, &of, activity, Time::ZERO, language));
                 prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER_LETTERS);
@@ -127,7 +127,7 @@ mod tests {
             let now = Time::from_secs(1.0);
             lines(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
-        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5/s"]);
+        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5.0/s"]);
         state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });
         assert_eq!(said(&state, 1), "145 left, paused");
         state.nodes[0].left = 0;

@@ -38,7 +38,7 @@ fn wakes(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>
 /// Draws a small cross where a message was lost.
 fn losses(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     for flight in state.flights() {
-        let alpha = flight.cross(now) * state.presence(now);
+        let alpha = flight.cross_opacity(now) * state.opacity(now);
         if alpha == 0.0 {
             continue;
         }

@@ -31,11 +31,11 @@ pub(crate) fn draw(
     let radius = layout.node_radius * (0.5 + 0.5 * state.speed.clamp(0.0, 1.0).sqrt() as f32);
     let colour = Hue::Node(node);
     let (fill, hue) = match activity {
-        Activity::Computing | Activity::Done => (1.0, Hue::OnNode(node)),
+        Activity::Tracing | Activity::Done => (1.0, Hue::OnNode(node)),
         Activity::Receiving => (0.55, Hue::Text),
         Activity::CutOff if state.computes() => (1.0, Hue::OnNode(node)),
-        Activity::Paused | Activity::Stopped | Activity::Hung => (0.3, Hue::Text),
-        Activity::Waiting | Activity::Offering | Activity::Asking | Activity::InLine | Activity::Idle => {
+        Activity::Paused | Activity::SpeedZero | Activity::Hung => (0.3, Hue::Text),
+        Activity::NoBand | Activity::Offering | Activity::Asking | Activity::InLine | Activity::Idle => {
             (0.18, Hue::Text)
         }
         Activity::CutOff => (0.18, Hue::Text),

@@ -34,11 +34,11 @@ fn results(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mar
     for flight in state.flights() {
         if let (Party::Node(from), Cargo::Results(_)) = (flight.from, &flight.cargo)
             && flight.shown().contains(&now)
-            && state.presence(now) > 0.0
+            && state.opacity(now) > 0.0
         {
             let (start, end) = (layout.seat_radius - layout.node_radius * 1.3, layout.parent_radius);
             let radius = start + (end - start) * flight.progress(now);
-            let ink = Hue::Node(from).faint(state.presence(now));
+            let ink = Hue::Node(from).faint(state.opacity(now));
             marks.push(Mark::Disc { centre: layout.at(layout.angle(from), radius), radius: dot, ink });
         }
     }
@@ -129,7 +129,7 @@ impl OfferDisc<'_> {
 
 /// Returns the opacity of a message and its trail, 0 to 1.
 pub(crate) fn visibility(state: &RunState, flight: &Flight, now: Time) -> f32 {
-    flight.presence(now) * state.presence(now)
+    flight.opacity(now) * state.opacity(now)
 }
 
 /// Returns the distance of a lane from the rail: lane 0 is on it, the others by turns outside and inside. More than

@@ -65,7 +65,7 @@ pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: T
     }
     let machines = marks.layer(RingLayer::Machines);
     for node in 0..state.nodes().len() as NodeId {
-        let of = &*state.seen(node, now);
+        let of = &*state.node_as_drawn(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
         machine::draw(layout, (node, of), activity, is_selected || overlay.highlighted.contains(&node), machines);
         if is_labelled(layout, is_selected) {

@@ -1,4 +1,4 @@
-//! What is seen of a run at some time: what moves, and what each node does.
+//! The run as it is shown at one time: what moves, and what each node does.
 
 use std::borrow::Cow;
 use std::time::Duration;
@@ -11,49 +11,49 @@ use crate::picture::Atom;
 use crate::time::Time;
 
 impl RunState {
-    /// Whether anything moves at `now`: a message that is drawn, a machine that computes, a rate that sinks, or the line
-    /// at the parent.
+    /// Whether anything moves at `now`: a drawn message, a machine that traces, a falling rate, or the line at the
+    /// parent.
     pub fn moves(&self, now: Time) -> bool {
-        let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.presence(now) > 0.0;
+        let flies = self.flights.iter().any(|flight| flight.gone() > now) && self.opacity(now) > 0.0;
         let works = |node: &NodeState| node.computes() || node.rate(now) > 0.0;
         flies || self.finished.is_none() && (self.nodes.iter().any(works) || self.is_in_line(now))
     }
 
-    /// How strongly what moves is seen at `now`, 0 to 1: once the picture is complete it soon makes way for the
-    /// result.
-    pub fn presence(&self, now: Time) -> f32 {
-        const FADE: Duration = Duration::from_millis(250);
+    /// Opacity of everything that moves at `now`, 0 to 1: it fades out once the picture is complete.
+    pub fn opacity(&self, now: Time) -> f32 {
+        const FADE_TIME: Duration = Duration::from_millis(250);
         let after = self.finished.map_or(Duration::ZERO, |end| now.since(end));
-        1.0 - (after.as_secs_f64() / (FADE.as_secs_f64() * self.rate())).min(1.0) as f32
+        1.0 - (after.as_secs_f64() / (FADE_TIME.as_secs_f64() * self.rate())).min(1.0) as f32
     }
 
-    /// How many messages have arrived at the parent that it has not handled yet at `now`.
-    pub fn waiting(&self, now: Time) -> usize {
+    /// The number of messages that have arrived at the parent and that it has not handled yet at `now`.
+    pub fn line_length(&self, now: Time) -> usize {
         self.in_line(now).count()
     }
 
-    /// Whether messages wait for a parent that takes its time.
+    /// Whether messages wait at a parent that is busy for some time with each.
     fn is_in_line(&self, now: Time) -> bool {
-        !self.handling.is_zero() && self.waiting(now) > 0
+        !self.handling.is_zero() && self.line_length(now) > 0
     }
 
-    /// The messages that have arrived at the parent and that it has not handled yet at `now`, in the order in which they
-    /// left.
+    /// Messages that have arrived at the parent and that it has not handled yet at `now`, in the order of their
+    /// numbers.
     pub(crate) fn in_line(&self, now: Time) -> impl Iterator<Item = &Flight> {
-        /// Records come in batches, and so a little late.
-        const LATE: Duration = Duration::from_millis(100);
-        // By its own records the parent would have handled what was there before them.
+        /// Records come in batches: this late at most.
+        const BATCH_DELAY: Duration = Duration::from_millis(100);
+        // The parent's records up to its latest one are complete.
         let known = self.parent_head.min(now);
         let goes_on = self.finished.is_none_or(|end| now < end);
         let waits = move |flight: &&Flight| {
-            goes_on && flight.to == Party::Parent && (flight.arrives < known || flight.arrives + LATE <= now)
+            goes_on && flight.to == Party::Parent && (flight.arrives < known || flight.arrives + BATCH_DELAY <= now)
         };
         self.pending.values().filter(waits)
     }
 
-    /// A node as it is seen at `now`: parcels are drawn slower than they travel, and what is in one that is still drawn
-    /// on its way does not count as the node's yet. The parts of a farm are drawn about as fast as they travel.
-    pub(crate) fn seen(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
+    /// Returns a node as it is shown at `now`. Parcels are drawn slower than they travel, and atoms in a parcel that is
+    /// still drawn on its way do not count as the node's yet. The parts of a farm are drawn about as fast as they
+    /// travel.
+    pub(crate) fn node_as_drawn(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
         let state = &self.nodes[usize::from(node)];
         let lands = |flight: &&Flight| {
             let is_part = matches!(flight.cargo, Cargo::Part(_));
@@ -67,7 +67,7 @@ impl RunState {
         if landing == 0 { Cow::Borrowed(state) } else { Cow::Owned(state.without(landing)) }
     }
 
-    /// Whether atoms are on their way to a machine.
+    /// Whether any atoms are on their way to a machine.
     pub(crate) fn has_atoms_under_way(&self) -> bool {
         let carries = |flight: &Flight| {
             matches!(flight.cargo, Cargo::Band(_) | Cargo::Part(_) | Cargo::Transfer(_) | Cargo::Again(_))
@@ -75,7 +75,7 @@ impl RunState {
         self.pending.values().any(carries)
     }
 
-    /// The message in which `atom` is on its way to a node.
+    /// Finds the message in which `atom` is on its way to a node.
     pub fn carrier(&self, atom: Atom) -> Option<&Flight> {
         let carries = |flight: &&Flight| {
             let goes_to_a_node = !matches!(flight.cargo, Cargo::Results(_));
@@ -84,12 +84,12 @@ impl RunState {
         self.pending.values().find(carries)
     }
 
-    /// What `node` is seen doing at `now`.
+    /// Returns what `node` does at `now`, as it is shown.
     pub fn activity(&self, node: NodeId, now: Time) -> Activity {
         let state = &self.nodes[usize::from(node)];
-        // What lasts only an instant is shown for as long as it is drawn.
+        // An offer may be away for an instant only: it counts as long as its drawing.
         let offers =
-            self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.presence(now) > 0.4);
+            self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.opacity(now) > 0.4);
         let is_over = self.finished.is_some_and(|end| end <= now);
         if state.spare {
             Activity::Spare
@@ -108,24 +108,24 @@ impl RunState {
                 _ => Activity::Retired,
             }
         } else if state.band_at.is_none() {
-            Activity::Waiting
+            Activity::NoBand
         } else if state.paused && state.left() > 0 {
             Activity::Paused
         } else if self.receives(node, now) {
             Activity::Receiving
         } else if state.left() > 0 {
-            if state.speed > 0.0 { Activity::Computing } else { Activity::Stopped }
-        } else if self.sharing.is_farm() && state.offer_out {
-            self.asks(node, now)
-        } else if state.offer_out || offers {
+            if state.speed > 0.0 { Activity::Tracing } else { Activity::SpeedZero }
+        } else if self.sharing.is_farm() && state.awaits_answer {
+            self.request_progress(node, now)
+        } else if state.awaits_answer || offers {
             Activity::Offering
         } else {
             Activity::Idle
         }
     }
 
-    /// How far the request is that `node` has made.
-    fn asks(&self, node: NodeId, now: Time) -> Activity {
+    /// Tells how far the request of `node` is.
+    fn request_progress(&self, node: NodeId, now: Time) -> Activity {
         let (mut asks, mut gets) = (false, false);
         for flight in self.pending.values() {
             asks |= flight.from == Party::Node(node) && flight.cargo == Cargo::Request && now < flight.arrives;
@@ -138,7 +138,7 @@ impl RunState {
         }
     }
 
-    /// Whether atoms on their way to `node` are drawn at `now`.
+    /// Whether a parcel for `node` is drawn at `now`.
     fn receives(&self, node: NodeId, now: Time) -> bool {
         self.flights.iter().any(|flight| {
             flight.to == Party::Node(node)
@@ -158,7 +158,7 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn a_slow_node_computes_while_the_others_offer_and_receive() {
+    fn slow_node_traces_while_others_offer_and_receive() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
         let mut state = RunState::new(&header);
         let mut seen = BTreeSet::new();
@@ -169,7 +169,7 @@ mod tests {
                 seen.insert((node, format!("{activity:?}")));
             }
         }
-        for what in ["Waiting", "Computing", "Offering", "Receiving", "Done"] {
+        for what in ["NoBand", "Tracing", "Offering", "Receiving", "Done"] {
             assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
         }
         assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_paused_node_is_seen_so_while_it_has_atoms() {
+    fn paused_node_is_shown_as_paused_while_it_has_atoms() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
         let mut state = RunState::new(&header);
         let mut seen = Vec::new();
@@ -191,24 +191,24 @@ mod tests {
                 state.apply(&Record { at: record.at, what: RecordKind::Paused { node: 1 } });
             }
             let activity = state.activity(1, record.at);
-            assert!(activity != Activity::Computing, "{record:?}");
+            assert!(activity != Activity::Tracing, "{record:?}");
             assert!((activity == Activity::Paused) <= (state.nodes[1].left() > 0));
             seen.push(activity);
         }
-        for activity in [Activity::Waiting, Activity::Paused, Activity::Offering, Activity::Receiving] {
+        for activity in [Activity::NoBand, Activity::Paused, Activity::Offering, Activity::Receiving] {
             assert!(seen.contains(&activity), "{activity:?} {seen:?}");
         }
     }
 
     #[test]
-    fn an_atom_is_carried_until_it_arrives() {
+    fn carrier_is_found_until_the_atom_arrives() {
         let header = sample_runs::header(&[1.0, 1.0, 0.1], 60);
         let mut state = RunState::new(&header);
         let mut carriers = BTreeSet::new();
         for record in sample_runs::records(&header) {
             state.apply(&record);
             if let Some(flight) = state.carrier(59) {
-                assert!(flight.sent <= record.at && state.places()[59].owner().is_none());
+                assert!(flight.sent <= record.at && state.atom_states()[59].owner().is_none());
                 carriers.insert((flight.from, flight.to));
             }
         }
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_moves_while_all_machines_stand_still_nor_after_the_end() {
+    fn nothing_moves_while_all_machines_are_stopped_nor_after_the_end() {
         let header = sample_runs::header(&[1.0, 1.0], 40);
         let mut state = RunState::new(&header);
         let records = sample_runs::records(&header);
@@ -235,7 +235,7 @@ mod tests {
 
         records.iter().skip(30).for_each(|record| state.apply(record));
         let end = state.finished().expect("the run is complete");
-        assert!(state.presence(end) == 1.0 && state.presence(end + Duration::from_millis(400)) == 0.0);
+        assert!(state.opacity(end) == 1.0 && state.opacity(end + Duration::from_millis(400)) == 0.0);
         assert!(!state.moves(end + Duration::from_millis(400)));
     }
 }

@@ -1,32 +1,32 @@
-//! Where each atom stands.
+//! The state of each atom.
 
 use std::time::Duration;
 
 use crate::balance::NodeId;
 use crate::time::Time;
 
-/// Where an atom stands. There are many atoms, so it is small.
+/// State of an atom. It is small, since there are many atoms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AtomState {
-    /// No node has got it yet.
+    /// It is still with the parent.
     #[default]
     Nowhere,
-    /// Nobody has it any more: it was lost with its machine, or with a message.
+    /// It was lost with a machine, or with a message.
     Lost,
-    /// A node has it in its queue or its pipe, or has given it away to a node that has not got it yet.
+    /// It is in a node's queue or pipe, or on its way from this node to another one.
     With {
-        /// Which node.
+        /// The node.
         node: NodeId,
         /// When the atom arrived there.
         since: Time,
     },
     /// It is traced.
     Traced {
-        /// By which node.
+        /// The node that traced it.
         by: NodeId,
         /// CPU time of this computer, in seconds.
         cost: f32,
-        /// When it was done.
+        /// When the node had traced it.
         at: Time,
         /// Whether the parent has placed it in the picture.
         placed: bool,
@@ -34,7 +34,7 @@ pub enum AtomState {
 }
 
 impl AtomState {
-    /// Who has traced it.
+    /// The node that has traced it.
     pub fn owner(self) -> Option<NodeId> {
         match self {
             Self::Traced { by, .. } => Some(by),
@@ -42,7 +42,7 @@ impl AtomState {
         }
     }
 
-    /// Who has it, or has traced it.
+    /// The node that has it, or has traced it.
     pub fn holder(self) -> Option<NodeId> {
         match self {
             Self::Nowhere | Self::Lost => None,
@@ -59,14 +59,15 @@ impl AtomState {
         Self::Traced { by, cost: cost.as_secs_f32(), at, placed: false }
     }
 
-    /// The parent has placed it. Returns whether it was known to be traced.
+    /// Marks the atom as placed by the parent. Returns `false` if its tracing is not recorded yet.
     pub(crate) fn place(&mut self) -> bool {
         let Self::Traced { placed, .. } = self else { return false };
         *placed = true;
         true
     }
 
-    /// The atom has arrived at `node`. It may have been handed on, or traced, before the record of that comes.
+    /// Notes the atom's arrival at `node`. Records of its tracing, or of a later arrival elsewhere, may have come
+    /// before.
     pub(crate) fn arrive(&mut self, node: NodeId, at: Time) {
         match *self {
             Self::Traced { .. } => {}
@@ -81,19 +82,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_small() {
+    fn atom_state_is_small() {
         assert!(size_of::<AtomState>() <= 16);
     }
 
     #[test]
-    fn the_latest_arrival_counts_and_what_is_traced_stays() {
-        let mut place = AtomState::default();
-        assert_eq!((place.holder(), place.owner()), (None, None));
-        place.arrive(4, Time(9));
-        place.arrive(2, Time(5));
-        assert_eq!((place.holder(), place.owner()), (Some(4), None));
-        place = AtomState::traced(4, Duration::from_millis(2), Time(12));
-        place.arrive(7, Time(11));
-        assert_eq!((place.holder(), place.owner()), (Some(4), Some(4)));
+    fn latest_arrival_counts_and_traced_is_final() {
+        let mut atom = AtomState::default();
+        assert_eq!((atom.holder(), atom.owner()), (None, None));
+        atom.arrive(4, Time(9));
+        atom.arrive(2, Time(5));
+        assert_eq!((atom.holder(), atom.owner()), (Some(4), None));
+        atom = AtomState::traced(4, Duration::from_millis(2), Time(12));
+        atom.arrive(7, Time(11));
+        assert_eq!((atom.holder(), atom.owner()), (Some(4), Some(4)));
     }
 }

@@ -1,9 +1,9 @@
-//! Messages in flight, and for how long they are shown.
+//! Messages in flight, and how long they are drawn.
 //!
-//! On a fast link a message is gone before anyone has seen it. So each kind has a shortest displayed flight: it
-//! still leaves at its own time, but its drawing may arrive later than the message. Where time goes slowly that is a
-//! shorter part of it. One pure function of (sent, arrives) and of how fast time goes decides that for every view, so
-//! that pausing or going back costs nothing.
+//! On a fast link a message would arrive before anyone has seen it. So each kind of message has a minimum time for
+//! which it is drawn: the drawing leaves when the message is sent, and may arrive later than the message. At a slow
+//! playback rate this minimum is shorter. The drawing is a pure function of the times (sent, arrives) and of the
+//! playback rate, so that it is the same in all views, and the shown time can be stopped or moved back.
 
 use std::ops::Range;
 use std::slice;
@@ -13,33 +13,33 @@ use crate::balance::{Message, NodeId, OfferDetails, Party};
 use crate::picture::{Atom, atoms_in};
 use crate::time::Time;
 
-/// A message that has left.
+/// A message that has been sent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
-    /// Its name in the run.
+    /// The message's number in the run.
     pub id: u64,
     /// The sender.
     pub from: Party,
     /// The receiver.
     pub to: Party,
-    /// What it carries.
+    /// The content.
     pub cargo: Cargo,
-    /// When it left.
+    /// When it was sent.
     pub sent: Time,
     /// When the link delivers it.
     pub arrives: Time,
-    /// The run's seconds in a second of whoever looks on, at most 1.
+    /// Playback rate: run seconds per wall second, at most 1.
     pub(crate) rate: f64,
-    /// Where on its way it was lost, 0 to 1, if it was.
+    /// Part of its way at which it was lost, 0 to 1.
     pub(crate) lost: Option<f32>,
-    /// Since when it is held up, if it is, and for how long.
+    /// Beginning and length of a delay by its link.
     pub(crate) held: Option<(Time, Duration)>,
 }
 
-/// What a message carries, as far as views care.
+/// Content of a message, as views need it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cargo {
-    /// A node's first share.
+    /// A node's first atoms.
     Band(Range<Atom>),
     /// An offer of help.
     Offer {
@@ -56,23 +56,23 @@ pub enum Cargo {
     Results(Vec<Range<Atom>>),
     /// Atoms to be traced once more.
     Again(Vec<Range<Atom>>),
-    /// A sleeping node is woken.
+    /// A message that wakes a sleeping node.
     Wake,
-    /// A node says that it sleeps.
+    /// A message of a node that sleeps.
     Sleeps,
-    /// What a node tells the parent of what it has.
+    /// A list of a node's atoms, for the parent.
     Beat,
-    /// What the parent is told or tells of losses.
+    /// A message about losses, from or to the parent.
     Notice,
-    /// The end.
+    /// The end of the run.
     Shutdown,
 }
 
-/// How long a cross is seen.
-const CROSS: Duration = Duration::from_millis(900);
+/// Time in which the cross of a lost message fades.
+const CROSS_FADE: Duration = Duration::from_millis(900);
 
 impl Flight {
-    /// The message `id` that left at `sent`.
+    /// Creates the flight of message `id`.
     pub fn new(id: u64, (from, to): (Party, Party), message: &Message, sent: Time, arrives: Time) -> Self {
         let cargo = match message {
             Message::Band(band) => Cargo::Band(band.clone()),
@@ -91,70 +91,72 @@ impl Flight {
         Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None, held: None }
     }
 
-    /// When the flight is drawn: from when it left to when it arrives, or longer if that is too short to be seen; or to where
-    /// it is lost.
+    /// Time in which the message is drawn on its way: until it arrives or is lost, or for its minimum time if that is
+    /// longer.
     pub fn shown(&self) -> Range<Time> {
-        let length = self.whole_way().mul_f64(self.lost.map_or(1.0, f64::from));
+        let length = self.drawn_length().mul_f64(self.lost.map_or(1.0, f64::from));
         self.sent..self.sent + length + self.held_for()
     }
 
-    /// It is lost: at its end, if nobody is there to receive it, else half-way, or where it is drawn if that is further.
-    pub(crate) fn lose(&mut self, at: Time, at_its_end: bool) {
-        self.lost = Some(if at_its_end { 1.0 } else { self.progress(at).max(0.5) });
+    /// Marks the message as lost: at the end of its way if the receiver is off, else half-way, or where it is drawn at
+    /// `at` if that is further.
+    pub(crate) fn lose(&mut self, at: Time, at_end: bool) {
+        self.lost = Some(if at_end { 1.0 } else { self.progress(at).max(0.5) });
     }
 
-    /// It stands still from `at` on, and arrives at `until`.
+    /// Stops the message at `at`, so that it arrives at `until`.
     pub(crate) fn hold(&mut self, at: Time, until: Time) {
         let (since, by) = self.held.unwrap_or((at, Duration::ZERO));
         self.held = Some((since, by + until.since(self.arrives)));
         self.arrives = self.arrives.max(until);
     }
 
-    /// How strongly the cross is seen at `now` that stands where it was lost, 0 to 1.
-    pub(crate) fn cross(&self, now: Time) -> f32 {
-        if self.lost.is_some() && now >= self.shown().end { self.presence(now) } else { 0.0 }
+    /// Opacity at `now` of the cross where the message was lost, 0 to 1.
+    pub(crate) fn cross_opacity(&self, now: Time) -> f32 {
+        if self.lost.is_some() && now >= self.shown().end { self.opacity(now) } else { 0.0 }
     }
 
-    /// How long it is held up in all.
+    /// Length of its delay.
     fn held_for(&self) -> Duration {
         self.held.map_or(Duration::ZERO, |(_, by)| by)
     }
 
-    /// How long it is drawn if it arrives, and is not held up.
-    fn whole_way(&self) -> Duration {
+    /// Time for which it is drawn on its whole way, without a delay.
+    fn drawn_length(&self) -> Duration {
         let way = self.arrives.since(self.sent).saturating_sub(self.held_for());
-        way.max(self.cargo.shortest().mul_f64(self.rate))
+        way.max(self.cargo.min_drawn().mul_f64(self.rate))
     }
 
-    /// For how long it has been on its way, apart from what it was held up.
+    /// Time since it was sent, without its delay so far.
     fn travelled(&self, now: Time) -> Duration {
         let held = self.held.map_or(Duration::ZERO, |(at, by)| now.since(at).min(by));
         now.since(self.sent).saturating_sub(held)
     }
 
-    /// When the last of its trail is gone at the latest, however fast time goes.
-    pub(crate) fn gone_at_last(&self) -> Time {
-        self.arrives.max(self.sent + self.cargo.shortest() + self.held_for()) + self.cargo.fade().max(CROSS)
+    /// End of its drawing with trail and cross, at the playback rate at which that is latest.
+    pub(crate) fn latest_gone(&self) -> Time {
+        self.arrives.max(self.sent + self.cargo.min_drawn() + self.held_for()) + self.cargo.fade().max(CROSS_FADE)
     }
 
-    /// When the last of its fading trail is gone.
+    /// End of its drawing with trail and cross.
     pub fn gone(&self) -> Time {
         self.shown().end + self.fade()
     }
 
+    /// Time in which its trail or its cross fades.
     fn fade(&self) -> Duration {
         let fade = self.cargo.fade();
-        if self.lost.is_some() { fade.max(CROSS) } else { fade }.mul_f64(self.rate)
+        if self.lost.is_some() { fade.max(CROSS_FADE) } else { fade }.mul_f64(self.rate)
     }
 
-    /// How far it is on its way at `now`, 0 to 1.
+    /// Part of its way at `now`, 0 to 1.
     pub fn progress(&self, now: Time) -> f32 {
-        let (length, most) = (self.whole_way().as_secs_f64(), self.lost.unwrap_or(1.0));
+        let (length, most) = (self.drawn_length().as_secs_f64(), self.lost.unwrap_or(1.0));
         if length == 0.0 { most } else { ((self.travelled(now).as_secs_f64() / length) as f32).min(most) }
     }
 
-    /// How strongly its trail is still seen at `now`: 1 until it has arrived, then less and less, at last 0.
-    pub fn presence(&self, now: Time) -> f32 {
+    /// Opacity of its trail at `now`: 1 until it has arrived, then falling to 0.
+    pub fn opacity(&self, now: Time) -> f32 {
         let (end, fade) = (self.shown().end, self.fade());
         if now <= end {
             1.0
@@ -167,7 +169,7 @@ impl Flight {
 }
 
 impl Cargo {
-    /// The atoms that it holds.
+    /// The atoms in it.
     pub fn ranges(&self) -> &[Range<Atom>] {
         match self {
             Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
@@ -177,19 +179,19 @@ impl Cargo {
         }
     }
 
-    /// How many atoms it holds.
+    /// The number of atoms in it.
     pub fn atoms(&self) -> u32 {
         atoms_in(self.ranges())
     }
 
-    /// The shortest time for which its flight is drawn. Offers are not stretched, or one that is passed on would
-    /// be seen in several places at once: they leave a trail instead.
-    pub const fn shortest(&self) -> Duration {
+    /// Minimum time for which the message is drawn on its way. Offers have none, or an offer that is passed on would be
+    /// seen in several places at once: they leave a trail instead.
+    pub const fn min_drawn(&self) -> Duration {
         match self {
             Self::Band(_) => Duration::from_millis(900),
             Self::Transfer(_) | Self::Again(_) => Duration::from_millis(1000),
             Self::Results(_) => Duration::from_millis(500),
-            // There may be many, and whoever asks waits: they are hardly stretched.
+            // There may be many, and the receiver waits for them.
             Self::Part(atoms) if atoms.start == atoms.end => Duration::from_millis(900),
             Self::Part(_) => Duration::from_millis(400),
             Self::Request | Self::Wake => Duration::from_millis(250),
@@ -197,7 +199,7 @@ impl Cargo {
         }
     }
 
-    /// How long its trail fades after it has arrived.
+    /// Time in which its trail fades after it has arrived.
     const fn fade(&self) -> Duration {
         match self {
             Self::Offer { .. } => Duration::from_millis(700),
@@ -222,40 +224,40 @@ mod tests {
     }
 
     #[test]
-    fn a_short_transfer_is_stretched_and_a_long_one_is_not() {
+    fn transfer_is_drawn_for_its_minimum_time() {
         assert_eq!(transfer(5, 40_000_000).shown(), Time(5)..Time(1_000_000_005));
         assert_eq!(transfer(5, 3_000_000_000).shown(), Time(5)..Time(3_000_000_005));
         assert_eq!(transfer(5, 1).cargo.atoms(), 37);
     }
 
     #[test]
-    fn an_offer_keeps_its_time_and_leaves_a_trail() {
+    fn offer_arrives_on_time_and_leaves_a_trail() {
         let message = Message::offer(3, 9);
         let offer =
             Flight::new(7, (Party::Node(3), Party::Node(2)), &message, Time::from_secs(1.0), Time::from_secs(1.04));
         assert_eq!(offer.shown().end, Time::from_secs(1.04));
-        assert_eq!(offer.presence(Time::from_secs(1.03)), 1.0);
-        let later = offer.presence(Time::from_secs(1.44));
+        assert_eq!(offer.opacity(Time::from_secs(1.03)), 1.0);
+        let later = offer.opacity(Time::from_secs(1.44));
         assert!(later > 0.2 && later < 0.8, "{later}");
-        assert_eq!(offer.presence(offer.gone()), 0.0);
+        assert_eq!(offer.opacity(offer.gone()), 0.0);
     }
 
     #[test]
-    fn a_lost_message_ends_half_way_or_where_nobody_is() {
+    fn lost_message_ends_half_way_or_at_a_receiver_that_is_off() {
         let at = Time::from_secs(0.04);
-        for (at_its_end, way) in [(false, 0.5), (true, 1.0)] {
+        for (at_end, way) in [(false, 0.5), (true, 1.0)] {
             let mut flight = transfer(0, 40_000_000);
-            flight.lose(at, at_its_end);
+            flight.lose(at, at_end);
             assert_eq!(flight.shown().end, Time::from_secs(f64::from(way)));
-            assert_eq!((flight.progress(Time::from_secs(5.0)), flight.cross(at)), (way, 0.0));
-            assert_eq!(flight.cross(flight.shown().end), 1.0);
-            assert_eq!(flight.cross(flight.gone()), 0.0);
+            assert_eq!((flight.progress(Time::from_secs(5.0)), flight.cross_opacity(at)), (way, 0.0));
+            assert_eq!(flight.cross_opacity(flight.shown().end), 1.0);
+            assert_eq!(flight.cross_opacity(flight.gone()), 0.0);
             assert!(flight.gone() > flight.shown().end + Duration::from_millis(500));
         }
     }
 
     #[test]
-    fn where_time_goes_slowly_little_is_stretched() {
+    fn minimum_time_is_shorter_at_a_slow_playback_rate() {
         let slow = Flight { rate: 1e-3, ..transfer(5, 40_000) };
         assert_eq!((slow.shown(), slow.gone()), (Time(5)..Time(1_000_005), Time(1_300_005)));
         let slow = Flight { rate: 1e-6, ..transfer(5, 40_000) };
@@ -264,13 +266,13 @@ mod tests {
 
     proptest! {
         #[test]
-        fn progress_and_presence_never_go_back(
+        fn progress_rises_and_opacity_falls(
             sent in 0..10_000_000_000u64, length in 0..5_000_000_000u64, one in 0..20_000_000_000u64, more in 0..1_000_000_000u64,
         ) {
             let flight = transfer(sent, length);
             let (earlier, later) = (Time(one), Time(one + more));
             prop_assert!(flight.progress(earlier) <= flight.progress(later));
-            prop_assert!(flight.presence(earlier) >= flight.presence(later));
+            prop_assert!(flight.opacity(earlier) >= flight.opacity(later));
             prop_assert!(flight.shown().end >= flight.arrives);
         }
     }

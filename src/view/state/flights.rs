@@ -1,4 +1,4 @@
-//! The messages that can still be seen.
+//! The messages that are still drawn.
 
 use std::ops::Deref;
 
@@ -6,48 +6,47 @@ use super::flight::Flight;
 use crate::balance::Party;
 use crate::time::Time;
 
-/// Messages in the order in which they left. Those that can be seen no more are swept out now and then.
+/// Messages in the order in which they were sent. Messages that are not drawn any more are removed now and then.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flights {
     flights: Vec<Flight>,
-    /// How many the last sweep left.
+    /// Number of messages after the last sweep.
     swept: usize,
-    /// How fast time goes for those to come; `None`: as it does.
+    /// Playback rate for all messages, at most 1; `None` before it is set.
     rate: Option<f64>,
 }
 
 impl Flights {
-    /// One more has left.
+    /// Adds a message that is sent now.
     pub fn push(&mut self, flight: Flight) {
-        // A sweep looks at all of them, and so waits until they are twice as many.
+        // A sweep visits all messages, so it waits until their number has doubled.
         if self.flights.len() > 2 * self.swept + 16 {
-            // What is kept does not depend on how fast time just goes.
-            self.flights.retain(|earlier| earlier.gone_at_last() > flight.sent);
+            // What is kept does not depend on the playback rate.
+            self.flights.retain(|earlier| earlier.latest_gone() > flight.sent);
             self.swept = self.flights.len();
         }
         self.flights.push(Flight { rate: self.rate(), ..flight });
     }
 
-    /// A message is lost now.
-    pub fn lose(&mut self, id: u64, at: Time, at_its_end: bool) {
+    /// Marks a message as lost ([`Flight::lose`]).
+    pub fn lose(&mut self, id: u64, at: Time, at_end: bool) {
         if let Some(flight) = self.flights.iter_mut().rfind(|flight| flight.id == id) {
-            flight.lose(at, at_its_end);
+            flight.lose(at, at_end);
         }
     }
 
-    /// What is still on this way at `at` arrives at `until`.
+    /// Delays the messages that are on a link at `at` until `until`.
     pub fn hold(&mut self, (from, to): (Party, Party), at: Time, until: Time) {
         let is_there = |flight: &&mut Flight| (flight.from, flight.to) == (from, to) && flight.arrives > at;
         self.flights.iter_mut().filter(is_there).for_each(|flight| flight.hold(at, until));
     }
 
-    /// How many of the run's seconds go by in a second, at most one.
+    /// Playback rate: run seconds per wall second, at most 1.
     pub fn rate(&self) -> f64 {
         self.rate.unwrap_or(1.0)
     }
 
-    /// From now on so many of the run's seconds go by in a second; where that is more than one, flights are as long as
-    /// at one.
+    /// Sets the playback rate, in run seconds per wall second. A rate above 1 counts as 1.
     pub fn set_rate(&mut self, rate: f64) {
         let rate = rate.min(1.0);
         if self.rate.replace(rate) != Some(rate) {
@@ -70,7 +69,7 @@ mod tests {
     use crate::balance::Message;
 
     #[test]
-    fn those_that_are_gone_are_swept_out_and_others_stay() {
+    fn sweep_removes_messages_that_are_not_drawn_any_more() {
         let mut flights = Flights::default();
         let offer = Message::offer(0, 0);
         for second in 0..1000 {

@@ -1,45 +1,46 @@
-//! What each machine did and when, as a fold over records: a lane a node.
+//! Folds records into lanes: what each machine did, and when.
 
 use super::flight::{Cargo, Flight};
 use super::lane::{Lane, LanePhase, Traced};
-use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::balance::{NodeId, Party, Remedy};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::runlog::{Header, RunLog};
 use crate::time::Time;
 
-/// What all machines did and when. Records of different parties may come interleaved, those of one in order.
+/// One lane for each machine, and all messages. Records of different parties may come interleaved; those of one party
+/// come in order.
 #[derive(Clone, Debug)]
 pub struct Lanes {
     lanes: Vec<Lane>,
     trips: Vec<Trip>,
-    /// By trip: the bytes of it and of all that were told before it.
+    /// By trip: the bytes of all trips up to it.
     bytes: Vec<u64>,
     version: u64,
-    /// Whether who retires can be woken.
-    wakes: bool,
+    /// Whether a retired machine can be woken.
+    can_wake: bool,
 }
 
-/// A message, from when it left to when it arrives.
+/// A message on its way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trip {
-    /// Its name in the run.
+    /// The message's number in the run.
     pub id: u64,
-    /// Who sent it.
+    /// The sender.
     pub from: Party,
-    /// Who gets it.
+    /// The receiver.
     pub to: Party,
-    /// What it carries, in a word.
+    /// The kind of message.
     pub load: Load,
-    /// How many atoms.
+    /// Number of atoms in it.
     pub atoms: u32,
-    /// When it left.
+    /// When it was sent.
     pub sent: Time,
     /// When the link delivers it.
     pub arrives: Time,
 }
 
-/// What a message carries.
+/// Kind of a message, as the timeline tells them apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Load {
     /// An offer, the sender's own or another's.
@@ -50,36 +51,33 @@ pub enum Load {
     Atoms,
     /// Traced atoms.
     Results,
-    /// What keeps a ring that adapts whole: who is there, and has what.
+    /// A message of the adaptive ring about the state of nodes.
     Notice,
-    /// The end.
+    /// The end of the run.
     Shutdown,
 }
 
 impl Lanes {
-    /// Before anything has happened.
+    /// Creates the lanes of a run that has not begun.
     pub fn new(header: &Header) -> Self {
-        let lane = |(node, _)| Lane {
-            conditions: if header.is_spare(node) { vec![(Time::ZERO, Condition::Off)] } else { Vec::new() },
-            ..Lane::default()
-        };
+        let lane = |(node, speed): (NodeId, &f64)| Lane::new(*speed, header.is_spare(node));
         Self {
             lanes: (0..).zip(&header.speeds).map(lane).collect(),
             trips: Vec::new(),
             bytes: Vec::new(),
             version: 0,
-            wakes: header.remedies().has(Remedy::Wake),
+            can_wake: header.remedies().has(Remedy::Wake),
         }
     }
 
-    /// Of all of a run.
+    /// Folds all records of a run.
     pub fn of(log: &RunLog) -> Self {
         let mut lanes = Self::new(&log.header);
         log.records().iter().for_each(|record| lanes.apply(record));
         lanes
     }
 
-    /// Takes in what happened next.
+    /// Adds the next record.
     pub fn apply(&mut self, record: &Record) {
         self.version += 1;
         let at = record.at;
@@ -89,7 +87,7 @@ impl Lanes {
             }
             RecordKind::Condition { node, condition } => {
                 if let Some(lane) = self.lane(*node) {
-                    lane.condition(at, *condition);
+                    lane.set_condition(at, *condition);
                 }
             }
             RecordKind::AtomFailed { node, .. } => _ = self.lane(*node).map(|lane| lane.open = None),
@@ -104,73 +102,73 @@ impl Lanes {
             RecordKind::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.open = Some((*atom, at));
-                    lane.stay(at, LanePhase::Works);
+                    lane.begin_phase(at, LanePhase::HasAtoms);
                 }
             }
             RecordKind::AtomDone { node, atom, .. } => {
                 if let Some(lane) = self.lane(*node) {
-                    // The end of a log may be cut, not its beginning; still nothing is known of an atom that was never begun.
+                    // A bar without a beginning has no length.
                     let from = lane.open.take().filter(|(open, _)| open == atom).map_or(at, |(_, since)| since);
                     lane.bars.push(Traced { from, to: at, atom: *atom });
                 }
             }
             RecordKind::SpeedSet { node, speed } => {
                 if let Some(lane) = self.lane(*node) {
-                    lane.stands(at, *speed == 0.0);
+                    lane.set_speed(at, *speed);
                 }
             }
-            RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.stands(at, true)),
-            RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.stands(at, false)),
+            RecordKind::Paused { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, true)),
+            RecordKind::Resumed { node } => _ = self.lane(*node).map(|lane| lane.set_paused(at, false)),
             RecordKind::Retired { node } => {
-                let stay = if self.wakes { LanePhase::Asleep } else { LanePhase::Retired };
+                let phase = if self.can_wake { LanePhase::Asleep } else { LanePhase::Retired };
                 if let Some(lane) = self.lane(*node) {
-                    lane.stay(at, stay);
+                    lane.begin_phase(at, phase);
                 }
             }
-            RecordKind::Finished => self.lanes.iter_mut().for_each(|lane| lane.stay(at, LanePhase::Retired)),
+            RecordKind::Finished => self.lanes.iter_mut().for_each(|lane| lane.begin_phase(at, LanePhase::Retired)),
         }
     }
 
-    /// All lanes, in the order of the ring.
+    /// Lanes in the order of the ring.
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
 
-    /// All messages, about in the order in which they left.
+    /// Messages, about in the order in which they were sent.
     pub fn trips(&self) -> &[Trip] {
         &self.trips
     }
 
-    /// A message by its name in the run.
+    /// The message with this number in the run.
     pub fn trip(&self, id: u64) -> Option<&Trip> {
         self.trips.iter().rfind(|trip| trip.id == id)
     }
 
-    /// Another number whenever something came in.
+    /// A number that changes with every record.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Who traced an atom, and when.
+    /// The first bar of an atom, and its machine.
     pub fn bar_of(&self, atom: Atom) -> Option<(NodeId, Traced)> {
         let of = |(node, lane): (NodeId, &Lane)| lane.bars.iter().find(|bar| bar.atom == atom).map(|&bar| (node, bar));
         (0..).zip(&self.lanes).find_map(of)
     }
 
-    /// How the machines' time until `now` was used.
+    /// Sums up how the machines used their time until `now`.
     pub fn usage(&self, now: Time) -> Usage {
-        let busy: Vec<f64> = self.lanes.iter().map(|lane| lane.busy(Time::ZERO, now)).collect();
-        let sum: f64 = busy.iter().sum();
-        let most = busy.iter().copied().fold(0.0, f64::max);
-        let all = now.secs() * busy.len() as f64;
-        let asking: f64 = self.lanes.iter().map(|lane| lane.asking(now)).sum();
-        // Nearly in order: a few that left a little later may be told before others.
+        let tracing: Vec<f64> = self.lanes.iter().map(|lane| lane.tracing_seconds(now)).collect();
+        let sum: f64 = tracing.iter().sum();
+        let busiest = tracing.iter().copied().fold(0.0, f64::max);
+        let all = now.secs() * tracing.len() as f64;
+        let on_the_way: f64 = self.lanes.iter().map(|lane| lane.on_the_way_seconds(now)).sum();
+        // Nearly in order: a record may come a little before that of an earlier message.
         let trips = self.trips.partition_point(|trip| trip.sent <= now);
         let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
         Usage {
             utilisation: share(sum, all),
-            imbalance: share(most * busy.len() as f64, sum),
-            asking: share(asking, all),
+            imbalance: share(busiest * tracing.len() as f64 - sum, sum).max(0.0),
+            on_the_way: share(on_the_way, all),
             messages: trips,
             bytes: trips.checked_sub(1).map_or(0, |last| self.bytes[last]),
         }
@@ -197,31 +195,31 @@ impl Lanes {
             if (own || load == Load::Request)
                 && let Some(lane) = self.lane(node)
             {
-                lane.stay(sent, LanePhase::Offers);
+                lane.begin_phase(sent, LanePhase::Offers);
             }
         }
         if let (Party::Node(node), Load::Atoms, 1..) = (to, load, atoms)
             && let Some(lane) = self.lane(node)
         {
-            lane.stay(sent, LanePhase::Receives);
+            lane.begin_phase(sent, LanePhase::Receives);
         }
         self.bytes.push(self.bytes.last().copied().unwrap_or(0).saturating_add(bytes));
         self.trips.push(Trip { id, from, to, load, atoms, sent, arrives });
     }
 }
 
-/// How machines' time was used.
+/// Use of all machines' time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Usage {
-    /// What part of their time they traced atoms, 0 to 1.
+    /// Part of the time in which machines traced atoms, 0 to 1.
     pub utilisation: f64,
-    /// How much longer the busiest traced than all on the average: 1 is perfect.
+    /// Tracing time of the busiest machine / mean tracing time − 1; 0 is perfect.
     pub imbalance: f64,
-    /// What part of their time they offered help, asked or waited for atoms on their way, 0 to 1.
-    pub asking: f64,
-    /// Messages that have left.
+    /// Part of the time in which an offer or a request of a machine, or atoms for it, were on the way, 0 to 1.
+    pub on_the_way: f64,
+    /// Number of messages that have been sent.
     pub messages: usize,
-    /// What these weigh on the wire.
+    /// Weight of these messages in bytes.
     pub bytes: u64,
 }
 
@@ -242,7 +240,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_atom_is_a_bar_and_no_two_of_a_lane_overlap(
+        fn every_atom_is_one_bar_and_bars_do_not_overlap(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32,
         ) {
             let (lanes, end) = lanes(&speeds, atoms);
@@ -250,7 +248,7 @@ mod tests {
             for lane in lanes.lanes() {
                 prop_assert!(lane.bars().windows(2).all(|pair| pair[0].to <= pair[1].from));
                 prop_assert!(lane.bars().iter().all(|bar| bar.from <= bar.to && bar.to <= end));
-                prop_assert!(lane.stays().is_sorted_by_key(|(at, _)| *at));
+                prop_assert!(lane.phases().is_sorted_by_key(|(at, _)| *at));
                 traced.extend(lane.bars().iter().map(|bar| bar.atom));
             }
             traced.sort_unstable();
@@ -259,34 +257,34 @@ mod tests {
         }
 
         #[test]
-        fn usage_is_that_of_the_bars(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32, at in 0.0..1.0f64) {
+        fn usage_is_the_sum_of_the_bars(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..300u32, at in 0.0..1.0f64) {
             let (lanes, end) = lanes(&speeds, atoms);
             let now = Time((at * end.0 as f64) as u64);
             let usage = lanes.usage(now);
             let covered = |bar: &Traced| bar.to.min(now).since(bar.from).as_secs_f64();
             let busy: f64 = lanes.lanes().iter().flat_map(Lane::bars).map(covered).sum();
             prop_assert!((usage.utilisation * now.secs() * speeds.len() as f64 - busy).abs() < 1e-6);
-            prop_assert!((0.0..=1.0 + 1e-9).contains(&usage.utilisation) && (0.0..=1.0).contains(&usage.asking));
-            prop_assert!(usage.imbalance == 0.0 || usage.imbalance >= 1.0 - 1e-9);
+            prop_assert!((0.0..=1.0 + 1e-9).contains(&usage.utilisation) && (0.0..=1.0).contains(&usage.on_the_way));
+            prop_assert!((0.0..speeds.len() as f64).contains(&usage.imbalance));
             prop_assert_eq!(usage.messages, lanes.trips().iter().filter(|trip| trip.sent <= now).count());
         }
     }
 
     #[test]
-    fn a_lane_knows_what_it_was_about() {
+    fn lane_passes_through_the_phases_of_a_ring() {
         let (lanes, end) = lanes(&[1.0, 1.0, 0.1], 300);
         let fast = &lanes.lanes()[0];
-        assert_eq!((fast.stay_at(Time::ZERO), fast.stay_at(end)), (LanePhase::Receives, LanePhase::Retired));
-        let seen: Vec<LanePhase> = fast.stays().iter().map(|(_, stay)| *stay).collect();
-        for stay in [LanePhase::Works, LanePhase::Offers, LanePhase::Receives, LanePhase::Retired] {
-            assert!(seen.contains(&stay), "{stay:?}: {seen:?}");
+        assert_eq!((fast.phase_at(Time::ZERO), fast.phase_at(end)), (LanePhase::Receives, LanePhase::Retired));
+        let seen: Vec<LanePhase> = fast.phases().iter().map(|(_, phase)| *phase).collect();
+        for phase in [LanePhase::HasAtoms, LanePhase::Offers, LanePhase::Receives, LanePhase::Retired] {
+            assert!(seen.contains(&phase), "{phase:?}: {seen:?}");
         }
         let bar = fast.bars()[fast.bars().len() / 2];
         assert_eq!(fast.bar_at(Time((bar.from.0 + bar.to.0) / 2)), Some(bar));
     }
 
     #[test]
-    fn pauses_begin_and_end() {
+    fn paused_machine_at_speed_0_stays_stopped_when_resumed() {
         let header = sample_runs::header(&[1.0, 1.0], 9);
         let mut lanes = Lanes::new(&header);
         let whats = [
@@ -297,7 +295,6 @@ mod tests {
         for (at, what) in (1..).zip(whats) {
             lanes.apply(&Record { at: Time(at), what });
         }
-        lanes.apply(&Record { at: Time(9), what: RecordKind::SpeedSet { node: 1, speed: 0.0 } });
-        assert_eq!(lanes.lanes()[1].pauses(), [(Time(1), Some(Time(3))), (Time(9), None)]);
+        assert_eq!(lanes.lanes()[1].stops(), [(Time(1), None)]);
     }
 }

@@ -1,4 +1,4 @@
-//! Folds of a run's records into what is known at one time: machines, atoms, messages, lanes.
+//! Folds a run's records into its state at one time: machines, atoms, messages, lanes.
 
 pub mod activity;
 pub mod atom_state;

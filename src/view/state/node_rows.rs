@@ -1,4 +1,4 @@
-//! A row a node, and who did how much.
+//! Rows of the table of machines, and their shares of the finished work.
 
 use std::borrow::Cow;
 
@@ -7,49 +7,49 @@ use super::run_state::RunState;
 use crate::balance::NodeId;
 use crate::time::Time;
 
-/// What there is to say of a node at some time.
+/// Row of a node at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeRow {
-    /// Which node.
+    /// The node.
     pub node: NodeId,
     /// Atoms that it has traced.
     pub done: u32,
-    /// Atoms that it still has.
+    /// Atoms that it has, without those in parcels that are drawn on their way.
     pub left: u32,
-    /// Its done atoms on a scale that all rows share, 0 to 1.
+    /// Length of its bar of done atoms, 0 to 1 on a scale that all rows share.
     pub done_bar: f32,
-    /// Where its bar of atoms left ends on the same scale; the bar begins at `done_bar`.
+    /// End of its bar of atoms left, on the same scale. The bar begins at `done_bar`.
     pub left_bar: f32,
-    /// What fraction of the time until now it had nothing to trace.
+    /// Fraction of the time until now in which it had no atom, 0 to 1.
     pub idle: f64,
-    /// What it is seen doing.
+    /// What it does, as it is shown.
     pub activity: Activity,
     /// Its speed as a fraction of the reference machine.
     pub speed: f64,
     /// Whether it is paused, with or without atoms.
     pub paused: bool,
-    /// Atoms a second: of late, or once the picture is complete over the whole run.
+    /// Atoms a second: in the last 3 s, or over the whole run once the picture is complete.
     pub rate: f64,
 }
 
-/// A node's part of the finished work.
+/// A node's share of all atoms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeShare {
-    /// Which node.
+    /// The node.
     pub node: NodeId,
-    /// Where its part begins, 0 to 1 of all atoms.
+    /// Beginning of the share in a bar of all atoms, 0 to 1.
     pub start: f32,
-    /// Where it ends.
+    /// End of the share in this bar.
     pub end: f32,
-    /// How many atoms it is.
+    /// Atoms that the node has traced.
     pub atoms: u32,
 }
 
-/// A row for each node at `now`.
-pub fn rows(state: &RunState, now: Time) -> Vec<NodeRow> {
+/// Returns a row for each node at `now`.
+pub fn node_rows(state: &RunState, now: Time) -> Vec<NodeRow> {
     let until = state.finished().map_or(now, |end| now.min(end));
-    let seen: Vec<_> = (0..state.nodes().len() as NodeId).map(|node| (node, state.seen(node, now))).collect();
-    // Twice an equal share, unless somebody has more: then the bars keep their length.
+    let seen: Vec<_> = (0..state.nodes().len() as NodeId).map(|node| (node, state.node_as_drawn(node, now))).collect();
+    // The scale ends at twice an equal share, or at the largest row if that is more.
     let share = state.atoms().div_ceil(seen.len().max(1) as u32);
     let most = seen.iter().map(|(_, node)| node.done + node.left()).max().unwrap_or(0).max(2 * share).max(1) as f32;
     let over_all = state.finished().filter(|&end| end > Time::ZERO);
@@ -68,8 +68,8 @@ pub fn rows(state: &RunState, now: Time) -> Vec<NodeRow> {
     seen.iter().map(row).collect()
 }
 
-/// Who has done which part of all atoms, one after the other; what is missing to 1 is still to be done.
-pub fn shares(state: &RunState) -> Vec<NodeShare> {
+/// Returns the nodes' shares of all atoms, one after the other. The rest up to 1 is still to be traced.
+pub fn node_shares(state: &RunState) -> Vec<NodeShare> {
     let all = state.atoms().max(1) as f32;
     let mut start = 0;
     let mut share = |(node, of): (NodeId, &NodeState)| {
@@ -86,20 +86,20 @@ mod tests {
     use crate::view::tests::sample_runs;
 
     #[test]
-    fn bars_share_a_scale_and_shares_fill_the_whole() {
+    fn bars_share_a_scale_and_shares_fill_the_bar() {
         let header = sample_runs::header(&[1.0, 0.5, 0.2], 90);
         let mut state = RunState::new(&header);
         for record in sample_runs::records(&header) {
             state.apply(&record);
-            let rows = rows(&state, record.at);
+            let rows = node_rows(&state, record.at);
             assert!(rows.iter().all(|row| 0.0 <= row.done_bar && row.done_bar <= row.left_bar && row.left_bar <= 1.0));
             assert!(rows.iter().all(|row| (0.0..=1.0).contains(&row.idle)), "{rows:?}");
             assert!(rows.iter().all(|row| (0.0..120.0).contains(&row.rate)), "{rows:?}");
         }
-        let shares = shares(&state);
+        let shares = node_shares(&state);
         assert_eq!((shares[0].start, shares[2].end), (0.0, 1.0));
         assert!(shares.windows(2).all(|pair| pair[0].end == pair[1].start));
-        let rows = rows(&state, state.head());
+        let rows = node_rows(&state, state.head());
         assert!(rows[0].done > rows[1].done && rows[1].done > rows[2].done, "{rows:?}");
         assert_eq!(rows.iter().map(|row| row.done).sum::<u32>(), 90);
         let rates: f64 = rows.iter().map(|row| row.rate).sum();

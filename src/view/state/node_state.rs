@@ -1,133 +1,136 @@
-//! What is known of one node.
+//! The state of one node.
 
 use std::time::Duration;
 
-use super::throughput::Rate;
+use super::throughput::Throughput;
 use crate::balance::Condition;
 use crate::picture::Atom;
 use crate::time::Time;
 
-/// What is known of one node.
+/// State of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeState {
     /// Its speed as a fraction of the reference machine.
     pub speed: f64,
-    /// Its worker was made to stand still; the speed is the one at which it will go on.
+    /// Whether its worker is paused; `speed` is the speed at which it will go on.
     pub paused: bool,
-    /// How its machine is.
+    /// Condition of its machine.
     pub condition: Condition,
-    /// It has not joined the run yet: its seat is empty.
+    /// Whether it has not joined the run yet.
     pub spare: bool,
-    /// Atoms that it has traced, and that count: of one that is traced twice, or lost, the others' or the next result may.
+    /// Atoms that it has traced and that count: an atom counts for one node only, also if several traced it.
     pub done: u32,
     /// The atom that its worker is tracing.
     pub atom: Option<Atom>,
-    /// Its own offer came back; in a farm, the parent has no more for it. In a ring that adapts it sleeps.
+    /// Whether its own offer came back, or, in a farm, the parent has no more atoms for it. In the adaptive ring it
+    /// sleeps.
     pub retired: bool,
     /// Offers that it has made.
     pub offers: u32,
-    /// What its last offer says that it has traced.
+    /// Number of traced atoms in its last offer.
     pub offered: u32,
     /// Offers of others that it has passed on.
     pub hops: u32,
-    /// What it has given to nodes that offered help.
+    /// Atoms that it has given to nodes that offered help.
     pub given: Parcels,
-    /// What it has got for its own offers, or when it asked for it.
+    /// Atoms that it has got for its own offers or requests.
     pub got: Parcels,
-    /// How often it has asked the parent for atoms.
+    /// Requests that it has sent to the parent.
     pub requests: u32,
-    /// Its speed before that was last set.
-    pub(crate) speed_before: f64,
-    /// How its machine was before that changed.
-    pub(crate) condition_before: Condition,
+    /// Its speed before the last change.
+    pub(crate) previous_speed: f64,
+    /// Condition of its machine before the last change.
+    pub(crate) previous_condition: Condition,
     /// Atoms that were lost when it was last switched off.
-    pub(crate) took: u32,
-    /// When the parent last heard of it.
-    pub(crate) heard: Option<Time>,
-    // Signed, since the record of an atom may come before that of the band it belongs to.
+    pub(crate) lost_atoms: u32,
+    /// When the parent last received a message from it.
+    pub(crate) last_heard: Option<Time>,
+    // Signed, since the record of an atom may come before that of its band.
     pub(crate) left: i64,
     /// When its band arrived.
     pub(crate) band_at: Option<Time>,
-    /// Its offer, or its request, is not answered yet.
-    pub(crate) offer_out: bool,
-    /// When the last of its results, its requests and its parts left that are drawn.
+    /// Whether its offer, or its request, is not answered yet.
+    pub(crate) awaits_answer: bool,
+    /// When it was done with its last atom so far.
+    pub(crate) last_atom: Option<Time>,
+    /// When the last of its drawn results, requests and parts were sent.
     pub(crate) last_drawn: [Option<Time>; 3],
     idle: Duration,
     idle_since: Option<Time>,
-    rate: Rate,
-    /// The integral of its speed over time in seconds, from the beginning to `speed_since`.
-    ran: f64,
+    throughput: Throughput,
+    /// ∫ speed dt from time 0 to `speed_since`, in seconds of the reference machine.
+    speed_seconds: f64,
     speed_since: Time,
 }
 
-/// Transfers, and the atoms in them.
+/// Number of transfers, and of the atoms in them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Parcels {
-    /// How many transfers.
+    /// Number of transfers.
     pub count: u32,
-    /// How many atoms in all of them.
+    /// Number of atoms in all of them.
     pub atoms: u32,
 }
 
-/// What a node is seen doing.
+/// What a node does, as it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
     /// Its band has not arrived yet.
-    Waiting,
+    NoBand,
     /// Its worker traces atoms.
-    Computing,
+    Tracing,
     /// It has atoms, but its speed is 0.
-    Stopped,
+    SpeedZero,
     /// It has atoms, but it is paused.
     Paused,
     /// Its offer of help is on its way.
     Offering,
     /// Its request for atoms is on its way to the parent.
     Asking,
-    /// Its request has arrived, and the parent has not answered it yet.
+    /// Its request has arrived, and waits at the parent.
     InLine,
     /// Atoms are on their way to it.
     Receiving,
     /// It has nothing to do.
     Idle,
-    /// Its own offer came back: nobody needs it.
+    /// Its own offer came back: it is not needed any more.
     Retired,
-    /// The same in a ring that adapts: it can be woken.
+    /// Its own offer came back in the adaptive ring: it can be woken.
     Asleep,
     /// The parent has no more atoms for it.
     NoMore,
     /// Its machine hangs.
     Hung,
-    /// Nothing comes from its machine, or to it.
+    /// No message reaches its machine, or comes from it.
     CutOff,
     /// Its machine is switched off.
     Off,
-    /// Its seat is empty: its machine may join.
+    /// Its machine has not joined yet.
     Spare,
     /// The picture is complete.
     Done,
 }
 
 impl Activity {
-    /// Whether it has no part in the run, for now or for good, although the picture is not complete.
+    /// Whether the node takes no part in the run, for now or for good, although the picture is not complete.
     pub fn is_out(self) -> bool {
         matches!(self, Self::Retired | Self::Asleep | Self::NoMore | Self::Off | Self::Spare)
     }
 }
 
-/// One of the two places in a worker's pipe.
+/// Content of one of the two places in a worker's pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
-    /// Nothing is in it.
+    /// No atom.
     Empty,
-    /// An atom waits in it.
+    /// An atom that waits.
     Filled,
-    /// The worker traces the atom in it.
+    /// The atom that the worker traces.
     Traced,
 }
 
 impl NodeState {
-    /// Atoms in its queue and its pipe, the one being traced included.
+    /// Number of atoms in its queue and its pipe, with the one being traced.
     pub fn left(&self) -> u32 {
         self.left.max(0) as u32
     }
@@ -139,15 +142,15 @@ impl NodeState {
 
     /// Whether its worker would trace atoms if it had any.
     pub fn runs(&self) -> bool {
-        self.speed > 0.0 && !self.stands()
+        self.speed > 0.0 && !self.is_held()
     }
 
-    /// Whether its worker stands still, whatever its speed.
-    fn stands(&self) -> bool {
+    /// Whether its worker is stopped by a pause or by its machine's condition.
+    fn is_held(&self) -> bool {
         self.paused || !self.condition.is_running()
     }
 
-    /// What its pipe holds, the atom that is traced first: two atoms, while it has as many.
+    /// Content of its pipe of two atoms, the traced one first.
     pub fn pipe(&self) -> [Slot; 2] {
         let first = if self.atom.is_some() && self.runs() { Slot::Traced } else { Slot::Filled };
         match self.left() {
@@ -157,20 +160,20 @@ impl NodeState {
         }
     }
 
-    /// Atoms a second that it has traced in the 3 s before `now`, or since its band came if that is less long ago.
+    /// Atoms a second that it has traced in the 3 s before `now`, or since its band arrived if that is later.
     pub fn rate(&self, now: Time) -> f64 {
-        self.rate.per_second(self.band_at.unwrap_or_default(), now)
+        self.throughput.per_second(self.band_at.unwrap_or_default(), now)
     }
 
-    /// How long it has had nothing to trace, since its band came until `now`.
+    /// Time from the arrival of its band to `now` in which it had no atom.
     pub fn idle(&self, now: Time) -> Duration {
         self.idle + self.idle_since.map_or(Duration::ZERO, |since| now.since(since))
     }
 
-    /// The mean of its speed from the run's beginning until `now`; paused it has none.
+    /// Mean speed from time 0 to `now`; while the machine is paused, hung or off it counts 0.
     pub fn mean_speed(&self, now: Time) -> f64 {
         let now = now.max(self.speed_since);
-        if now == Time::ZERO { self.speed_now() } else { self.ran_until(now) / now.secs() }
+        if now == Time::ZERO { self.effective_speed() } else { self.speed_seconds_until(now) / now.secs() }
     }
 
     pub(crate) fn new(speed: f64, spare: bool) -> Self {
@@ -189,32 +192,35 @@ impl NodeState {
             given: Parcels::default(),
             got: Parcels::default(),
             requests: 0,
-            speed_before: speed,
-            condition_before: condition,
-            took: 0,
-            heard: None,
+            previous_speed: speed,
+            previous_condition: condition,
+            lost_atoms: 0,
+            last_heard: None,
             left: 0,
             band_at: None,
-            offer_out: false,
+            awaits_answer: false,
+            last_atom: None,
             last_drawn: [None; 3],
             idle: Duration::ZERO,
             idle_since: None,
-            rate: Rate::default(),
-            ran: 0.0,
+            throughput: Throughput::default(),
+            speed_seconds: 0.0,
             speed_since: Time::ZERO,
         }
     }
 
-    /// The same node before it got so many atoms.
+    /// Returns the node without `atoms` of its atoms.
     pub(crate) fn without(&self, atoms: u32) -> Self {
         Self { left: (self.left - i64::from(atoms)).max(0), ..self.clone() }
     }
 
+    /// Adds atoms to its queue.
     pub(crate) fn give(&mut self, atoms: u32, at: Time) {
-        self.give_signed(i64::from(atoms), at);
+        self.change_left(i64::from(atoms), at);
     }
 
-    fn give_signed(&mut self, atoms: i64, at: Time) {
+    /// Adds a number of atoms, which may be negative, and keeps account of the idle time.
+    fn change_left(&mut self, atoms: i64, at: Time) {
         self.left += atoms;
         if self.left <= 0 {
             self.idle_since.get_or_insert(at);
@@ -223,52 +229,52 @@ impl NodeState {
         }
     }
 
-    /// It has traced an atom, which may count or not.
+    /// Notes a traced atom; `counts` is false if another node's tracing of it counts.
     pub(crate) fn atom_done(&mut self, counts: bool, at: Time) {
         self.done += u32::from(counts);
         self.left -= 1;
-        self.atom = None;
-        self.rate.count(at);
+        (self.atom, self.last_atom) = (None, Some(at));
+        self.throughput.count(at);
         if self.left <= 0 && self.idle_since.is_none() {
             self.idle_since = Some(at);
         }
     }
 
-    /// Its worker could not trace its atom.
+    /// Notes that its worker could not trace its atom.
     pub(crate) fn atom_failed(&mut self) {
         (self.left, self.atom) = (self.left - 1, None);
     }
 
     pub(crate) fn set_speed(&mut self, speed: f64, at: Time) {
-        self.keep_ran(at);
-        (self.speed_before, self.speed) = (self.speed, speed);
+        self.add_speed_seconds(at);
+        (self.previous_speed, self.speed) = (self.speed, speed);
     }
 
     pub(crate) fn set_paused(&mut self, paused: bool, at: Time) {
-        self.keep_ran(at);
+        self.add_speed_seconds(at);
         self.paused = paused;
     }
 
     pub(crate) fn set_condition(&mut self, condition: Condition, at: Time) {
-        self.keep_ran(at);
-        self.condition_before = std::mem::replace(&mut self.condition, condition);
+        self.add_speed_seconds(at);
+        self.previous_condition = std::mem::replace(&mut self.condition, condition);
     }
 
-    /// It knows of so many atoms that it has.
-    pub(crate) fn holds(&mut self, atoms: u32, at: Time) {
-        self.give_signed(i64::from(atoms) - self.left, at);
+    /// Sets the number of its atoms.
+    pub(crate) fn set_left(&mut self, atoms: u32, at: Time) {
+        self.change_left(i64::from(atoms) - self.left, at);
     }
 
-    fn speed_now(&self) -> f64 {
-        if self.stands() { 0.0 } else { self.speed }
+    fn effective_speed(&self) -> f64 {
+        if self.is_held() { 0.0 } else { self.speed }
     }
 
-    fn ran_until(&self, now: Time) -> f64 {
-        self.ran + self.speed_now() * now.since(self.speed_since).as_secs_f64()
+    fn speed_seconds_until(&self, now: Time) -> f64 {
+        self.speed_seconds + self.effective_speed() * now.since(self.speed_since).as_secs_f64()
     }
 
-    fn keep_ran(&mut self, at: Time) {
-        (self.ran, self.speed_since) = (self.ran_until(at), self.speed_since.max(at));
+    fn add_speed_seconds(&mut self, at: Time) {
+        (self.speed_seconds, self.speed_since) = (self.speed_seconds_until(at), self.speed_since.max(at));
     }
 }
 
@@ -284,7 +290,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_paused_node_has_atoms_but_does_not_trace_them() {
+    fn paused_node_has_atoms_and_does_not_trace_them() {
         let mut node = NodeState::new(0.5, false);
         assert_eq!((node.pipe(), node.computes()), ([Slot::Empty; 2], false));
         node.give(9, Time::ZERO);
@@ -299,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_speed_knows_of_changes_and_pauses() {
+    fn mean_speed_follows_changes_and_pauses() {
         let mut node = NodeState::new(1.0, false);
         let at = Time::from_secs;
         assert_eq!((node.mean_speed(Time::ZERO), node.mean_speed(at(3.0))), (1.0, 1.0));

@@ -1,20 +1,20 @@
-//! How a run's atoms are shared, in plain words.
+//! The scheduler of a run, and its name in words.
 
 use crate::balance::Strategy;
 use crate::language::{Language, word};
 use crate::runlog::{Driver, Header};
 
-/// How a run's atoms are shared: by a strategy of ours, or by a library of today.
+/// How a run's atoms are shared: by a strategy of `balance`, or by rayon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sharing {
-    /// By this strategy.
+    /// A strategy of `balance`.
     By(Strategy),
-    /// By rayon's work stealing.
+    /// Work stealing of rayon.
     Stealing,
 }
 
 impl Sharing {
-    /// All of them, in the order in which they are offered: from no sharing to the article's, and what came after it.
+    /// All of them, in the order of the menu: from no sharing to the article's ring, then newer ones.
     pub const ALL: [Self; 8] = [
         Self::By(Strategy::Serial),
         Self::By(Strategy::Static),
@@ -26,12 +26,12 @@ impl Sharing {
         Self::Stealing,
     ];
 
-    /// How the run is shared that `header` describes.
+    /// Returns the scheduler that a header asks for.
     pub fn of(header: &Header) -> Self {
         if header.driver == Driver::WorkStealing { Self::Stealing } else { Self::By(header.rules.strategy) }
     }
 
-    /// What it is called.
+    /// Returns its name.
     pub fn name(self, language: Language) -> &'static str {
         match self {
             Self::By(Strategy::Serial) => "Serial",
@@ -45,7 +45,7 @@ impl Sharing {
         }
     }
 
-    /// The same where there is little room.
+    /// Returns its name for narrow places.
     pub fn short_name(self, language: Language) -> &'static str {
         match self {
             Self::Stealing => word!(language, "Work stealing", "Roubo de trabalho"),
@@ -53,7 +53,7 @@ impl Sharing {
         }
     }
 
-    /// What happens, in one short line.
+    /// Returns a short line that says what it does.
     pub fn hint(self, language: Language) -> &'static str {
         match self {
             Self::By(Strategy::Serial) => {
@@ -63,19 +63,23 @@ impl Sharing {
                 word!(language, "A band each; all wait for the slowest", "Uma faixa cada; todas esperam a mais lenta")
             }
             Self::By(Strategy::StaticEstimate) => {
-                word!(language, "Bands by what they seem to cost", "Faixas pelo que parecem custar")
+                word!(language, "Bands of about the same estimated cost", "Faixas de custo estimado quase igual")
             }
             Self::By(Strategy::Farm) => {
-                word!(language, "Whoever is done asks the parent", "Quem termina pede mais ao pai")
+                word!(language, "A machine without atoms asks the parent", "A máquina sem átomos pede ao pai")
             }
             Self::By(Strategy::FarmBySpeed) => {
-                word!(language, "The same; the slow get smaller parts", "Idem; as lentas recebem partes menores")
+                word!(language, "A farm; slow machines get smaller parts", "Idem; as lentas recebem partes menores")
             }
             Self::By(Strategy::Ring) => {
-                word!(language, "Whoever is done offers help round the ring", "Quem termina oferece ajuda pelo anel")
+                word!(
+                    language,
+                    "A machine without atoms offers help round the ring",
+                    "A máquina sem átomos oferece ajuda pelo anel"
+                )
             }
             Self::By(Strategy::Adaptive) => {
-                word!(language, "Wakes helpers, survives losses", "Acorda quem ajuda, sobrevive a perdas")
+                word!(language, "Wakes helpers, survives losses", "Acorda ajudantes, sobrevive a perdas")
             }
             Self::Stealing => {
                 word!(language, "Threads take atoms from each other", "As threads tomam átomos umas das outras")
@@ -83,7 +87,7 @@ impl Sharing {
         }
     }
 
-    /// What those are called that do the work, beside what they are organised in.
+    /// Returns the number of machines and how they are organised, for the bar at the top.
     pub fn machines(self, machines: usize, language: Language) -> String {
         let are = match self {
             _ if machines == 1 => return word!(language, "1 machine", "1 máquina").into(),
@@ -106,22 +110,22 @@ impl Sharing {
         format!("{machines} {are}")
     }
 
-    /// Whether whoever is done offers help round the ring.
+    /// Whether machines offer help round a ring.
     pub(crate) fn is_ring(self) -> bool {
         matches!(self, Self::By(strategy) if strategy.is_ring())
     }
 
-    /// Whether it is the ring that wakes sleepers, and mends losses.
+    /// Whether it is the adaptive ring.
     pub(crate) fn is_adaptive(self) -> bool {
         self == Self::By(Strategy::Adaptive)
     }
 
-    /// Whether whoever is done asks the parent for more.
+    /// Whether machines ask the parent for atoms.
     pub(crate) fn is_farm(self) -> bool {
         matches!(self, Self::By(strategy) if strategy.is_farm())
     }
 
-    /// Whether everyone keeps what they are given at first.
+    /// Whether each machine keeps its first atoms.
     pub(crate) fn is_fixed(self) -> bool {
         matches!(self, Self::By(Strategy::Serial | Strategy::Static | Strategy::StaticEstimate))
     }

@@ -13,7 +13,7 @@ use crate::scene::{BUILT_IN, Scene};
 use crate::sim::Sim;
 use crate::time::Time;
 use crate::tracer::Tracer;
-use crate::view::analysis::summary::{Summary, figures, result_words};
+use crate::view::analysis::summary::{Summary, result_words, summary_figures};
 use crate::view::charts::tradeoff::Tradeoff;
 use crate::view::draw::display_list::Mark;
 use crate::view::inspect::Inspected;
@@ -32,7 +32,7 @@ use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::activity_word;
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
-use crate::view::text::tooltips::{atom_words, flight_words, node_words, parent_words, small_print};
+use crate::view::text::tooltips::{atom_words, drawing_notes, flight_words, node_words, parent_words};
 use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
 /// Room for a text.
@@ -234,7 +234,7 @@ fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
     said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));
-    said.extend(small_print(state, language).into_iter().map(|line| (Room::Same, line)));
+    said.extend(drawing_notes(state, language).into_iter().map(|line| (Room::Same, line)));
     said
 }
 
@@ -259,7 +259,9 @@ fn sentences_after_it(log: &RunLog, language: Language) -> Said {
         let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() };
         said.push((Room::Same, result_words(state, &summary, language)));
         said.extend(
-            figures(&summary, language).into_iter().map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+            summary_figures(&summary, language)
+                .into_iter()
+                .map(|(value, what)| (Room::Same, format!("{value} {what}"))),
         );
     }
     said
@@ -317,9 +319,9 @@ fn names_and_numbers_are_portuguese() {
 #[test]
 fn states_fit_below_a_machine() {
     let all = [
-        Activity::Waiting,
-        Activity::Computing,
-        Activity::Stopped,
+        Activity::NoBand,
+        Activity::Tracing,
+        Activity::SpeedZero,
         Activity::Paused,
         Activity::Offering,
         Activity::Asking,

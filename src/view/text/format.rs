@@ -1,4 +1,4 @@
-//! Numbers and names in words. Nodes are numbered from 1 for people.
+//! Numbers and names in words: the one place for their formats. Nodes and atoms have numbers from 1 for people.
 
 use std::time::Duration;
 
@@ -7,12 +7,12 @@ use crate::language::{Language, comma, decimal, say, word};
 use crate::time::Time;
 use crate::view::state::node_state::Activity;
 
-/// A node's name for people: its number from 1.
+/// Returns a node's name for people: its number from 1.
 pub fn node_name(node: NodeId) -> u32 {
     u32::from(node) + 1
 }
 
-/// A party's name for people.
+/// Returns a party's name for people.
 pub(crate) fn party_name(party: Party, language: Language) -> String {
     match party {
         Party::Parent => word!(language, "the parent", "o pai").into(),
@@ -20,42 +20,106 @@ pub(crate) fn party_name(party: Party, language: Language) -> String {
     }
 }
 
-/// A count with its thousands apart: `6 144`, with a narrow space that does not break.
-pub fn count(number: u32) -> String {
-    let digits = number.to_string();
+/// Writes a count with its thousands apart: `6 144`, with a space that does not break.
+pub fn count(number: impl Into<u64>) -> String {
+    let digits = number.into().to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{a0}');
+            text.push(NO_BREAK_SPACE);
         }
         text.push(digit);
     }
     text
 }
 
-/// How many of `whole` are `part`, in whole per cent, the same everywhere: all of it only when nothing is missing.
+/// Stands between groups of three digits.
+const NO_BREAK_SPACE: char = '\u{a0}';
+
+/// Writes `part / whole` in whole per cent; `100 %` only if nothing is missing.
 pub fn percent(part: u32, whole: u32) -> String {
     let rounded = (200 * u64::from(part) + u64::from(whole)) / (2 * u64::from(whole)).max(1);
     format!("{} %", if part < whole { rounded.min(99) } else { rounded })
 }
 
-/// A fraction in whole per cent.
+/// Writes a fraction, 0 to 1, in whole per cent: `63 %`.
 pub fn fraction(part: f64) -> String {
     format!("{:.0} %", part * 100.0)
 }
 
-/// Atoms a second: `62/s`; below one a second with a decimal.
-pub fn rate_words(rate: f64, language: Language) -> String {
-    if rate < 0.05 {
-        "0/s".into()
-    } else if rate < 0.95 {
-        format!("{}/s", decimal(language, rate, 1))
-    } else {
-        format!("{}/s", count(rate.round() as u32))
+/// Writes a fraction in per cent with two digits at least: `88 %`, `2.1 %`, `0.03 %`.
+pub(crate) fn fine_fraction(part: f64, language: Language) -> String {
+    let percent = 100.0 * part;
+    match percent.abs() {
+        0.0 => "0 %".into(),
+        0.0..0.005 => word!(language, "< 0.01 %", "< 0,01 %").into(),
+        0.005..0.095 => format!("{} %", decimal(language, percent, 2)),
+        0.095..9.95 => format!("{} %", decimal(language, percent, 1)),
+        _ => fraction(part),
     }
 }
 
-/// A weight on the wire: `840 B`, `12 kB`, `3.4 MB`.
+/// Writes a ratio of two times: `1.25`, `12`.
+pub(crate) fn ratio_words(ratio: f64, language: Language) -> String {
+    decimal(language, ratio, if ratio < 10.0 { 2 } else { 0 })
+}
+
+/// Writes a number with two significant digits: `0.012`, `0.50`, `12`; nothing smaller than a millionth.
+pub fn two_digits(number: f64, language: Language) -> String {
+    if number <= 0.0 {
+        return "0".into();
+    }
+    let decimals = (1.0 - number.log10().floor()).clamp(0.0, 6.0) as usize;
+    decimal(language, number, decimals)
+}
+
+/// Writes a length of the scene with about four significant digits: `1.000`, `12.35`, `1.00e9`, `∞`.
+pub(crate) fn distance_words(distance: f64, language: Language) -> String {
+    match distance.abs() {
+        f64::INFINITY if distance < 0.0 => "−∞".into(),
+        f64::INFINITY => "∞".into(),
+        0.0 => "0".into(),
+        0.001..10.0 => decimal(language, distance, 3),
+        10.0..100.0 => decimal(language, distance, 2),
+        100.0..100_000.0 => decimal(language, distance, 1),
+        _ => comma(language, format!("{distance:.2e}")),
+    }
+    .replace('-', "−")
+}
+
+/// Writes a number down to its digit for 10^`power`, without zeros at its end: `−20`, `0.2`, `1 000`, `2e9`.
+pub(crate) fn number_to_power(number: f64, power: i32, language: Language) -> String {
+    let trimmed = |digits: &str| match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => digits.to_owned(),
+    };
+    let sign = if number < 0.0 { "−" } else { "" };
+    let number = number.abs();
+    if number >= 1e9 || power < -4 {
+        let decimals = (number.log10().floor() as i32 - power).clamp(0, 9) as usize;
+        let digits = format!("{number:.decimals$e}");
+        let (digits, exponent) = digits.split_at(digits.find('e').unwrap_or(digits.len()));
+        return comma(language, format!("{sign}{}{exponent}", trimmed(digits)));
+    }
+    let digits = trimmed(&format!("{number:.*}", (-power).max(0) as usize));
+    let (whole, decimals) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    comma(language, format!("{sign}{}{decimals}", count(whole.parse().unwrap_or(u32::MAX))))
+}
+
+/// Writes a rate of atoms or messages a second without its unit: `62`; below ten with a decimal.
+pub fn rate_number(rate: f64, language: Language) -> String {
+    match rate {
+        0.05..9.95 => decimal(language, rate, 1),
+        _ => count(rate.round() as u32),
+    }
+}
+
+/// Writes a rate of atoms or messages a second: `62/s`, `0.3/s`.
+pub fn rate_words(rate: f64, language: Language) -> String {
+    format!("{}/s", rate_number(rate, language))
+}
+
+/// Writes a weight on the wire: `840 B`, `12 kB`, `3.4 MB`.
 pub fn bytes_words(bytes: u64, language: Language) -> String {
     match bytes {
         0..1000 => format!("{bytes} B"),
@@ -64,7 +128,12 @@ pub fn bytes_words(bytes: u64, language: Language) -> String {
     }
 }
 
-/// A length of time in the unit that suits it: `20.4 s`, `200 ms`, `1.3 ms`, `840 µs`.
+/// Writes seconds with a decimal: `20.4 s`.
+pub fn seconds_words(seconds: f64, language: Language) -> String {
+    format!("{} s", decimal(language, seconds, 1))
+}
+
+/// Writes a length of time in the unit that suits it: `20.4 s`, `200 ms`, `1.3 ms`, `840 µs`.
 pub fn duration(length: Duration, language: Language) -> String {
     let ms = length.as_secs_f64() * 1e3;
     if length.is_zero() {
@@ -76,11 +145,11 @@ pub fn duration(length: Duration, language: Language) -> String {
     } else if ms < 999.5 {
         format!("{ms:.0} ms")
     } else {
-        format!("{} s", decimal(language, ms * 1e-3, 1))
+        seconds_words(ms * 1e-3, language)
     }
 }
 
-/// A time of the run, as exactly as one can follow where so many of its seconds go by in a second: `13.4 s`,
+/// Writes a time of the run as exactly as one can follow it at a playback rate, in run seconds per second: `13.4 s`,
 /// `13.402 518 s`.
 pub fn time_words(time: Time, rate: f64, language: Language) -> String {
     let digits = if rate >= 1.0 { 1 } else { (1.0 - rate.log10().floor()).clamp(1.0, 9.0) as usize };
@@ -89,19 +158,19 @@ pub fn time_words(time: Time, rate: f64, language: Language) -> String {
     let mut words = format!("{whole}.");
     for (place, digit) in part.chars().enumerate() {
         if place > 0 && place.is_multiple_of(3) {
-            words.push('\u{a0}');
+            words.push(NO_BREAK_SPACE);
         }
         words.push(digit);
     }
     comma(language, words) + " s"
 }
 
-/// What a node is doing, in a word.
+/// Returns the word for what a node is doing.
 pub fn activity_word(activity: Activity, language: Language) -> &'static str {
     match activity {
-        Activity::Waiting => word!(language, "waiting", "esperando"),
-        Activity::Computing => word!(language, "computing", "calculando"),
-        Activity::Stopped => word!(language, "stopped", "parada"),
+        Activity::NoBand => word!(language, "no band", "sem faixa"),
+        Activity::Tracing => word!(language, "tracing", "calculando"),
+        Activity::SpeedZero => word!(language, "at 0 %", "a 0 %"),
         Activity::Paused => word!(language, "paused", "em pausa"),
         Activity::Offering => word!(language, "offering", "oferecendo"),
         Activity::Asking => word!(language, "asking", "pedindo"),
@@ -119,46 +188,47 @@ pub fn activity_word(activity: Activity, language: Language) -> &'static str {
     }
 }
 
-/// `1 atom`, `2 atoms`.
-pub(crate) fn atoms_words(atoms: u32, language: Language) -> String {
+/// Writes a number of atoms: `1 atom`, `2 atoms`.
+pub(crate) fn atoms_words(atoms: impl Into<u64>, language: Language) -> String {
     counted(atoms, word!(language, "atom", "átomo"), language)
 }
 
-/// `1 atom left`, `2 atoms left`; in Portuguese the verb comes first, and counts too.
+/// Writes a number of atoms left: `1 atom left`, `2 atoms left`. In Portuguese the verb comes first, and has a plural.
 pub(crate) fn left_words(atoms: u32, language: Language) -> String {
     let (left, verb) = (atoms_words(atoms, language), if atoms == 1 { "resta" } else { "restam" });
     say!(language, "{left} left", "{verb} {left}")
 }
 
-/// A count and what is counted: `1 offer`, `2 offers`.
-pub(crate) fn counted(number: u32, what: &str, language: Language) -> String {
-    let many = if number == 1 { what.to_owned() } else { plural(what, language) };
-    format!("{} {many}", count(number))
+/// Writes a count with its noun, which is given in the singular: `1 offer`, `2 offers`.
+pub(crate) fn counted(number: impl Into<u64>, noun: &str, language: Language) -> String {
+    let number = number.into();
+    let noun = if number == 1 { noun.to_owned() } else { plural(noun, language) };
+    format!("{} {noun}", count(number))
 }
 
-/// More than one of it, in the language that is spoken: `offers`; `vezes`, `níveis`, `ofertas`.
-pub(crate) fn plural(what: &str, language: Language) -> String {
-    let ending = |ending, many| what.strip_suffix(ending).map(|stem| format!("{stem}{many}"));
+/// Returns the plural of a noun: `offers`; `vezes`, `níveis`, `ofertas`.
+pub(crate) fn plural(noun: &str, language: Language) -> String {
+    let ending = |ending, many| noun.strip_suffix(ending).map(|stem| format!("{stem}{many}"));
     match language {
         Language::English => None,
         Language::Portuguese => ending("z", "zes").or_else(|| ending("el", "eis")),
     }
-    .unwrap_or_else(|| format!("{what}s"))
+    .unwrap_or_else(|| format!("{noun}s"))
 }
 
-/// `1`, `1 and 2`, `1, 2 and 3`; if they are many, how many of them there are.
+/// Lists nodes by name: `1`, `1 and 2`, `1, 2 and 3`; counts them if there are more than five.
 pub(crate) fn names(nodes: &[NodeId], language: Language) -> String {
-    const MANY: usize = 5;
+    const MAX_NAMES: usize = 5;
     let name = |node: &NodeId| node_name(*node).to_string();
     match nodes {
         [] => word!(language, "nobody", "ninguém").into(),
         [one] => name(one),
-        [..] if nodes.len() > MANY => counted(nodes.len() as u32, word!(language, "machine", "máquina"), language),
+        [..] if nodes.len() > MAX_NAMES => counted(nodes.len() as u32, word!(language, "machine", "máquina"), language),
         [..] => listed(&nodes.iter().map(name).collect::<Vec<_>>(), language),
     }
 }
 
-/// `a`, `a and b`, `a, b and c`.
+/// Lists words: `a`, `a and b`, `a, b and c`.
 pub(crate) fn listed(words: &[String], language: Language) -> String {
     match words {
         [others @ .., last] if !others.is_empty() => {
@@ -174,61 +244,92 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_whole_is_a_hundred_per_cent() {
-        let said =
+    fn part_that_misses_anything_is_less_than_100_per_cent() {
+        let written =
             [(0, 6144), (3901, 6144), (6143, 6144), (6144, 6144), (0, 0)].map(|(part, whole)| percent(part, whole));
-        assert_eq!(said, ["0 %", "63 %", "99 %", "100 %", "0 %"]);
+        assert_eq!(written, ["0 %", "63 %", "99 %", "100 %", "0 %"]);
         assert_eq!([percent(1, 8), percent(635, 1000)], ["13 %", "64 %"]);
     }
 
     #[test]
-    fn thousands_stand_apart() {
-        assert_eq!(count(0), "0");
-        assert_eq!(count(144), "144");
-        assert_eq!(count(1_234_567), "1\u{a0}234\u{a0}567");
+    fn count_separates_thousands() {
+        assert_eq!(count(0_u32), "0");
+        assert_eq!(count(144_u32), "144");
+        assert_eq!(count(1_234_567_u32), "1\u{a0}234\u{a0}567");
     }
 
     #[test]
-    fn lengths_of_time_have_the_unit_that_suits_them() {
+    fn duration_chooses_its_unit() {
         let language = Language::English;
-        let said = [0, 840, 1_300, 40_000, 999_400, 999_600, 20_440_000]
+        let written = [0, 840, 1_300, 40_000, 999_400, 999_600, 20_440_000]
             .map(|micros| duration(Duration::from_micros(micros), language));
-        assert_eq!(said, ["0 s", "840 µs", "1.3 ms", "40 ms", "999 ms", "1.0 s", "20.4 s"]);
+        assert_eq!(written, ["0 s", "840 µs", "1.3 ms", "40 ms", "999 ms", "1.0 s", "20.4 s"]);
     }
 
     #[test]
-    fn the_slower_time_goes_the_more_exactly_it_is_told() {
+    fn time_has_more_digits_at_a_slower_playback_rate() {
         let language = Language::English;
-        let said = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(|rate| time_words(Time(13_402_518_077), rate, language));
+        let written = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(|rate| time_words(Time(13_402_518_077), rate, language));
         let expected = ["13.4 s", "13.4 s", "13.40 s", "13.402\u{a0}5 s", "13.402\u{a0}518\u{a0}1 s"];
-        assert_eq!(said, expected);
+        assert_eq!(written, expected);
         assert_eq!(time_words(Time(60_999_999_999), 1.0, language), "61.0 s");
     }
 
     #[test]
-    fn slow_rates_have_a_decimal() {
-        let said = [0.0, 0.31, 0.96, 61.7, 1234.0].map(|rate| rate_words(rate, Language::English));
-        assert_eq!(said, ["0/s", "0.3/s", "1/s", "62/s", "1\u{a0}234/s"]);
+    fn rate_below_ten_has_a_decimal() {
+        let written = [0.0, 0.31, 0.96, 9.96, 61.7, 1234.0].map(|rate| rate_words(rate, Language::English));
+        assert_eq!(written, ["0/s", "0.3/s", "1.0/s", "10/s", "62/s", "1\u{a0}234/s"]);
     }
 
     #[test]
-    fn names_are_listed_while_they_are_few() {
+    fn fine_fraction_has_two_digits() {
+        let written = [0.0, 1e-6, 0.0003, 0.0213, 0.0996, 0.88, 1.0].map(|part| fine_fraction(part, Language::English));
+        assert_eq!(written, ["0 %", "< 0.01 %", "0.03 %", "2.1 %", "10 %", "88 %", "100 %"]);
+    }
+
+    #[test]
+    fn distance_has_four_digits() {
+        let distances = [0.0, 1.0, 12.345, -3.5, 1e9, 1e-7, f64::NEG_INFINITY];
+        let written = distances.map(|distance| distance_words(distance, Language::English));
+        assert_eq!(written, ["0", "1.000", "12.35", "−3.500", "1.00e9", "1.00e−7", "−∞"]);
+    }
+
+    #[test]
+    fn small_number_has_two_digits() {
+        let numbers = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0];
+        let written = numbers.map(|number| two_digits(number, Language::English));
+        assert_eq!(written, ["0", "0.000012", "0.012", "0.096", "0.50", "12"]);
+        assert_eq!([1.254, 12.0].map(|ratio| ratio_words(ratio, Language::Portuguese)), ["1,25", "12"]);
+    }
+
+    #[test]
+    fn number_to_power_has_no_zeros_at_its_end() {
+        let written = [(-20.0, 1), (0.2, -1), (0.5, -3), (2e9, 8), (3e-6, -6), (0.0, 0)]
+            .map(|(number, power)| number_to_power(number, power, Language::English));
+        assert_eq!(written, ["−20", "0.2", "0.5", "2e9", "3e-6", "0"]);
+    }
+
+    #[test]
+    fn more_than_five_names_are_counted() {
         let language = Language::English;
-        let said = [&[6][..], &[0, 1], &[0, 1, 7], &[0, 1, 2, 3, 4, 5]].map(|nodes| names(nodes, language));
-        assert_eq!(said, ["7", "1 and 2", "1, 2 and 8", "6 machines"]);
-        assert_eq!([counted(1, "offer", language), atoms_words(2000, language)], ["1 offer", "2\u{a0}000 atoms"]);
+        let written = [&[6][..], &[0, 1], &[0, 1, 7], &[0, 1, 2, 3, 4, 5]].map(|nodes| names(nodes, language));
+        assert_eq!(written, ["7", "1 and 2", "1, 2 and 8", "6 machines"]);
+        assert_eq!(
+            [counted(1_u32, "offer", language), atoms_words(2000_u32, language)],
+            ["1 offer", "2\u{a0}000 atoms"]
+        );
     }
 
     #[test]
-    fn portuguese_counts_its_own_way() {
+    fn portuguese_has_its_own_plurals_and_decimal_mark() {
         let language = Language::Portuguese;
-        let said = [
-            counted(1, "vez", language),
-            counted(2, "vez", language),
-            counted(0, "nível", language),
-            atoms_words(2000, language),
+        let written = [
+            counted(1_u32, "vez", language),
+            counted(2_u32, "vez", language),
+            counted(0_u32, "nível", language),
+            atoms_words(2000_u32, language),
         ];
-        assert_eq!(said, ["1 vez", "2 vezes", "0 níveis", "2\u{a0}000 átomos"]);
+        assert_eq!(written, ["1 vez", "2 vezes", "0 níveis", "2\u{a0}000 átomos"]);
         assert_eq!([left_words(1, language), left_words(2, language)], ["resta 1 átomo", "restam 2 átomos"]);
         assert_eq!(names(&[0, 1, 7], language), "1, 2 e 8");
         assert_eq!(duration(Duration::from_micros(1_300), language), "1,3 ms");

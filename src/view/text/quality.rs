@@ -1,18 +1,18 @@
-//! What a quality is, and what came of it, in words.
+//! A quality, and its measured time and errors, in words.
 
 use std::time::Duration;
 
-use super::format::{counted, duration};
+use super::format::{counted, duration, two_digits};
 use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::{Difference, Quality, Size};
 
-/// What a quality is, for a sentence.
+/// Describes a quality for a sentence.
 pub fn quality_words(quality: &Quality, language: Language) -> String {
     let lines = quality_lines(quality, language);
     lines.into_iter().map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
-/// What a quality is, knob by knob.
+/// Describes a quality, one option on each line.
 pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str, String)> {
     let Quality { samples, threshold, max_depth, cutoff, .. } = *quality;
     let error = comma(language, threshold.to_string());
@@ -21,11 +21,11 @@ pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str
         (_, 0.0) => say!(language, "{samples} × {samples} samples a pixel", "{samples} × {samples} amostras por pixel"),
         _ => say!(
             language,
-            "up to {samples} × {samples} samples a pixel, until the error is {error}",
-            "até {samples} × {samples} amostras por pixel, até o erro ser {error}"
+            "up to {samples} × {samples} samples a pixel, until the estimated error is {error}",
+            "até {samples} × {samples} amostras por pixel, até o erro estimado ser {error}"
         ),
     };
-    let part = error_words(100.0 * cutoff, language);
+    let part = two_digits(100.0 * cutoff, language);
     let left_out = if cutoff > 0.0 {
         say!(language, "weak rays left out up to {part} % of a pixel", "raios fracos omitidos até {part} % de um pixel")
     } else {
@@ -39,8 +39,8 @@ pub fn quality_lines(quality: &Quality, language: Language) -> Vec<(&'static str
     ]
 }
 
-/// What came of a quality: its time on one core in a picture of `size`, and how far from the reference a picture of
-/// `measured` pixels was.
+/// Describes a measured quality: its time on one core for a picture of `size`, and the difference from the reference of
+/// a picture of size `measured`.
 pub fn measured_lines(
     time: Duration,
     size: Size,
@@ -49,6 +49,7 @@ pub fn measured_lines(
     language: Language,
 ) -> Vec<(&'static str, String)> {
     let wrong = decimal(language, 100.0 * f64::from(difference.wrong_pixels) / f64::from(measured.pixels()), 1);
+    let limit = Difference::TOLERANCE;
     let (took, width, height) = (duration(time, language), size.width(), size.height());
     let worst = decimal(language, difference.worst_ssim, 3);
     vec![
@@ -60,45 +61,40 @@ pub fn measured_lines(
                 "{took} de um núcleo para {width} × {height} pixels"
             ),
         ),
-        (word!(language, "Error", "Erro"), error_words(difference.rmse, language)),
+        (word!(language, "Error", "Erro"), two_digits(difference.rmse, language)),
         (
             word!(language, "Wrong", "Errados"),
             say!(
                 language,
-                "{wrong} % of the pixels, so much that it can be seen",
-                "{wrong} % dos pixels, tanto que se vê"
+                "{wrong} % of the pixels: a channel differs by more than {limit} of 255",
+                "{wrong} % dos pixels: um canal difere em mais de {limit} de 255"
             ),
         ),
         (
             word!(language, "Worst", "Pior"),
             say!(
                 language,
-                "{worst} is how similar the worst block is; 1 is the same (SSIM)",
+                "{worst} is the similarity of the worst block; 1 is the same (SSIM)",
                 "{worst} é a semelhança do pior bloco; 1 é igual (SSIM)"
             ),
         ),
     ]
 }
 
-/// An error in two digits.
-pub fn error_words(error: f64, language: Language) -> String {
-    if error <= 0.0 {
-        return "0".into();
-    }
-    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
-    decimal(language, error, decimals)
-}
-
-/// How long one takes beside another.
+/// Compares a time with that of the present settings.
 pub fn times_words(time: f64, than: f64, language: Language) -> String {
     let times = time / than;
     let [faster, longer] = [1.0 / times, times].map(|times| decimal(language, times, 1));
     if !times.is_finite() || (0.95..1.05).contains(&times) {
-        word!(language, "about as long as what is set now", "quase o mesmo tempo que o ajuste atual").into()
+        word!(language, "about as long as the present settings", "quase o mesmo tempo que o ajuste atual").into()
     } else if times < 1.0 {
-        say!(language, "{faster} times as fast as what is set now", "{faster} vezes mais rápido que o ajuste atual")
+        say!(
+            language,
+            "{faster} times as fast as the present settings",
+            "{faster} vezes mais rápido que o ajuste atual"
+        )
     } else {
-        say!(language, "{longer} times as long as what is set now", "{longer} vezes o tempo do ajuste atual")
+        say!(language, "{longer} times as long as the present settings", "{longer} vezes o tempo do ajuste atual")
     }
 }
 
@@ -107,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quality_is_told_in_words() {
+    fn quality_is_described_by_its_options() {
         let language = Language::English;
         assert_eq!(
             quality_words(&Quality::default(), language),
@@ -118,22 +114,16 @@ mod tests {
         let adaptive = Quality { samples: 4, threshold: 0.02, ..Quality::default() };
         assert!(
             quality_words(&adaptive, language)
-                .starts_with("up to 4 × 4 samples a pixel, until the error is 0.02, 10 levels")
+                .starts_with("up to 4 × 4 samples a pixel, until the estimated error is 0.02, 10 levels")
         );
     }
 
     #[test]
-    fn errors_have_two_digits() {
-        let said = [0.0, 0.000_012_34, 0.0123, 0.096, 0.5, 12.0].map(|error| error_words(error, Language::English));
-        assert_eq!(said, ["0", "0.000012", "0.012", "0.096", "0.50", "12"]);
-    }
-
-    #[test]
-    fn times_are_told_the_way_that_people_do() {
+    fn times_are_compared_in_the_direction_of_the_gain() {
         let language = Language::English;
         let said =
             [(1.0, 1.01), (1.0, 2.5), (3.0, 1.0), (0.0, 0.0)].map(|(one, other)| times_words(one, other, language));
-        let now = "as what is set now";
+        let now = "as the present settings";
         assert_eq!(
             said,
             [
@@ -146,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn what_came_of_it_is_told_with_its_units() {
+    fn measured_quality_has_units() {
         let language = Language::English;
         let difference = Difference { rmse: 0.0123, wrong_pixels: 30, worst_ssim: 0.5 };
         let size = |width, height| Size::new(width, height).unwrap();

@@ -1,9 +1,9 @@
-//! What the remedies of the ring that adapts are called, and what they do.
+//! Names and explanations of the adaptive ring's remedies.
 
 use crate::balance::{Remedies, Remedy};
 use crate::language::{Language, say, word};
 
-/// What a remedy is called.
+/// Returns a remedy's name.
 pub fn remedy_name(remedy: Remedy, language: Language) -> &'static str {
     match remedy {
         Remedy::Speed => word!(language, "shares by speed", "partes por velocidade"),
@@ -16,48 +16,48 @@ pub fn remedy_name(remedy: Remedy, language: Language) -> &'static str {
     }
 }
 
-/// What it does.
+/// Returns a sentence that says what a remedy does.
 pub fn remedy_hint(remedy: Remedy, language: Language) -> &'static str {
     match remedy {
         Remedy::Speed => word!(
             language,
-            "Shares follow how fast machines are now, not their atoms since the start",
-            "As partes seguem a velocidade de agora, não os átomos desde o início"
+            "Shares follow the machines' present speed, not their atoms since the start",
+            "As partes seguem a velocidade atual, não os átomos desde o início"
         ),
         Remedy::Floor => word!(
             language,
-            "Nothing is given that would take longer to travel than it saves",
-            "Não se dá o que levaria mais tempo viajando do que poupa"
+            "Atoms are not given away if their way takes longer than they save",
+            "Átomos não são dados se a viagem leva mais tempo do que eles poupam"
         ),
         Remedy::Early => word!(
             language,
-            "A machine offers help before it is out of atoms, so that it never waits",
-            "A máquina oferece ajuda antes de ficar sem átomos, e não espera"
+            "A machine offers help before it has no atoms left, so that it does not wait",
+            "A máquina oferece ajuda antes de ficar sem átomos, e assim não espera"
         ),
         Remedy::Wake => word!(
             language,
-            "Who is done sleeps, and whoever comes to need help wakes it",
-            "Quem termina dorme, e quem vem a precisar de ajuda o acorda"
+            "A machine that is not needed sleeps; a machine that needs help later wakes it",
+            "A máquina dispensada dorme; outra que depois precisa de ajuda a acorda"
         ),
         Remedy::Copies => word!(
             language,
-            "An idle machine traces again what is late at a slow one",
-            "Uma máquina ociosa calcula de novo o que tarda em outra"
+            "An idle machine traces once more the atoms that are late at a slow one",
+            "Uma máquina ociosa calcula de novo os átomos atrasados em outra, lenta"
         ),
         Remedy::Shortcuts => word!(
             language,
-            "In a large ring an offer stops at few machines, near and far",
-            "Num anel grande a oferta para em poucas máquinas, perto e longe"
+            "In a large ring an offer visits only some machines, near and far ones",
+            "Num anel grande a oferta visita só algumas máquinas, próximas e distantes"
         ),
         Remedy::Leases => word!(
             language,
-            "What a lost machine had is given out again, and the ring closes round it",
-            "O que uma máquina perdida tinha é dado de novo, e o anel se fecha sem ela"
+            "Atoms of a lost machine are given out again, and the ring closes without it",
+            "Átomos de uma máquina perdida são dados de novo, e o anel se fecha sem ela"
         ),
     }
 }
 
-/// Which of them a ring has, in a few words.
+/// Says in a few words which remedies a ring has.
 pub fn remedies_words(remedies: Remedies, language: Language) -> String {
     let missing: Vec<_> = Remedy::ALL.into_iter().filter(|&remedy| !remedies.has(remedy)).collect();
     match missing[..] {
@@ -71,7 +71,7 @@ pub fn remedies_words(remedies: Remedies, language: Language) -> String {
     }
 }
 
-/// A ring that lacks one.
+/// Names a ring without one remedy.
 pub fn without(remedy: Remedy, language: Language) -> String {
     let name = remedy_name(remedy, language);
     say!(language, "without {name}", "sem {name}")

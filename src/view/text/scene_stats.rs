@@ -1,10 +1,10 @@
-//! What a scene needs to be traced, in words.
+//! Statistics of a compiled scene in words.
 
 use super::format::{count, listed};
 use crate::language::{Language, decimal, say, word};
 use crate::tracer::SceneStats;
 
-/// What a scene needs, line by line: what, and how much of it. `levels` are the rays of each level of the trees of rays, as
+/// Returns labels and values of a scene's statistics. `levels` are the rays on each level of the trees of rays, as
 /// [`crate::tracer::Tracer::levels`] counts them.
 pub fn needs_lines(compiled: &SceneStats, levels: &[u64], language: Language) -> Vec<(&'static str, String)> {
     let of_kind = |(kind, number): (&&'static str, &usize)| several(*number, shape_names(kind, language));
@@ -19,11 +19,11 @@ pub fn needs_lines(compiled: &SceneStats, levels: &[u64], language: Language) ->
         (word!(language, "Made of", "Feitos de"), if kinds.is_empty() { nothing() } else { listed(&kinds, language) }),
         (
             word!(language, "Kept", "Restam"),
-            say!(language, "{kept} of {shapes} shapes that are written", "{kept} de {shapes} formas escritas"),
+            say!(language, "{kept} of {shapes} shapes in the file", "{kept} de {shapes} formas no arquivo"),
         ),
         (
             word!(language, "Operations", "Operações"),
-            say!(language, "{operations} of {given} that are written", "{operations} de {given} escritas"),
+            say!(language, "{operations} of {given} in the file", "{operations} de {given} no arquivo"),
         ),
         (
             word!(language, "Lights", "Luzes"),
@@ -34,13 +34,14 @@ pub fn needs_lines(compiled: &SceneStats, levels: &[u64], language: Language) ->
     ];
     if compiled.unbounded > 0 {
         let solids = several(compiled.unbounded, solids);
-        let words = say!(language, "{solids}, which every ray is tested against", "{solids}, que todo raio testa");
-        lines.push((word!(language, "Endless", "Sem fim"), words));
+        let words =
+            say!(language, "{solids}: each ray is tested against them", "{solids}: cada raio é testado com eles");
+        lines.push((word!(language, "Unbounded", "Sem limites"), words));
     }
     lines
 }
 
-/// What one shape of a kind is called, and what several are.
+/// Returns the singular and the plural of a kind of shape.
 pub(crate) fn shape_names(kind: &'static str, language: Language) -> [&'static str; 2] {
     match kind {
         "ball" => word!(language, ["ball", "balls"], ["esfera", "esferas"]),
@@ -62,29 +63,29 @@ pub(crate) fn shape_names(kind: &'static str, language: Language) -> [&'static s
     }
 }
 
-/// What of the scene is never seen, as a sentence for each; none if all is.
+/// Returns a sentence for each reason why parts of the scene are not visible.
 pub fn needs_warnings(compiled: &SceneStats, language: Language) -> Vec<String> {
     let tell = |value: usize, words: [&str; 2]| (value > 0).then(|| format!("{}.", several(value, words)));
     let parts = compiled.parts_dropped;
     let dropped = word!(
         language,
-        ["solid is empty: nothing of it can be seen", "solids are empty: nothing of it can be seen"],
-        ["sólido é vazio: nada dele se vê", "sólidos são vazios: nada deles se vê"]
+        ["solid is empty and not visible", "solids are empty and not visible"],
+        ["sólido é vazio e não se vê", "sólidos são vazios e não se veem"]
     );
     let empty = word!(
         language,
-        ["part is empty, and left out", "parts are empty, and left out"],
+        ["part is empty and left out", "parts are empty and left out"],
         ["parte é vazia e foi omitida", "partes são vazias e foram omitidas"]
     );
     let out_of_reach = word!(
         language,
         [
-            "part is out of reach of what it would be taken from, and left out",
-            "parts are out of reach of what it would be taken from, and left out"
+            "part cuts nothing, since it is too far away, and is left out",
+            "parts cut nothing, since they are too far away, and are left out"
         ],
         [
-            "parte está longe demais do que a perderia, e foi omitida",
-            "partes estão longe demais do que as perderia, e foram omitidas"
+            "parte não corta nada, pois está longe demais, e foi omitida",
+            "partes não cortam nada, pois estão longe demais, e foram omitidas"
         ]
     );
     [tell(compiled.dropped, dropped), tell(parts.empty, empty), tell(parts.out_of_reach, out_of_reach)]
@@ -93,6 +94,7 @@ pub fn needs_warnings(compiled: &SceneStats, language: Language) -> Vec<String> 
         .collect()
 }
 
+/// Says whether surfaces reflect and transmit.
 fn surfaces(compiled: &SceneStats, language: Language) -> &'static str {
     match (compiled.reflects, compiled.transmits) {
         (true, true) => {
@@ -126,16 +128,11 @@ fn surfaces(compiled: &SceneStats, language: Language) -> &'static str {
     }
 }
 
-/// How deep the trees of rays go.
+/// Says how deep the trees of rays are.
 fn levels_words(levels: &[u64], language: Language) -> String {
     let deep = match levels.len() {
         0 | 1 => {
-            return word!(
-                language,
-                "1 level: a ray for each sample, and none after it",
-                "1 nível: um raio por amostra, e nenhum depois dele"
-            )
-            .into();
+            return word!(language, "1 level: one ray for each sample", "1 nível: um raio por amostra").into();
         }
         deep => deep,
     };
@@ -143,13 +140,13 @@ fn levels_words(levels: &[u64], language: Language) -> String {
     let after = decimal(language, (all - levels[0]) as f64 / levels[0].max(1) as f64, 1);
     say!(
         language,
-        "{deep} levels are used; each first ray has {after} more after it",
-        "{deep} níveis são usados; cada primeiro raio tem mais {after} depois dele"
+        "{deep} levels; {after} more rays for each primary ray",
+        "{deep} níveis; mais {after} raios para cada raio primário"
     )
 }
 
 fn number(value: usize) -> String {
-    count(u32::try_from(value).unwrap_or(u32::MAX))
+    count(value as u64)
 }
 
 fn several(value: usize, [one, many]: [&str; 2]) -> String {
@@ -177,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_is_told_as_it_was_compiled() {
+    fn statistics_are_those_of_the_compiled_scene() {
         let language = Language::English;
         let simple = told(&tracer("Sphere(radius: 1)"), language);
         for line in
@@ -185,7 +182,7 @@ mod tests {
         {
             assert!(simple.contains(line), "{line} is not in {simple}");
         }
-        assert!(simple.contains("none mirrors others, and light goes through none") && !simple.contains("Endless"));
+        assert!(simple.contains("none mirrors others, and light goes through none") && !simple.contains("Unbounded"));
         let more = told(
             &tracer(
                 "HalfSpace(normal: (0, 1, 0), offset: -1), \
@@ -194,15 +191,15 @@ mod tests {
             language,
         );
         for line in
-            ["1 box along the axes", "Operations: 1 of 1", "Endless: 1 solid, which", "some mirror others; light"]
+            ["1 box along the axes", "Operations: 1 of 1", "Unbounded: 1 solid: each", "some mirror others; light"]
         {
             assert!(more.contains(line), "{line} is not in {more}");
         }
-        assert!(more.contains("levels are used"), "{more}");
+        assert!(more.contains(" levels; "), "{more}");
     }
 
     #[test]
-    fn however_unions_are_compiled_there_are_no_more_operations_than_are_written() {
+    fn compiled_unions_count_no_more_operations_than_the_file_has() {
         let language = Language::English;
         let ball = |i: i32| {
             format!("Sphere(radius: 0.2, centre: ({}, {}, 0))", 0.3 * f64::from(i % 7), 0.3 * f64::from(i / 7))
@@ -215,18 +212,18 @@ mod tests {
             (format!("Difference(of: [{hall}, Union(of: [{balls}])])"), "1 of 2"),
         ] {
             let told = told(&tracer(&solid), language);
-            assert!(told.contains(&format!("Operations: {operations} that are written")), "{told}");
+            assert!(told.contains(&format!("Operations: {operations} in the file")), "{told}");
         }
     }
 
     #[test]
-    fn what_cannot_be_seen_is_a_warning() {
+    fn invisible_parts_have_warnings() {
         let language = Language::English;
         let seen = tracer("Sphere(radius: 1)");
         assert!(needs_warnings(&seen.scene_stats(), language).is_empty());
         let far = tracer("Difference(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
         let warnings = needs_warnings(&far.scene_stats(), language);
-        assert_eq!(warnings, ["1 part is out of reach of what it would be taken from, and left out."]);
+        assert_eq!(warnings, ["1 part cuts nothing, since it is too far away, and is left out."]);
         let empty =
             tracer("Sphere(radius: 1), Intersection(of: [Sphere(radius: 1), Sphere(radius: 1, centre: (9, 0, 0))])");
         let warnings = needs_warnings(&empty.scene_stats(), language);
@@ -234,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn several_have_their_plural() {
+    fn counted_shapes_have_their_plural() {
         let language = Language::English;
         let said =
             ["box", "torus", "ball", "box along the axes"].map(|kind| several(2000, shape_names(kind, language)));

@@ -1,22 +1,23 @@
-//! What is said of a thing that somebody points at.
+//! Tooltips: facts about a node, the parent, an atom or a message.
 
 use std::time::Duration;
 
 use super::format::{
     activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent, rate_words,
+    seconds_words,
 };
 use crate::balance::{Condition, NodeId, Party};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::flight::{Cargo, Flight};
-use crate::view::state::node_rows::rows;
+use crate::view::state::node_rows::node_rows;
 use crate::view::state::node_state::{Activity, NodeState, Parcels, Slot};
 use crate::view::state::run_state::RunState;
 use crate::view::state::scheduler::Sharing;
 
-/// Something that there is to say of a node.
+/// Kind of a fact about a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fact {
     State,
@@ -36,7 +37,7 @@ pub(crate) enum Fact {
 }
 
 impl Fact {
-    /// What it is called.
+    /// Returns the label of the fact.
     pub(crate) fn name(self, language: Language) -> &'static str {
         match self {
             Self::State => word!(language, "state", "estado"),
@@ -57,7 +58,7 @@ impl Fact {
     }
 }
 
-/// What there is to say of a node, each with what it is; nothing of a node that is not in the ring.
+/// Returns labels and values of a node's facts; none for a node that the run does not have.
 pub fn node_words(state: &RunState, node: NodeId, now: Time, language: Language) -> Vec<(&'static str, String)> {
     let words = |(fact, words): (Fact, Option<String>)| {
         (fact.name(language), words.unwrap_or_else(|| nothing(language).into()))
@@ -65,10 +66,10 @@ pub fn node_words(state: &RunState, node: NodeId, now: Time, language: Language)
     node_facts(state, node, now, language).into_iter().map(words).collect()
 }
 
-/// The same; without words where it amounts to nothing.
+/// Returns a node's facts; a value is `None` where there is nothing of it.
 pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: Language) -> Vec<(Fact, Option<String>)> {
     let Some(of) = state.nodes().get(usize::from(node)) else { return Vec::new() };
-    let row = rows(state, now).swap_remove(usize::from(node));
+    let row = node_rows(state, now).swap_remove(usize::from(node));
     let paused =
         if of.paused && row.activity != Activity::Paused { word!(language, ", paused", ", em pausa") } else { "" };
     let mut facts = vec![
@@ -84,7 +85,7 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
     facts
 }
 
-/// What a node has got from others, and they from it.
+/// Returns facts about the atoms that a node has got from others and given to them.
 fn shared_facts(sharing: Sharing, of: &NodeState, language: Language) -> Vec<(Fact, Option<String>)> {
     let parcel = word!(language, "parcel", "pacote");
     match sharing {
@@ -112,25 +113,28 @@ fn shared_facts(sharing: Sharing, of: &NodeState, language: Language) -> Vec<(Fa
     }
 }
 
-/// What there is to say of the parent, each with what it is.
+/// Returns labels and values of the parent's facts.
 pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'static str, String)> {
     let (arrived, all) = (state.arrived(), state.division().pixels_in(&(0..state.atoms())));
     let until = state.finished().map_or(now, |end| end.min(now));
     let each = if until == Time::ZERO { 0.0 } else { arrived.messages as f64 / until.secs() };
     let (placed, of, part) = (count(arrived.pixels), count(all), percent(arrived.pixels, all));
-    let (seen, rate) = (arrived.messages, rate_words(each, language));
+    let (handled, rate) = (arrived.messages, rate_words(each, language));
     let mut words = vec![
         (
             word!(language, "placed", "recebido"),
             say!(language, "{placed} of {of} pixels, {part}", "{placed} de {of} pixels, {part}"),
         ),
-        (word!(language, "messages", "mensagens"), say!(language, "{seen} seen, {rate}", "{seen} vistas, {rate}")),
+        (
+            word!(language, "messages", "mensagens"),
+            say!(language, "{handled} handled, {rate}", "{handled} tratadas, {rate}"),
+        ),
     ];
     if !state.handling.is_zero() {
-        let (waiting, each) = (state.waiting(now), duration(state.handling, language));
+        let (messages, each) = (state.line_length(now), duration(state.handling, language));
         words.push((
-            word!(language, "waiting", "esperando"),
-            say!(language, "{waiting}, {each} each", "{waiting}, {each} cada"),
+            word!(language, "in line", "na fila"),
+            say!(language, "{messages}, {each} each", "{messages}, {each} cada"),
         ));
     }
     if state.sharing().is_farm() {
@@ -146,8 +150,8 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
     words
 }
 
-/// What there is to know of the drawing itself, a line each.
-pub fn small_print(state: &RunState, language: Language) -> Vec<String> {
+/// Returns notes on the drawing of the ring, one on each line.
+pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
     let (takes, handling) = (duration(state.latency(), language), duration(state.handling, language));
     let mut lines =
         vec![word!(language, "some atoms take longer than others", "alguns átomos demoram mais que outros").to_owned()];
@@ -175,24 +179,29 @@ pub fn small_print(state: &RunState, language: Language) -> Vec<String> {
     }
     if !state.sharing().is_fixed() {
         lines.push(
-            word!(language, "parcels are drawn slower than they travel", "os pacotes viajam mais rápido do que se vê")
-                .into(),
+            word!(
+                language,
+                "parcels are drawn slower than they travel",
+                "os pacotes aparecem mais lentos do que viajam"
+            )
+            .into(),
         );
     }
     lines
 }
 
-/// Where an atom stands, in a sentence; empty if there is no such atom. For people atoms are numbered from 1 too.
+/// Says where an atom is, in a sentence; empty if there is no such atom. Atoms have numbers from 1 here, and from 0 in
+/// files.
 pub fn atom_words(state: &RunState, atom: Atom, now: Time, language: Language) -> String {
-    let Some(&place) = state.places().get(atom as usize) else { return String::new() };
-    let stands = match (place, state.carrier(atom)) {
+    let Some(&atom_state) = state.atom_states().get(atom as usize) else { return String::new() };
+    let place = match (atom_state, state.carrier(atom)) {
         (AtomState::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default(), language);
-            let (by, at) = (node_name(by), decimal(language, at.secs(), 1));
+            let (by, at) = (node_name(by), seconds_words(at.secs(), language));
             say!(
                 language,
-                "traced by {by} at {at} s, at a cost of {cost}",
-                "calculado por {by} em {at} s, ao custo de {cost}"
+                "traced by {by} at {at}, at a cost of {cost}",
+                "calculado por {by} em {at}, ao custo de {cost}"
             )
         }
         (_, Some(Flight { from: Party::Node(from), to: Party::Node(to), .. })) => {
@@ -213,14 +222,14 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time, language: Language) -
             }
         }
         (AtomState::With { node, since }, _) => with_words(state, atom, (node, since), now, language),
-        (AtomState::Lost, _) => word!(language, "lost: nobody has it", "perdido: ninguém o tem").into(),
+        (AtomState::Lost, _) => word!(language, "lost: no machine has it", "perdido: nenhuma máquina o tem").into(),
         (AtomState::Nowhere, _) => word!(language, "still with the parent", "ainda com o pai").into(),
     };
     let name = count(atom.saturating_add(1));
-    say!(language, "Atom {name}: {stands}", "Átomo {name}: {stands}")
+    say!(language, "Atom {name}: {place}", "Átomo {name}: {place}")
 }
 
-/// What a message is, in a few words.
+/// Describes a message in a few words.
 pub fn flight_words(flight: &Flight, language: Language) -> String {
     let [from, to] = [flight.from, flight.to].map(|party| party_name(party, language));
     let atoms = atoms_words(flight.cargo.atoms(), language);
@@ -251,27 +260,33 @@ pub fn flight_words(flight: &Flight, language: Language) -> String {
         Cargo::Sleeps => say!(language, "{from} tells {to} that it sleeps", "{from} diz a {to} que dorme"),
         Cargo::Wake => say!(language, "{from} wakes {to}", "{from} acorda {to}"),
         Cargo::Beat => say!(language, "{from} tells {to} what it has", "{from} diz ao pai o que tem"),
-        Cargo::Notice => say!(language, "{from} tells {to} what is lost", "{from} diz a {to} o que se perdeu"),
-        Cargo::Shutdown => say!(language, "The end, for {to}", "A mensagem de suicídio, para {to}"),
+        Cargo::Notice => say!(
+            language,
+            "{from} tells {to} about lost atoms or machines",
+            "{from} avisa {to} de átomos ou máquinas perdidas"
+        ),
+        Cargo::Shutdown => {
+            say!(language, "{from} tells {to} that the run is over", "A mensagem de suicídio, para {to}")
+        }
     };
     if flight.lost.is_some() { say!(language, "{words}: lost", "{words}: perdida") } else { words }
 }
 
-/// An atom is at a node.
+/// Says where an atom is that a node has.
 fn with_words(state: &RunState, atom: Atom, (node, since): (NodeId, Time), now: Time, language: Language) -> String {
     let (name, waited) = (node_name(node), duration(now.since(since), language));
     match state.nodes().get(usize::from(node)) {
         Some(of) if of.condition == Condition::Hung => {
-            say!(language, "is with {name}, which hangs", "está com {name}, que travou")
+            say!(language, "with {name}, which hangs", "com {name}, que travou")
         }
         Some(of) if of.atom == Some(atom) && of.paused => {
             say!(language, "{name} has begun it, but is paused", "{name} o começou, mas está em pausa")
         }
         Some(of) if of.atom == Some(atom) && of.speed == 0.0 => {
-            say!(language, "{name} has begun it, but stands still", "{name} o começou, mas está parada")
+            say!(language, "{name} has begun it, but its speed is 0 %", "{name} o começou, mas sua velocidade é 0 %")
         }
         Some(of) if of.atom == Some(atom) => say!(language, "{name} traces it now", "{name} o calcula agora"),
-        _ => say!(language, "waits in the queue of {name}, for {waited} now", "espera na fila de {name}, há {waited}"),
+        _ => say!(language, "has been in the queue of {name} for {waited}", "está na fila de {name} há {waited}"),
     }
 }
 
@@ -295,113 +310,4 @@ fn parcels_words(Parcels { count, atoms }: Parcels, parcel: &str, language: Lang
 }
 
 #[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::*;
-    use crate::record::{Record, RecordKind};
-    use crate::view::tests::sample_runs;
-
-    fn value<'a>(words: &'a [(&str, String)], label: &str) -> &'a str {
-        words.iter().find(|(other, _)| *other == label).map_or("", |(_, value)| value)
-    }
-
-    #[test]
-    fn a_node_tells_what_it_did() {
-        let language = Language::English;
-        let header = sample_runs::header(&[1.0, 1.0, 0.1], 600);
-        let mut state = RunState::new(&header);
-        sample_runs::records(&header).iter().for_each(|record| state.apply(record));
-        let slow = node_words(&state, 2, state.head(), language);
-        let given = state.nodes()[2].given;
-        assert!(given.count > 1);
-        assert_eq!(value(&slow, "gave"), format!("{} atoms in {} parcels", given.atoms, given.count));
-        assert_eq!((value(&slow, "state"), value(&slow, "speed")), ("done", "10 %"));
-        assert_eq!((value(&slow, "left"), value(&slow, "in the pipe")), ("0 atoms", "nothing"));
-        assert!(value(&slow, "offers").starts_with(&format!("{} made, ", state.nodes()[2].offers)));
-        assert!(node_words(&state, 3, state.head(), language).is_empty());
-    }
-
-    #[test]
-    fn a_node_that_is_paused_says_so() {
-        let language = Language::English;
-        let header = sample_runs::header(&[1.0, 1.0], 60);
-        let mut state = RunState::new(&header);
-        sample_runs::records(&header).iter().take(30).for_each(|record| state.apply(record));
-        let state_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "state").to_owned();
-        let pipe_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "in the pipe").to_owned();
-        assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("computing", "two atoms, one of which it traces"));
-        state.apply(&Record { at: state.head(), what: RecordKind::Paused { node: 0 } });
-        assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("paused", "two atoms, which wait"));
-        state.nodes[0].left = 0;
-        assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("idle, paused", "nothing"));
-    }
-
-    #[test]
-    fn the_parent_has_placed_every_pixel_at_the_end() {
-        let language = Language::English;
-        let header = sample_runs::header(&[1.0, 0.3], 40);
-        let mut state = RunState::new(&header);
-        assert_eq!(value(&parent_words(&state, Time::ZERO, language), "placed"), "0 of 2\u{a0}000 pixels, 0 %");
-        let records = sample_runs::records(&header);
-        records.iter().for_each(|record| state.apply(record));
-        let words = parent_words(&state, Time::from_secs(2.0), language);
-        assert_eq!(value(&words, "placed"), "2\u{a0}000 of 2\u{a0}000 pixels, 100 %");
-        assert_eq!(value(&words, "a hop takes"), "40 ms");
-        let seen = |record: &&Record| matches!(record.what, RecordKind::Received { by: Party::Parent, .. });
-        let seen = records.iter().filter(seen).count();
-        assert!(value(&words, "messages").starts_with(&format!("{seen} seen, ")), "{words:?}");
-    }
-
-    #[test]
-    fn an_atom_is_followed_from_the_parent_to_the_picture() {
-        let language = Language::English;
-        let header = sample_runs::header(&[1.0, 1.0, 0.1], 90);
-        let mut state = RunState::new(&header);
-        let mut told: Vec<String> = Vec::new();
-        told.push(atom_words(&state, 89, Time::ZERO, language));
-        for record in sample_runs::records(&header) {
-            state.apply(&record);
-            let words = atom_words(&state, 89, record.at, language);
-            told.push(words.split(", for").next().unwrap_or_default().to_owned());
-        }
-        told.dedup();
-        assert_eq!(told[0], "Atom 90: still with the parent");
-        assert_eq!(told[1], "Atom 90: on its way to 3, in its band");
-        assert_eq!(told[2], "Atom 90: waits in the queue of 3");
-        assert!(told[3].starts_with("Atom 90: on its way from 3 to "), "{told:#?}");
-        assert!(told.iter().any(|told| told.ends_with(" traces it now")), "{told:#?}");
-        assert!(told.last().is_some_and(|told| told.ends_with(", at a cost of 1.0 ms")), "{told:#?}");
-        assert_eq!(atom_words(&state, 90, Time::ZERO, language), "");
-    }
-
-    #[test]
-    fn an_atom_that_is_begun_knows_why_it_is_not_done() {
-        let language = Language::English;
-        let header = sample_runs::header(&[1.0], 9);
-        let mut state = RunState::new(&header);
-        sample_runs::records(&header).iter().take(3).for_each(|record| state.apply(record));
-        assert_eq!(atom_words(&state, 0, state.head(), language), "Atom 1: 1 traces it now");
-        let later = state.head() + Duration::from_secs(3);
-        assert_eq!(atom_words(&state, 8, later, language), "Atom 9: waits in the queue of 1, for 3.0 s now");
-        state.apply(&Record { at: later, what: RecordKind::SpeedSet { node: 0, speed: 0.0 } });
-        assert_eq!(atom_words(&state, 0, later, language), "Atom 1: 1 has begun it, but stands still");
-        state.apply(&Record { at: later, what: RecordKind::Paused { node: 0 } });
-        assert_eq!(atom_words(&state, 0, later, language), "Atom 1: 1 has begun it, but is paused");
-    }
-
-    #[test]
-    fn messages_are_told_apart() {
-        let header = sample_runs::header(&[1.0, 1.0, 0.1], 300);
-        let mut state = RunState::new(&header);
-        let mut told = BTreeSet::new();
-        for record in sample_runs::records(&header) {
-            state.apply(&record);
-            told.extend(state.flights().iter().map(|flight| flight_words(flight, Language::English)));
-        }
-        for part in ["100 atoms for 3, its band", "2 atoms that 2 has traced, for the parent", " atoms from 3 to "] {
-            assert!(told.iter().any(|told| told.contains(part)), "{part}: {told:#?}");
-        }
-        assert!(told.contains("The offer of 1, on its way from 1 to 3"), "{told:#?}");
-    }
-}
+mod tests;

@@ -1,4 +1,4 @@
-//! What is changed of a run, in words, and what a run with changes is called.
+//! Changes of a trial run in words, and names of trial runs.
 
 use super::format::{count, duration, fraction, node_name, time_words};
 use super::remedies::without;
@@ -7,7 +7,7 @@ use crate::language::{Language, say, word};
 use crate::sim::Change;
 use crate::view::state::scheduler::Sharing;
 
-/// A change in a few words.
+/// Describes a change in a few words.
 pub fn change_words(change: Change, language: Language) -> String {
     match change {
         Change::Strategy(strategy) => Sharing::By(strategy).name(language).to_owned(),
@@ -44,10 +44,10 @@ pub fn change_words(change: Change, language: Language) -> String {
     }
 }
 
-/// What a run is called that is shared so and has these changes: of changes of the same thing only the last counts.
+/// Names a run after its strategy and its changes. Of several changes of one thing only the last is named.
 pub fn trial_name(strategy: Strategy, changes: &[Change], language: Language) -> String {
     let mut words = vec![Sharing::By(strategy).name(language).to_owned()];
-    let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| is_of_the_same(*change, *other));
+    let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| overrides(*change, *other));
     for (i, change) in changes.iter().enumerate() {
         if !matches!(change, Change::Strategy(_)) && !is_later(change, &changes[i + 1..]) {
             words.push(change_words(*change, language));
@@ -56,8 +56,8 @@ pub fn trial_name(strategy: Strategy, changes: &[Change], language: Language) ->
     words.join(", ")
 }
 
-/// Whether the later change makes the earlier one void.
-fn is_of_the_same(earlier: Change, later: Change) -> bool {
+/// Whether the later change overrides the earlier one.
+fn overrides(earlier: Change, later: Change) -> bool {
     match (earlier, later) {
         (Change::Speed(one, _), Change::Speed(other, _)) => one == other,
         (Change::Speed(..), Change::Equal) => true,
@@ -77,7 +77,7 @@ mod tests {
     use crate::time::Time;
 
     #[test]
-    fn a_run_is_called_after_what_is_changed_last() {
+    fn run_is_named_after_its_last_changes() {
         let language = Language::English;
         let changes = [
             Change::Strategy(Strategy::Farm),

@@ -99,15 +99,15 @@ fn draw_phases(
     quads: &mut Vec<Quad>,
 ) {
     let middle = layout.middle(node);
-    let first = lane.stays().partition_point(|(at, _)| *at <= window.from()).saturating_sub(1);
-    for (i, &(from, stay)) in lane.stays().iter().enumerate().skip(first) {
+    let first = lane.phases().partition_point(|(at, _)| *at <= window.from()).saturating_sub(1);
+    for (i, &(from, stay)) in lane.phases().iter().enumerate().skip(first) {
         if from > window.to() {
             break;
         }
-        let to = lane.stays().get(i + 1).map_or(head, |(next, _)| *next);
+        let to = lane.phases().get(i + 1).map_or(head, |(next, _)| *next);
         let [left, right] = layout.span(window, from, to);
         let (half, ink) = match stay {
-            LanePhase::Waits | LanePhase::Works => continue,
+            LanePhase::NoBand | LanePhase::HasAtoms => continue,
             LanePhase::Offers => (2.5, Hue::Node(node).faint(0.45)),
             LanePhase::Receives => (2.5, Hue::Node(node).faint(0.75)),
             LanePhase::Retired | LanePhase::Asleep => (0.75, Hue::Quiet.faint(0.6)),
@@ -168,7 +168,7 @@ fn draw_pauses(
     quads: &mut Vec<Quad>,
 ) {
     let middle = layout.middle(node);
-    for &(from, to) in lane.pauses() {
+    for &(from, to) in lane.stops() {
         let [left, right] = layout.span(window, from, to.unwrap_or(head));
         if right > left {
             quads.push(Quad { place: [left, middle - 1.0, right, middle + 1.0], ink: Hue::Text.faint(0.9) });

@@ -15,9 +15,9 @@ use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
     Details, Layer, Narrator, RingLayout, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary,
-    TimeWindow, TimelineLayout, atom_words, axis, flight_words, landmarks, node_words, parent_words, parts_words,
-    picture_pixels, record_words, result_words, ring, rows, shares, small_print, step, time_words, timeline,
-    timeline_at,
+    TimeWindow, TimelineLayout, atom_words, axis, drawing_notes, flight_words, landmarks, node_rows, node_shares,
+    node_words, parent_words, picture_pixels, record_words, result_words, ring, step, time_words, timeline,
+    timeline_at, work_split_words,
 };
 
 use super::assert_sentence;
@@ -138,15 +138,15 @@ fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Ti
     said += &format!(
         "{:?}{:?}{:?}",
         parent_words(state, now, language),
-        small_print(state, language),
-        parts_words(state, language)
+        drawing_notes(state, language),
+        work_split_words(state, language)
     );
     said += &narrator.sentence(state, now, language);
     narrator.earlier(state, now).for_each(|(_, event)| said += &event.sentence(language));
     said += &outcome.map(|outcome| result_words(state, &outcome, language)).unwrap_or_default();
     assert!(!said.contains("NaN") && !said.contains("inf,"), "{said}");
-    assert_eq!(rows(state, now).len(), state.nodes().len());
-    assert_eq!(shares(state).len(), state.nodes().len());
+    assert_eq!(node_rows(state, now).len(), state.nodes().len());
+    assert_eq!(node_shares(state).len(), state.nodes().len());
 }
 
 /// Simulates a run with the recorded costs, as `anel render --costs` does, and checks its settings, as the window does

@@ -8,7 +8,7 @@ use crate::gui::widgets::{Emphasis, button, slider};
 use crate::language::{Language, say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
-use crate::view::{duration, error_words, quality_words, times_words};
+use crate::view::{duration, quality_words, times_words, two_digits};
 
 /// Action of the controls.
 pub enum ChoiceAction {
@@ -41,7 +41,7 @@ pub fn show(
     };
     let mut action = None;
     ui.spacing_mut().item_spacing.y = 0.5 * GRID;
-    let value_text = error_words(error, language);
+    let value_text = two_digits(error, language);
     let limits = (best.rmse(), fastest.rmse());
     let (caption, name) = word!(
         language,
@@ -91,7 +91,7 @@ pub fn show(
 /// Describes the chosen quality, its time and its error, and compares it with the present one.
 fn sentence(findings: &AccuracyFindings, index: usize, point: &Point, language: Language) -> String {
     let (size, quality) = (findings.whole, quality_words(&point.quality, language));
-    let (time, error) = (duration(findings.time(index), language), error_words(point.rmse(), language));
+    let (time, error) = (duration(findings.time(index), language), two_digits(point.rmse(), language));
     let (width, height) = (size.width(), size.height());
     let costs = say!(
         language,

@@ -8,7 +8,7 @@ use crate::gui::widgets::{self, choice_buttons};
 use crate::language::{Language, comma, say, word};
 use crate::palette::Rgb;
 use crate::picture::{Frame, srgb8};
-use crate::view::{ERRORS, false_colours, place_of_error, ramp};
+use crate::view::{RAMP_ERRORS, false_colours, ramp, ramp_position};
 
 /// The pictures of the chosen point.
 pub struct PointPictures {
@@ -194,15 +194,15 @@ fn legend(ui: &mut Ui, width: f32, look: Look, language: Language) {
         ui.painter().rect_filled(step, 0.0, theme::colour(ramp((from + to) / 2.0)));
     }
     let font = theme::regular(theme::SMALL);
-    for (i, error) in ERRORS.into_iter().enumerate() {
+    for (i, error) in RAMP_ERRORS.into_iter().enumerate() {
         let number = comma(language, error.to_string());
         let (text, anchor) = match i {
             0 => (say!(language, "error {number}", "erro {number}"), Align2::LEFT_TOP),
-            _ if i + 1 == ERRORS.len() => {
+            _ if i + 1 == RAMP_ERRORS.len() => {
                 (say!(language, "{number} (linear light)", "{number} (luz linear)"), Align2::RIGHT_TOP)
             }
             _ => (number, Align2::CENTER_TOP),
         };
-        ui.painter().text(pos2(at(place_of_error(error)), bar.bottom() + 3.0), anchor, text, font.clone(), look.quiet);
+        ui.painter().text(pos2(at(ramp_position(error)), bar.bottom() + 3.0), anchor, text, font.clone(), look.quiet);
     }
 }

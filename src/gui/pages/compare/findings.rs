@@ -11,7 +11,10 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{NamedBudget, TimeBudget, contrast, count, duration, fraction, spent, spent_height, spent_words};
+use crate::view::{
+    NamedBudget, TimeBudget, compare_runs, count, duration, fraction, time_budget_height, time_budget_marks,
+    time_budget_words,
+};
 
 /// A tab of the findings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,9 +112,9 @@ impl Findings {
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
             let text = match (&one.budget, &other.budget) {
-                (Some(first), Some(second)) => contrast(
-                    NamedBudget { name: &one.name, account: first },
-                    NamedBudget { name: &other.name, account: second },
+                (Some(first), Some(second)) => compare_runs(
+                    NamedBudget { name: &one.name, budget: first },
+                    NamedBudget { name: &other.name, budget: second },
                     language,
                 ),
                 _ => {
@@ -164,7 +167,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                 ],
                 ["mensagens de divisão", "Todas, sem resultados e sinais de vida: faixas, pedidos, partes, ofertas …"]
             ),
-            |budget, _| count(budget.messages.sharing() as u32),
+            |budget, _| count(budget.messages.sharing()),
         ),
         (
             word!(
@@ -180,7 +183,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                     lenta envia seus átomos um a um e assim faz mais mensagens, em toda estratégia",
                 ]
             ),
-            |budget, _| count(budget.messages.results as u32),
+            |budget, _| count(budget.messages.results),
         ),
         (
             word!(
@@ -188,7 +191,7 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
                 ["atoms given away", "Atoms in transfers from one machine to another"],
                 ["átomos cedidos", "Átomos em transferências de uma máquina a outra"]
             ),
-            |budget, _| count(budget.messages.atoms_moved as u32),
+            |budget, _| count(budget.messages.atoms_moved),
         ),
         (
             word!(
@@ -227,11 +230,11 @@ fn where_time_went(ui: &mut Ui, columns: &[CompareColumn], look: Look, language:
     let runs: Vec<(&str, &TimeBudget)> =
         names.iter().zip(budgets).filter_map(|(name, budget)| Some((name.as_str(), budget?))).collect();
     ScrollArea::vertical().id_salt("spent").auto_shrink(false).show(ui, |ui| {
-        let size = vec2(ui.available_width() - GRID, spent_height(runs.len()));
+        let size = vec2(ui.available_width() - GRID, time_budget_height(runs.len()));
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         widgets::describe(&response, word!(language, "Where the time went", "Para onde foi o tempo"), || {
-            spent_words(&runs, language)
+            time_budget_words(&runs, language)
         });
-        paint(ui.painter(), rect.min, &spent(&runs, rect.width(), language), &Inks { look, nodes: &[] });
+        paint(ui.painter(), rect.min, &time_budget_marks(&runs, rect.width(), language), &Inks { look, nodes: &[] });
     });
 }

@@ -11,7 +11,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, decimal, say, word};
 use crate::palette::{DISTINCT_COLOURS, node_colours};
 use crate::study::article_over_ideal;
-use crate::view::{Axis, Hue, LEAST_HIGH, LineChart, Series, Sharing, Style, TimeBudget, fraction, series_hue};
+use crate::view::{Axis, Hue, LineChart, MIN_CHART_HEIGHT, Series, Sharing, Style, TimeBudget, fraction, series_hue};
 
 /// Quantity of the chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub fn show(
         return;
     };
     let chart = chart(growth, columns, measure, language);
-    let size = vec2(ui.available_width() - GRID, ui.available_height().max(LEAST_HIGH));
+    let size = vec2(ui.available_width() - GRID, ui.available_height().max(MIN_CHART_HEIGHT));
     // A low window scrolls.
     ScrollArea::vertical().id_salt("growth").show(ui, |ui| {
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());

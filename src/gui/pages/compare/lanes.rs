@@ -11,7 +11,7 @@ use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
 use crate::time::Time;
-use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, spent_words, time_words, timeline};
+use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, time_budget_words, time_words, timeline};
 
 /// Width of the run's letter left of the lanes, in points.
 const LETTER_WIDTH_PT: f32 = 2.5 * GRID;
@@ -131,7 +131,7 @@ fn time_axis(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, lang
 
 /// Describes the time budget of a run for screen readers.
 fn budget_text(run: &ComparedRun, language: Language) -> String {
-    run.budget.as_ref().map_or_else(String::new, |budget| spent_words(&[(&run.name, budget)], language))
+    run.budget.as_ref().map_or_else(String::new, |budget| time_budget_words(&[(&run.name, budget)], language))
 }
 
 /// Returns the legend; it explains changes only if there are any.

@@ -12,9 +12,11 @@ use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{Language, decimal, say, word};
+use crate::language::{Language, say, word};
 use crate::palette::text_on;
-use crate::view::{Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, rows};
+use crate::view::{
+    Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows, rate_number,
+};
 use row_layout::{HEAD_HEIGHT_PT, RowGrid, RowLayout};
 
 /// Returns the height of the panel for this number of machines: at most about a third of the window; then it scrolls.
@@ -28,7 +30,7 @@ pub fn height(ui: &Ui, nodes: usize) -> f32 {
 pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highlight: &Highlight) {
     let language = session.language();
     let look = Look::of(ui.ctx());
-    let rows = rows(session.stage().state(), session.now());
+    let rows = node_rows(session.stage().state(), session.now());
     let grid = RowGrid::new(rows.len(), ui.available_width());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
@@ -137,9 +139,9 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
     let ink = |stands_out: bool| if stands_out { look.text } else { look.quiet };
     number(layout.done, count(row.done), look.text);
     number(Some(layout.left), count(row.left), ink(row.left > 0));
-    number(layout.rate, rate_text(row.rate, language), ink(row.rate > 0.0));
+    number(layout.rate, rate_number(row.rate, language), ink(row.rate > 0.0));
     number(layout.idle, fraction(row.idle), look.text);
-    let is_calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::Waiting | Activity::Done);
+    let is_calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
     let now = pos2(layout.activity, y);
     painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), ink(!is_calm));
     if let Some(bar) = layout.bar {
@@ -205,9 +207,4 @@ pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session
     if percent != before {
         session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
-}
-
-/// Formats atoms per second, with a decimal only below 10.
-fn rate_text(rate: f64, language: Language) -> String {
-    if rate > 0.0 && rate < 9.95 { decimal(language, rate, 1) } else { count(rate.round() as u32) }
 }

@@ -11,9 +11,9 @@ use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame, slider};
-use crate::language::{Language, comma, decimal, say, word};
+use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
-use crate::view::count;
+use crate::view::{count, two_digits};
 
 /// Width of the panel, in points.
 pub const WIDTH_PT: f32 = 36.0 * GRID;
@@ -227,7 +227,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
         number_field(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE_WIDTH_PT, name);
     });
     let cutoff_text = |cutoff: f64| {
-        let max = decimal(language, 100.0 * cutoff, 2);
+        let max = two_digits(100.0 * cutoff, language);
         if cutoff > 0.0 {
             say!(language, "up to {max} % of a pixel", "até {max} % de um pixel")
         } else {

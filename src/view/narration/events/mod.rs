@@ -71,7 +71,7 @@ impl EventLog {
                 let same = |kind: &EventKind| matches!(kind, EventKind::Speed { node: other, .. } if other == node);
                 let before = match self.take(at, same) {
                     Some(EventKind::Speed { before, .. }) => before,
-                    _ => machine.speed_before,
+                    _ => machine.previous_speed,
                 };
                 let happening = Happening::speed(state, *node, before, *speed);
                 self.add(at, EventKind::Speed { node: *node, before }, happening);
@@ -138,7 +138,7 @@ pub(crate) fn waiting_messages(state: &RunState, now: Time) -> Option<usize> {
     if state.handling.is_zero() {
         return None;
     }
-    Some(state.waiting(now)).filter(|&waiting| waiting >= MIN_QUEUE_MESSAGES)
+    Some(state.line_length(now)).filter(|&waiting| waiting >= MIN_QUEUE_MESSAGES)
 }
 
 /// Whether `node` has just traced the last atom of its fixed band, while others still have atoms.

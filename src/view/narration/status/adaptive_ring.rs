@@ -86,7 +86,7 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
     if let Some(words) = deadlock_words(state, language) {
         return words;
     }
-    let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
+    let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
     let with_failed = |(_, node): &&Machine<'_>| node.condition != Condition::Well;
     let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
     if lost + kept > 0 && state.has(Remedy::Leases) {

@@ -44,7 +44,7 @@ pub(crate) fn incomplete_reason(state: &RunState, language: Language) -> Option<
 pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<String> {
     let failed = |(node, of): (NodeId, &NodeState)| (!of.spare && of.condition != Condition::Well).then_some(node);
     let failed: Vec<NodeId> = (0..).zip(state.nodes()).filter_map(failed).collect();
-    let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
+    let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
     let who = names(&failed, language);
     match *failed {
         [] if lost == 0 => None,

@@ -16,7 +16,8 @@ pub(crate) fn status_without_ring(state: &RunState, language: Language) -> Strin
     let with_atoms = (0..).zip(state.nodes()).filter(|(_, node)| node.left() > 0);
     let (busy, still): (Vec<Machine<'_>>, Vec<Machine<'_>>) = with_atoms.partition(|(_, node)| node.computes());
     let machines = state.nodes().len();
-    let asking: Vec<NodeId> = (0..).zip(state.nodes()).filter(|(_, node)| node.offer_out).map(|(id, _)| id).collect();
+    let asking: Vec<NodeId> =
+        (0..).zip(state.nodes()).filter(|(_, node)| node.awaits_answer).map(|(id, _)| id).collect();
     match (&*busy, &*still) {
         _ if state.is_estimating => Happening::Estimating.sentence(language),
         ([], []) if !asking.is_empty() => requests_wait(&asking, machines, language),

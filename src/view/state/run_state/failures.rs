@@ -1,4 +1,5 @@
-//! What is lost, and traced again: machines that fail, messages that never arrive, and what a ring that adapts says of both.
+//! Failures in the state of a run: conditions of machines, lost messages, lost atoms, and the adaptive ring's messages
+//! about them.
 
 use std::collections::BTreeSet;
 
@@ -10,21 +11,21 @@ use crate::view::state::atom_state::AtomState;
 use crate::view::state::flight::{Cargo, Flight};
 
 impl RunState {
-    /// Something has become of a machine; what one that is switched off had is lost.
-    pub(super) fn condition_set(&mut self, node: NodeId, condition: Condition, at: Time) {
+    /// Sets a machine's condition. A machine that is switched off loses its atoms.
+    pub(super) fn set_condition(&mut self, node: NodeId, condition: Condition, at: Time) {
         let Some(state) = self.node(node) else { return };
         state.set_condition(condition, at);
         state.spare &= condition == Condition::Off;
         if condition == Condition::Off {
-            state.holds(0, at);
+            state.set_left(0, at);
             (state.atom, state.band_at) = (None, None);
-            (state.retired, state.offer_out) = (false, false);
+            (state.retired, state.awaits_answer) = (false, false);
             self.lose_all(node);
         }
     }
 
-    /// A message would have arrived now.
-    pub(super) fn lost(&mut self, id: u64, at: Time) {
+    /// Notes that a message did not arrive, and loses the atoms in it.
+    pub(super) fn lose_message(&mut self, id: u64, at: Time) {
         let Some(flight) = self.pending.remove(&id) else { return };
         let is_off = |party: Party| match party {
             Party::Parent => false,
@@ -45,11 +46,11 @@ impl RunState {
         }
     }
 
-    /// What a party says in the ring that adapts of what it has, and of who is gone.
-    pub(super) fn said(&mut self, from: Party, message: &Message, at: Time) {
+    /// Takes over what a message of the adaptive ring says about a node's atoms, and about nodes that are gone.
+    pub(super) fn apply_status(&mut self, from: Party, message: &Message, at: Time) {
         match (from, message) {
             (Party::Parent, Message::Gone(gone)) => {
-                self.gone_before = std::mem::replace(&mut self.gone, gone.clone());
+                self.previous_gone = std::mem::replace(&mut self.gone, gone.clone());
             }
             (Party::Node(from), Message::Offer { who, done, .. }) if from == *who => {
                 if let Some(node) = self.node(from) {
@@ -57,44 +58,45 @@ impl RunState {
                 }
             }
             (Party::Node(from), Message::Beat { holds, idle, .. }) if *idle || !holds.is_empty() => {
-                let places = &self.places;
+                let places = &self.atoms;
                 let unsent = |atom: &Atom| places.get(*atom as usize).is_some_and(|at| at.owner() == Some(from));
                 let left = holds.iter().cloned().flatten().filter(|atom| !unsent(atom)).count() as u32;
                 if let Some(node) = self.node(from) {
-                    node.holds(if *idle { 0 } else { left }, at);
+                    node.set_left(if *idle { 0 } else { left }, at);
                 }
             }
             _ => {}
         }
     }
 
-    /// The parent has heard of a node.
-    pub(super) fn heard(&mut self, flight: &Flight, at: Time) {
+    /// Notes when the parent received a message of a node.
+    pub(super) fn note_heard(&mut self, flight: &Flight, at: Time) {
         if let (Party::Node(from), Party::Parent) = (flight.from, flight.to)
             && let Some(node) = self.node(from)
         {
-            node.heard = Some(at);
+            node.last_heard = Some(at);
         }
     }
 
-    /// How many of these atoms a node does not have yet.
-    pub(super) fn new_to(&self, node: NodeId, atoms: impl Iterator<Item = Atom>) -> u32 {
+    /// Counts the atoms that a node does not have yet.
+    pub(super) fn count_new(&self, node: NodeId, atoms: impl Iterator<Item = Atom>) -> u32 {
         let has = |place: &AtomState| matches!(place, AtomState::With { node: with, .. } if *with == node);
-        atoms.filter(|&atom| !self.places.get(atom as usize).is_some_and(has)).count() as u32
+        atoms.filter(|&atom| !self.atoms.get(atom as usize).is_some_and(has)).count() as u32
     }
 
-    /// The parent has placed an atom whose tracing by this node does not count yet, since another had it, or it was lost.
+    /// Counts an atom for a node when the parent has placed its result, although the atom was with another node, or
+    /// lost.
     pub(super) fn count_late(&mut self, atom: Atom, by: NodeId, at: Time) {
         let order = self.done();
         self.orders[atom as usize] = order;
-        self.places[atom as usize] = AtomState::traced(by, std::time::Duration::ZERO, at);
-        self.places[atom as usize].place();
+        self.atoms[atom as usize] = AtomState::traced(by, std::time::Duration::ZERO, at);
+        self.atoms[atom as usize].place();
         if let Some(node) = self.node(by) {
             node.done += 1;
         }
     }
 
-    /// What a machine had is lost with it, but for what has left it.
+    /// Loses all atoms of a machine, but those in its messages.
     fn lose_all(&mut self, node: NodeId) {
         let mut left: BTreeSet<Atom> = BTreeSet::new();
         for flight in self.pending.values().filter(|flight| flight.from == Party::Node(node)) {
@@ -105,18 +107,18 @@ impl RunState {
             place.holder() == Some(node) && !place.is_placed()
         });
         if let Some(state) = self.node(node) {
-            state.took = lost;
+            state.lost_atoms = lost;
         }
     }
 
-    /// Those of these atoms that stand so are lost. Returns how many.
-    fn lose(&mut self, atoms: impl Iterator<Item = Atom>, stands: impl Fn(&AtomState) -> bool) -> u32 {
+    /// Loses the atoms whose state fits. Returns their number.
+    fn lose(&mut self, atoms: impl Iterator<Item = Atom>, fits: impl Fn(&AtomState) -> bool) -> u32 {
         let mut lost = 0;
         for atom in atoms {
-            let Some(place) = self.places.get_mut(atom as usize).filter(|place| stands(place)) else { continue };
+            let Some(place) = self.atoms.get_mut(atom as usize).filter(|place| fits(place)) else { continue };
             let before = std::mem::replace(place, AtomState::Lost);
             if let AtomState::Traced { by, cost, .. } = before {
-                self.cost -= f64::from(cost);
+                self.total_cost -= f64::from(cost);
                 if let Some(owner) = self.nodes.get_mut(usize::from(by)) {
                     owner.done = owner.done.saturating_sub(1);
                 }
@@ -138,7 +140,7 @@ mod tests {
     use crate::sim::Sim;
     use crate::view::tests::sample_runs;
 
-    /// A run by this strategy in which this becomes of machine 2 of four at some second.
+    /// Runs four machines; machine 2 gets conditions at some seconds.
     fn run(strategy: Strategy, conditions: &[(f64, Condition)], spares: NodeId) -> (Header, Vec<Record>) {
         let mut header = sample_runs::header(&[1.0; 4], 900);
         header.rules.strategy = strategy;
@@ -152,20 +154,20 @@ mod tests {
     }
 
     #[test]
-    fn what_was_lost_with_a_machine_is_traced_again_and_counts_once() {
+    fn atoms_lost_with_a_machine_are_traced_again_and_count_once() {
         let (header, records) = run(Strategy::Adaptive, &[(1.0, Condition::Off), (1.8, Condition::Well)], 0);
         let mut state = RunState::new(&header);
         let mut were_lost = 0;
         for record in &records {
             state.apply(record);
             assert!(state.done() <= 900);
-            let traced = state.places().iter().filter(|place| place.owner().is_some()).count();
+            let traced = state.atom_states().iter().filter(|place| place.owner().is_some()).count();
             assert_eq!(traced as u32, state.done(), "{record:?}");
             if let RecordKind::Condition { condition: Condition::Off, .. } = record.what {
                 let node = &state.nodes()[1];
                 assert_eq!((node.left(), node.atom, node.retired), (0, None, false));
-                assert!(node.took > 50, "{}", node.took);
-                were_lost = state.places().iter().filter(|place| **place == AtomState::Lost).count();
+                assert!(node.lost_atoms > 50, "{}", node.lost_atoms);
+                were_lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count();
             }
         }
         assert!(were_lost > 50, "{were_lost}");
@@ -175,17 +177,17 @@ mod tests {
     }
 
     #[test]
-    fn without_a_remedy_what_was_lost_stays_lost() {
+    fn lost_atoms_stay_lost_without_a_remedy() {
         let (header, records) = run(Strategy::Ring, &[(1.0, Condition::Off)], 0);
         let mut state = RunState::new(&header);
         records.iter().for_each(|record| state.apply(record));
         assert!(state.finished().is_none());
-        let lost = state.places().iter().filter(|place| **place == AtomState::Lost).count() as u32;
+        let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
         assert!(lost > 50 && state.done() + lost <= 900, "{lost} {}", state.done());
     }
 
     #[test]
-    fn a_spare_is_an_empty_seat_until_it_joins() {
+    fn spare_is_spare_until_it_joins() {
         let (header, records) = run(Strategy::Adaptive, &[], 1);
         let mut state = RunState::new(&header);
         records.iter().take(200).for_each(|record| state.apply(record));

@@ -18,48 +18,51 @@ use crate::record::{Record, RecordKind};
 use crate::runlog::{Driver, Header};
 use crate::time::Time;
 
-/// What is known of a run after some of its records.
+/// State of a run after some of its records.
 ///
 /// Records of different parties may come interleaved: a message may be received here before it was sent.
 #[derive(Clone, Debug)]
 pub struct RunState {
     pub(crate) nodes: Vec<NodeState>,
     /// By atom.
-    places: Vec<AtomState>,
-    /// By atom: how many were traced before it.
+    atoms: Vec<AtomState>,
+    /// By atom: the number of atoms that were traced before it.
     orders: Vec<u32>,
-    /// Seconds of CPU time that all traced atoms took.
-    cost: f64,
+    /// Σ costs of the traced atoms, in seconds of CPU time.
+    total_cost: f64,
     pub(crate) flights: Flights,
+    /// Messages that are not received yet, by their numbers.
     pub(crate) pending: BTreeMap<u64, Flight>,
-    early: BTreeSet<u64>,
-    /// Atoms that the parent has placed before their tracing was told.
-    early_atoms: BTreeSet<Atom>,
+    /// Messages whose receipt was recorded before their sending.
+    received_early: BTreeSet<u64>,
+    /// Atoms that the parent placed before their tracing was recorded.
+    placed_early: BTreeSet<Atom>,
+    /// Atoms that look different since [`RunState::take_touched`].
     touched: Vec<Range<Atom>>,
     division: Division,
     pub(crate) sharing: Sharing,
-    /// What a ring does otherwise than the article's.
+    /// Differences from the article's ring.
     remedies: Remedies,
-    /// In virtual time the whole picture is traced before the run begins.
+    /// Whether the run is in virtual time, so that the whole picture is traced before the run begins.
     pub(crate) is_virtual: bool,
     latency: Duration,
-    /// How long the parent is busy with each message.
+    /// Time for which the parent is busy with each message.
     pub(crate) handling: Duration,
     arrived: Arrived,
-    /// What the parent of a farm has given to nodes that asked.
+    /// Parts that the parent of a farm has given to nodes that asked.
     pub(crate) handed_out: Parcels,
-    /// The parent samples the picture.
+    /// Whether the parent samples the picture.
     pub(crate) is_estimating: bool,
     head: Time,
     /// The time of the parent's latest record.
     pub(crate) parent_head: Time,
     pub(crate) finished: Option<Time>,
-    /// Whom the parent last said to be gone, and before that.
+    /// Nodes that the parent takes for gone, by its last message about them and by the one before.
     pub(crate) gone: Vec<NodeId>,
-    pub(crate) gone_before: Vec<NodeId>,
+    pub(crate) previous_gone: Vec<NodeId>,
 }
 
-/// What has arrived at the parent.
+/// Messages and pixels that the parent has received.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Arrived {
     /// Messages of every kind.
@@ -69,19 +72,19 @@ pub struct Arrived {
 }
 
 impl RunState {
-    /// The state before anything has happened.
+    /// Creates the state of a run that has not begun.
     pub fn new(header: &Header) -> Self {
         let remedies = header.remedies();
         let spares: Vec<_> = (0..header.speeds.len() as NodeId).filter(|&node| header.is_spare(node)).collect();
         Self {
             nodes: (0..).zip(&header.speeds).map(|(id, &speed)| NodeState::new(speed, header.is_spare(id))).collect(),
-            places: vec![AtomState::Nowhere; header.division.atoms() as usize],
+            atoms: vec![AtomState::Nowhere; header.division.atoms() as usize],
             orders: vec![0; header.division.atoms() as usize],
-            cost: 0.0,
+            total_cost: 0.0,
             flights: Flights::default(),
             pending: BTreeMap::new(),
-            early: BTreeSet::new(),
-            early_atoms: BTreeSet::new(),
+            received_early: BTreeSet::new(),
+            placed_early: BTreeSet::new(),
             touched: Vec::new(),
             division: header.division,
             sharing: Sharing::of(header),
@@ -96,11 +99,11 @@ impl RunState {
             parent_head: Time::ZERO,
             finished: None,
             gone: spares.clone(),
-            gone_before: spares,
+            previous_gone: spares,
         }
     }
 
-    /// Takes in what happened next. What does not belong to the header's nodes and atoms is left out.
+    /// Adds the next record. Nodes and atoms that the header does not have are ignored.
     pub fn apply(&mut self, record: &Record) {
         let at = record.at;
         self.head = self.head.max(at);
@@ -109,7 +112,7 @@ impl RunState {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
                 }
-                self.said(*from, message, at);
+                self.apply_status(*from, message, at);
                 self.sent(*id, Flight::new(*id, (*from, *to), message, at, *arrives));
             }
             RecordKind::Received { id, by } => {
@@ -118,12 +121,12 @@ impl RunState {
                 }
                 match self.pending.remove(id) {
                     Some(flight) => self.received(flight, at),
-                    None => _ = self.early.insert(*id),
+                    None => _ = self.received_early.insert(*id),
                 }
             }
             RecordKind::AtomStarted { node, atom } => {
                 if let Some(state) = self.node(*node) {
-                    // Whoever slept has been given something.
+                    // A node that slept has got atoms.
                     (state.atom, state.retired) = (Some(*atom), false);
                     self.touched.push(*atom..*atom + 1);
                 }
@@ -135,11 +138,11 @@ impl RunState {
             RecordKind::LatencySet { latency } => self.latency = *latency,
             RecordKind::Retired { node } => {
                 if let Some(state) = self.node(*node) {
-                    (state.retired, state.offer_out) = (true, false);
+                    (state.retired, state.awaits_answer) = (true, false);
                 }
             }
-            RecordKind::Condition { node, condition } => self.condition_set(*node, *condition, at),
-            RecordKind::Lost { id } => self.lost(*id, at),
+            RecordKind::Condition { node, condition } => self.set_condition(*node, *condition, at),
+            RecordKind::Lost { id } => self.lose_message(*id, at),
             RecordKind::AtomFailed { node, .. } => _ = self.node(*node).map(NodeState::atom_failed),
             RecordKind::Delayed { from, to, until } => self.delayed((*from, *to), at, *until),
             RecordKind::Link { .. } | RecordKind::GivenUp { .. } => {}
@@ -149,93 +152,93 @@ impl RunState {
         }
     }
 
-    /// All nodes, in the order of the ring.
+    /// Nodes in the order of the ring.
     pub fn nodes(&self) -> &[NodeState] {
         &self.nodes
     }
 
-    /// Where each atom stands.
-    pub fn places(&self) -> &[AtomState] {
-        &self.places
+    /// State of each atom.
+    pub fn atom_states(&self) -> &[AtomState] {
+        &self.atoms
     }
 
-    /// The messages that can still be seen, and a few that are gone, in the order in which they left; of results, which
-    /// are many, only some.
+    /// Messages that are still drawn, and a few that are not any more, in the order in which they were sent. Of
+    /// results, which are many, only some.
     pub fn flights(&self) -> &[Flight] {
         &self.flights
     }
 
-    /// A message that has not been handled yet, or can still be seen, by its name in the run.
+    /// The message with this number, if it is not handled yet or still drawn.
     pub fn flight(&self, id: u64) -> Option<&Flight> {
         self.pending.get(&id).or_else(|| self.flights.iter().rfind(|flight| flight.id == id))
     }
 
-    /// How many atoms have been traced.
+    /// Number of traced atoms.
     pub fn done(&self) -> u32 {
         self.nodes.iter().map(|node| node.done).sum()
     }
 
-    /// How many atoms were traced before a traced one.
+    /// Number of atoms that were traced before a traced atom.
     pub fn order(&self, atom: Atom) -> u32 {
         self.orders.get(atom as usize).copied().unwrap_or_default()
     }
 
-    /// What an atom has cost on the average, in seconds of CPU time; 0 if none is traced.
+    /// Mean cost of the traced atoms, in seconds of CPU time; 0 if none is traced.
     pub fn mean_cost(&self) -> f64 {
-        self.cost / f64::from(self.done().max(1))
+        self.total_cost / f64::from(self.done().max(1))
     }
 
-    /// How many atoms there are.
+    /// Number of atoms of the picture.
     pub fn atoms(&self) -> u32 {
-        self.places.len() as u32
+        self.atoms.len() as u32
     }
 
-    /// How the picture is cut into atoms.
+    /// Division of the picture into atoms.
     pub fn division(&self) -> Division {
         self.division
     }
 
-    /// How the atoms are shared.
+    /// Scheduler of the run.
     pub fn sharing(&self) -> Sharing {
         self.sharing
     }
 
-    /// Whether it is a ring that does this otherwise than the article's.
+    /// Whether the run is an adaptive ring with this remedy.
     pub fn has(&self, remedy: Remedy) -> bool {
         self.remedies.has(remedy)
     }
 
-    /// How long a message travels that leaves now, apart from what its weight takes.
+    /// Latency of the links at present.
     pub fn latency(&self) -> Duration {
         self.latency
     }
 
-    /// What has arrived at the parent.
+    /// Messages and pixels that the parent has received.
     pub fn arrived(&self) -> Arrived {
         self.arrived
     }
 
-    /// The time of the latest record.
+    /// Time of the latest record.
     pub fn head(&self) -> Time {
         self.head
     }
 
-    /// When the picture was complete.
+    /// Time at which the picture was complete.
     pub fn finished(&self) -> Option<Time> {
         self.finished
     }
 
-    /// The atoms that look different since this was last asked.
+    /// Takes the atoms that look different since the last call.
     pub fn take_touched(&mut self) -> Vec<Range<Atom>> {
         std::mem::take(&mut self.touched)
     }
 
-    /// So many of the run's seconds go by in a second of whoever looks on: the slower, the less are flights stretched.
+    /// Sets the playback rate, in run seconds per wall second: it decides how long messages are drawn.
     pub fn set_rate(&mut self, rate: f64) {
         self.flights.set_rate(rate);
     }
 
-    /// How many of the run's seconds go by in a second of whoever looks on, at most one.
+    /// Playback rate: run seconds per wall second, at most 1.
     pub(crate) fn rate(&self) -> f64 {
         self.flights.rate()
     }
@@ -244,26 +247,26 @@ impl RunState {
         self.nodes.get_mut(usize::from(node))
     }
 
+    /// Notes a traced atom.
     fn atom_done(&mut self, node: NodeId, atom: Atom, cost: Duration, at: Time) {
         let order = self.done();
-        if let (Some(state), Some(place)) = (self.nodes.get_mut(usize::from(node)), self.places.get_mut(atom as usize))
-        {
-            // Of an atom that is traced twice the first result counts.
+        if let (Some(state), Some(place)) = (self.nodes.get_mut(usize::from(node)), self.atoms.get_mut(atom as usize)) {
+            // If an atom is traced twice, the first result counts.
             let counts = place.owner().is_none();
-            // The parent may have told of it before its worker.
+            // The parent's record may have come first, without the cost.
             if let AtomState::Traced { by, cost: known, .. } = place
                 && *by == node
                 && *known == 0.0
             {
                 *known = cost.as_secs_f32();
-                self.cost += cost.as_secs_f64();
+                self.total_cost += cost.as_secs_f64();
             }
             if counts {
                 self.orders[atom as usize] = order;
-                self.cost += cost.as_secs_f64();
+                self.total_cost += cost.as_secs_f64();
                 *place = AtomState::traced(node, cost, at);
             }
-            if self.early_atoms.remove(&atom) {
+            if self.placed_early.remove(&atom) {
                 place.place();
             }
             state.atom_done(counts, at);
@@ -290,7 +293,7 @@ mod tests {
             .sum()
     }
 
-    /// Who wrote a record down.
+    /// Returns the party that wrote a record.
     fn party(record: &Record) -> Party {
         match &record.what {
             RecordKind::Sent { from, .. } => *from,
@@ -314,7 +317,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_atom_is_lost_or_doubled(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..80u32) {
+        fn no_atom_is_lost_or_traced_twice(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..80u32) {
             let header = sample_runs::header(&speeds, atoms);
             let mut state = RunState::new(&header);
             for record in sample_runs::records(&header) {
@@ -326,31 +329,31 @@ mod tests {
                 }
             }
             prop_assert!(state.finished().is_some());
-            prop_assert!(state.places().iter().all(|place| place.owner().is_some()));
+            prop_assert!(state.atom_states().iter().all(|place| place.owner().is_some()));
             prop_assert!(state.nodes.iter().all(|node| node.left() == 0));
             prop_assert_eq!(state.arrived().pixels, header.size.pixels());
             let given: u32 = state.nodes.iter().map(|node| node.given.atoms).sum();
             prop_assert_eq!(given, state.nodes.iter().map(|node| node.got.atoms).sum::<u32>());
             for (node, band) in state.nodes.iter().zip(header.division.bands(speeds.len())) {
                 prop_assert_eq!(node.done, band.len() as u32 + node.got.atoms - node.given.atoms);
-                // Each offer but the last is taken.
+                // Each offer but the last one was answered with atoms.
                 prop_assert_eq!(node.offers, node.got.count + 1);
             }
         }
 
         #[test]
-        fn interleaving_changes_nothing(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..60u32, batch in 2..40usize) {
+        fn interleaving_of_parties_does_not_matter(speeds in prop::collection::vec(0.05..1.0f64, 1..6), atoms in 1..60u32, batch in 2..40usize) {
             let header = sample_runs::header(&speeds, atoms);
             let records = sample_runs::records(&header);
             let (mut straight, mut mixed) = (RunState::new(&header), RunState::new(&header));
             records.iter().for_each(|record| straight.apply(record));
             for batch in records.chunks(batch) {
                 let mut batch = batch.to_vec();
-                // Each party's records stay in order, but whole parties come one after the other.
+                // Records of one party stay in order.
                 batch.sort_by_key(party);
                 batch.iter().for_each(|record| mixed.apply(record));
             }
-            prop_assert_eq!(straight.places(), mixed.places());
+            prop_assert_eq!(straight.atom_states(), mixed.atom_states());
             prop_assert_eq!(straight.arrived(), mixed.arrived());
             for (one, other) in straight.nodes.iter().zip(&mixed.nodes) {
                 prop_assert_eq!((one.done, one.left, one.retired), (other.done, other.left, other.retired));
@@ -360,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn pauses_and_latencies_are_kept() {
+    fn pause_and_latency_are_kept() {
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.5], 2));
         let mut apply = |what| {
             state.apply(&Record { at: Time::ZERO, what });
@@ -373,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn strangers_are_left_out() {
+    fn unknown_nodes_and_atoms_are_ignored() {
         let mut state = RunState::new(&sample_runs::header(&[1.0], 2));
         let offer = Message::offer(9, 0);
         let (from, to, at) = (Party::Node(9), Party::Node(8), Time::ZERO);
