@@ -97,11 +97,11 @@ fn go_through(log: &RunLog, language: Language) {
         }
     }
     for mark in landmarks(log, language) {
-        let dossier = Details::of(mark.subject, log, &known.lanes, &mut past, language);
+        let details = Details::of(mark.subject, log, &known.lanes, &mut past, language);
         said += &format!(
             "{:?}{:?}",
-            dossier.words(&moment.state, mark.at, 0.1, language),
-            dossier.highlight(&moment.state)
+            details.words(&moment.state, mark.at, 0.1, language),
+            details.highlight(&moment.state)
         );
     }
     let end = log.records().last().map_or(Time::ZERO, |last| last.at);
