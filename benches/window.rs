@@ -54,7 +54,7 @@ fn frames_of_all() {
     running("32 nodes at full speed, timeline", &many, true);
     let log = long_log();
     let mut window = harness(SETTINGS, Opening::Run(log));
-    while window.state().session().loading().is_some() || !window.state().session().stage().performer.has_ended() {
+    while window.state().session().loading().is_some() || !window.state().session().stage().source.has_ended() {
         sleep(Duration::from_millis(20));
         window.step();
     }

@@ -37,11 +37,6 @@ pub use settings::speed_preset::SpeedPreset;
 /// Smallest size of the window in which the layout works, in points.
 const MIN_WINDOW_SIZE_PT: [f32; 2] = [800.0, 500.0];
 
-/// Decodes the window's icon; an icon without pixels, which windowing systems ignore, if it is not PNG.
-fn icon() -> egui::IconData {
-    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
-}
-
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
@@ -50,9 +45,9 @@ pub fn open(launch: Launch) -> Result<(), String> {
     let viewport = egui::ViewportBuilder::default()
         .with_title("anel")
         .with_app_id("anel")
-        .with_icon(icon())
         .with_inner_size([1280.0, 800.0])
-        .with_min_inner_size(MIN_WINDOW_SIZE_PT);
+        .with_min_inner_size(MIN_WINDOW_SIZE_PT)
+        .with_icon(icon());
     let window_builder: Option<eframe::WindowBuilderHook> = Some(Box::new(with_min_size));
     let options = eframe::NativeOptions { viewport, renderer: RENDERER, window_builder, ..Default::default() };
     // The windowing crates panic if a library is missing. That is no bug of this program, so it becomes an error of one
@@ -97,6 +92,11 @@ fn with_min_size(viewport: egui::ViewportBuilder) -> egui::ViewportBuilder {
     }
 }
 
+/// Decodes the window's icon; an icon without pixels, which windowing systems ignore, if it is not PNG.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
+}
+
 /// Shortens eframe's error to a few words.
 fn reason(error: &eframe::Error) -> String {
     let message = error.to_string();
@@ -122,6 +122,11 @@ const RENDERER: eframe::Renderer = eframe::Renderer::Wgpu;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn window_has_icon() {
+        assert_eq!((icon().width, icon().height), (256, 256));
+    }
 
     #[test]
     fn remembered_size_below_minimum_is_raised() {

@@ -157,7 +157,7 @@ fn recorded_run_is_replayed_and_made_live() {
     let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
     assert!(session(&window).is_recorded() && !session(&window).stage().shows_end());
     until(&mut window, "the end", |window| {
-        session(window).stage().shows_end() && session(window).stage().performer.has_ended()
+        session(window).stage().shows_end() && session(window).stage().source.has_ended()
     });
     let stage = session(&window).stage();
     assert_eq!(stage.log, live);

@@ -35,8 +35,8 @@ fn question_of_a_step_is_answered_before_the_run_goes_on() {
     // Nothing moves before the question is answered, by no means of control.
     let before = done(&window);
     let stage = session(&window).stage();
-    assert!(stage.told_length() >= stage.lasted(), "the past is shown");
-    assert!(2 * stage.told_length().0 < stage.length().0, "the end stays hidden");
+    assert!(stage.shown_length() >= stage.lasted(), "the past is shown");
+    assert!(2 * stage.shown_length().0 < stage.length().0, "the end stays hidden");
     window.run_steps(20);
     key(&mut window, Key::PageDown);
     assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));

@@ -164,6 +164,7 @@ impl App {
         self.selection.selected
     }
 
+    /// Opens the first file that was dropped on the window.
     fn take_dropped(&mut self, ctx: &Context) {
         let language = self.session.language();
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
@@ -181,6 +182,7 @@ impl App {
         }
     }
 
+    /// Shows the bars and, below them, the open page or the panels of the run.
     fn panels(&mut self, ui: &mut Ui) {
         let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
@@ -299,7 +301,7 @@ impl App {
             // Details change until the subject's atom is traced or its message has arrived.
             let is_final = |details: &Details| Some(details.subject) == subject && details.is_complete();
             if !details.as_ref().is_some_and(is_final) {
-                *details = subject.map(|subject| stage.dossier(subject, language));
+                *details = subject.map(|subject| stage.details(subject, language));
             }
         }
         let details = self.hovered.as_ref().or(self.selected.as_ref());

@@ -254,7 +254,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("+  −"),
-        effect: ("Make the selected machine faster or slower", "Tornar a máquina selecionada mais rápida ou lenta"),
+        effect: ("Make the selected machine faster or slower", "Máquina selecionada mais rápida ou mais lenta"),
         keys: &[
             (NONE, Key::Plus, UserCommand::Faster),
             (NONE, Key::Equals, UserCommand::Faster),
@@ -268,7 +268,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("X  H  U"),
-        effect: ("Switch it off, hang it, cut it off; or undo", "Desligar, travar ou isolar a máquina; ou desfazer"),
+        effect: ("Switch it off, hang it, cut it off; or undo", "Desligar, travar, isolar a máquina; desfazer"),
         keys: &[
             (NONE, Key::X, UserCommand::ToggleCondition(Condition::Off)),
             (NONE, Key::H, UserCommand::ToggleCondition(Condition::Hung)),
@@ -333,7 +333,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("F11"),
-        effect: ("Large and plain, for a projector", "Grande e simples, para o projetor"),
+        effect: ("For a projector: large; Page ↓ ↑: on, back", "Para o projetor: grande; Page ↓ ↑ avançam"),
         keys: &[(NONE, Key::F11, UserCommand::Projector)],
     },
     KeyRow {

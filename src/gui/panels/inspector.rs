@@ -97,6 +97,7 @@ fn heading(
     action
 }
 
+/// Shows the sentences, the tree of rays and the chosen ray.
 fn body(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) -> Option<InspectorAction> {
     let look = inks.look;
     ui.spacing_mut().item_spacing.y = GRID / 2.0;

@@ -236,6 +236,7 @@ impl PicturePanel {
         }
     }
 
+    /// Shows the camera button, the blend slider and the name of the layer.
     fn blend_slider(&mut self, ui: &mut Ui, row: Rect, look: Look, language: Language) {
         let (middle, font) = (row.center().y + GRID / 2.0, theme::regular(theme::SMALL));
         // A small picture has room for only one of both texts.

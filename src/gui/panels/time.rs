@@ -152,8 +152,8 @@ impl TimePanel {
             let key = (session.stage().lanes().version(), language);
             if !was_open || self.landmarks_key != key {
                 (self.landmarks, self.landmarks_key) = (landmarks(&session.stage().log, language), key);
-                let shown_length = session.stage().told_length();
-                self.landmarks.retain(|mark| mark.at <= shown_length);
+                let length = session.stage().shown_length();
+                self.landmarks.retain(|mark| mark.at <= length);
             }
             ui.set_width(54.0 * GRID);
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
@@ -235,7 +235,7 @@ fn arrow_keys(ui: &Ui, response: &Response, step: StepUnit) -> Option<UserComman
 /// Shows the line to drag along, with its markers.
 fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Look) {
     let language = session.language();
-    let length = session.stage().told_length();
+    let length = session.stage().shown_length();
     let rail =
         Rect::from_x_y_ranges(rect.left() + GRID..=rect.right() - GRID, rect.center().y - 2.0..=rect.center().y + 2.0);
     let time_at = |at: Pos2| {
@@ -243,10 +243,10 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
         Time((f64::from(share) * length.0 as f64) as u64)
     };
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
-        let stands = session.stage().time.is_paused() || response.dragged();
+        let paused = session.stage().time.is_paused() || response.dragged();
         let is_end = at.x >= rail.right() && !session.stage().hides_later;
         let at = if is_end { Time(u64::MAX) } else { time_at(at) };
-        session.drag_to(at, stands);
+        session.drag_to(at, paused);
     }
     if response.drag_stopped() {
         session.let_time_go();
@@ -271,7 +271,7 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     painter.rect_filled(rail.with_max_x(x(now)), 2.0, look.accent.gamma_multiply(0.8));
     let mut last_retired = f32::NEG_INFINITY;
     let shown = |marker: &&Marker| !stage.hides_later || marker.at <= now;
-    for marker in stage.signs().all().iter().filter(shown) {
+    for marker in stage.markers().all().iter().filter(shown) {
         // Many machines retire at about the same time: overlapping markers are left out.
         if matches!(marker.kind, MarkerKind::Retired(_)) {
             if x(marker.at) < last_retired + 7.0 {
@@ -293,7 +293,7 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
         let mut lines = vec![time_words(pointed, grain * 0.1, language)];
         lines.extend(
             stage
-                .signs()
+                .markers()
                 .near(pointed, reach)
                 .into_iter()
                 .filter(shown)

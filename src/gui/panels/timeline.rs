@@ -77,10 +77,10 @@ impl TimelinePanel {
         let lanes = area.with_min_x(area.left() + left);
         let layout = TimelineLayout::new(nodes, lanes.width(), lanes.height());
         let response = ui.allocate_rect(lanes, Sense::click_and_drag());
-        self.window.fit(session.stage().told_length());
+        self.window.fit(session.stage().shown_length());
         self.follow(session.stage());
         self.zoom_and_pan(ui, &response, lanes);
-        self.window.fit(session.stage().told_length());
+        self.window.fit(session.stage().shown_length());
         self.handle_pointer(&response, lanes, &layout, session, selection);
         let stage = session.stage();
         describe(&response, stage, language);
@@ -189,7 +189,7 @@ impl TimelinePanel {
         look: Look,
     ) {
         let inks = Inks { look, nodes: &stage.colours };
-        let length = stage.told_length();
+        let length = stage.shown_length();
         let key = DrawingKey { version: stage.lanes().version(), window: self.window, layout: *layout, length };
         if self.cache.as_ref().is_none_or(|(cached, _)| *cached != key) {
             self.cache = Some((key, timeline(stage.lanes(), &self.window, layout, length)));
@@ -331,7 +331,7 @@ fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
 fn describe(response: &Response, stage: &Stage, language: Language) {
     widgets::describe(response, word!(language, "Timeline", "Linha do tempo"), || {
         let [until, length] =
-            [stage.lasted(), stage.told_length()].map(|time| time_words(time, stage.grain(), language));
+            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.grain(), language));
         let is_over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if is_over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
         let usage = usage_figures(stage, language).join(" · ");

@@ -81,7 +81,7 @@ impl Session {
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         // The picture of a recorded run may still be being traced.
-        let has_picture = !self.is_recorded() || self.stage.performer.has_ended();
+        let has_picture = !self.is_recorded() || self.stage.source.has_ended();
         let source = ExportSource { log: self.stage.log.clone(), frame: has_picture.then(|| self.stage.frame.clone()) };
         let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
         let cancel = owner.token();

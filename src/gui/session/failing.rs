@@ -32,7 +32,7 @@ impl Session {
     pub fn set_condition(&mut self, node: NodeId, condition: Condition) {
         if self.can_fail() {
             self.return_to_present();
-            self.stage.performer.command(Command::Condition { node, condition });
+            self.stage.source.command(Command::Condition { node, condition });
         }
     }
 
@@ -40,7 +40,7 @@ impl Session {
     pub fn delay(&mut self, (from, to): (Party, Party), by: Duration) {
         if self.can_fail() {
             self.return_to_present();
-            self.stage.performer.command(Command::Delay { from, to, by });
+            self.stage.source.command(Command::Delay { from, to, by });
         }
     }
 

@@ -7,7 +7,7 @@ use super::super::settings::Settings;
 use super::Notice;
 use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
-use super::performer::RunSource;
+use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
 use crate::driver::Retrace;
@@ -118,7 +118,7 @@ impl Session {
     /// Writes the run's records to the file of `--log`, if given, before the window closes. Reports a failure on
     /// standard error, since the window is gone.
     pub fn save_log_on_exit(&self) {
-        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer)
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source)
             && let Err(error) = self.stage.log.save(path)
         {
             eprintln!("anel: {error}");
@@ -144,17 +144,19 @@ impl Session {
     /// Writes the records in the background to the file of `--log`, if given.
     pub(super) fn write_log(&self) {
         let language = self.language;
-        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.performer) {
+        if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source) {
             self.jobs.save_run(path.clone(), self.stage.log.clone(), language);
         }
     }
 
+    /// Starts the job that reads and compiles with `read`.
     fn load(&mut self, name: String, read: impl FnOnce() -> Result<Opening, String> + Send + 'static) {
         let language = self.language;
         let job = self.jobs.prepare(read, &self.settings, language);
         self.loading = Some(Loading { job, name, started: self.clock });
     }
 
+    /// Starts a run of a compiled scene.
     pub(super) fn show_scene(&mut self, prepared: Prepared) {
         let language = self.language;
         let path = prepared.opened.path.clone();
@@ -170,6 +172,7 @@ impl Session {
         self.restart();
     }
 
+    /// Shows the error of a file that could not be opened. At the start of the program a built-in scene opens instead.
     pub(super) fn report_unopened(&mut self, why: String) {
         let language = self.language;
         self.camera_move = None;
@@ -179,6 +182,7 @@ impl Session {
         self.trouble(say!(language, "Not opened. {why}", "Não aberto. {why}"));
     }
 
+    /// Shows the notice that the open file has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
         let language = self.language;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

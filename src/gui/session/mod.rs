@@ -12,9 +12,9 @@ mod measuring;
 mod moving;
 mod notice;
 pub mod opening;
-mod performer;
 mod preparing;
 mod preview;
+mod run_source;
 mod stage;
 mod teaching;
 mod timing;
@@ -47,7 +47,7 @@ pub use job_result::{
 use jobs::Jobs;
 use moving::CameraMove;
 pub use notice::{Notice, NoticeKind};
-use performer::RunSource;
+use run_source::RunSource;
 pub use stage::{Phase, Stage};
 pub use teaching::PreparingLesson;
 
@@ -102,7 +102,7 @@ impl Session {
     pub fn new(settings: Settings, log_path: Option<PathBuf>, ctx: &egui::Context, ground: Rgb) -> Self {
         let header = settings.header("", "", Duration::ZERO, cores());
         Self {
-            stage: Stage::new(RunSource::Nobody, header, ground),
+            stage: Stage::new(RunSource::None, header, ground),
             settings,
             history: UndoHistory::default(),
             prepared: None,
@@ -157,7 +157,7 @@ impl Session {
         if self.stage.tick(clock) {
             self.write_log();
         }
-        self.ending.retain(|performer| !performer.has_ended());
+        self.ending.retain(|source| !source.has_ended());
         if self.notice.as_ref().and_then(|notice| notice.remains(clock)) == Some(0.0) {
             self.notice = None;
         }
@@ -247,7 +247,7 @@ impl Session {
             && self.stage.phase == Phase::Running
         {
             *paused = !*paused;
-            self.stage.performer.command(Command::Pause { node, paused: *paused });
+            self.stage.source.command(Command::Pause { node, paused: *paused });
         }
     }
 
@@ -377,14 +377,15 @@ impl Session {
         }
         let speeds = self.settings.all_speeds().zip(before.all_speeds());
         for (node, (speed, _)) in (0..).zip(speeds).filter(|(_, (speed, before))| speed != before) {
-            self.stage.performer.command(Command::Speed { node, speed });
+            self.stage.source.command(Command::Speed { node, speed });
         }
         if self.settings.latency != before.latency {
-            self.stage.performer.command(Command::Latency(self.settings.latency_time()));
+            self.stage.source.command(Command::Latency(self.settings.latency_time()));
         }
         before
     }
 
+    /// Starts a live run of a compiled scene.
     fn begin(&mut self, prepared: Prepared) {
         if self.stage.phase == Phase::Running {
             self.write_log();
@@ -396,6 +397,7 @@ impl Session {
         self.set_stage(Stage::new(RunSource::Live(run), header, self.ground), prepared.preview.clone());
     }
 
+    /// Replaces the run on the stage.
     fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
         self.stop_run();
         self.runs_begun += 1;
@@ -407,7 +409,7 @@ impl Session {
 
     /// Stops the run on the stage without waiting for its threads.
     fn stop_run(&mut self) {
-        let last = std::mem::replace(&mut self.stage.performer, RunSource::Nobody);
+        let last = std::mem::replace(&mut self.stage.source, RunSource::None);
         last.stop();
         if !last.has_ended() {
             self.ending.push(last);

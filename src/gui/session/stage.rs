@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::performer::RunSource;
+use super::run_source::RunSource;
 use crate::driver::Update;
 use crate::language::Language;
 use crate::palette::{Rgb, node_colours};
@@ -19,7 +19,7 @@ use crate::view::{
 /// A run with its records, its picture and the shown time.
 pub struct Stage {
     /// Source of records and pixels.
-    pub performer: RunSource,
+    pub source: RunSource,
     /// Whether it runs.
     pub phase: Phase,
     /// Whether the user has paused its clock.
@@ -36,12 +36,12 @@ pub struct Stage {
     pub frame: Frame,
     /// The nodes' colours.
     pub colours: Vec<Rgb>,
-    known: RunView,
+    view: RunView,
     /// Snapshot of the shown moment, unless that is the latest.
     earlier: Option<Snapshot>,
     /// Number of records before the shown moment after a step; several records can have the same time.
     stepped_to: Option<usize>,
-    past: SnapshotCache,
+    snapshots: SnapshotCache,
     canvas: Canvas,
     result: Option<Summary>,
     /// egui's clock at the last tick, in seconds.
@@ -69,19 +69,19 @@ const LONGEST_FRAME: Duration = Duration::from_millis(100);
 
 impl Stage {
     /// Creates the stage of a live run.
-    pub fn new(performer: RunSource, header: Header, ground: Rgb) -> Self {
+    pub fn new(source: RunSource, header: Header, ground: Rgb) -> Self {
         let colours = node_colours(header.speeds.len());
         Self {
-            phase: if matches!(performer, RunSource::Nobody) { Phase::Preparing } else { Phase::Running },
-            performer,
+            phase: if matches!(source, RunSource::None) { Phase::Preparing } else { Phase::Running },
+            source,
             paused: false,
             paused_nodes: vec![false; colours.len()],
             time: Playback::live(),
             hides_later: false,
-            known: RunView::new(&header),
+            view: RunView::new(&header),
             earlier: None,
             stepped_to: None,
-            past: SnapshotCache::default(),
+            snapshots: SnapshotCache::default(),
             frame: Frame::new(header.size),
             canvas: Canvas::new(header.size, header.division, colours.clone(), ground),
             result: None,
@@ -91,22 +91,22 @@ impl Stage {
         }
     }
 
-    /// Creates the stage of a recorded run at its beginning; `known` is the view of the complete run.
-    pub fn recorded(performer: RunSource, log: RunLog, known: RunView, ground: Rgb) -> Self {
+    /// Creates the stage of a recorded run at its beginning; `view` is that of the complete run.
+    pub fn recorded(source: RunSource, log: RunLog, view: RunView, ground: Rgb) -> Self {
         let result = Summary::of(&log);
         let mut time = Playback::from_start();
         // A short run is shown slower, or it would end at once.
-        let length = known.latest.state.head().secs();
+        let length = view.latest.state.head().secs();
         time.set_rate(RATES.iter().rposition(|&rate| rate <= 1.0 && length >= 6.0 * rate).unwrap_or_default());
-        let plain = Self::new(performer, log.header.clone(), ground);
-        let mut stage = Self { phase: Phase::Finished, log, known, time, result, ..plain };
+        let plain = Self::new(source, log.header.clone(), ground);
+        let mut stage = Self { phase: Phase::Finished, log, view, time, result, ..plain };
         stage.show_now();
         stage
     }
 
     /// Shows the coarse preview where nothing is traced yet.
     pub fn show_preview(&mut self, preview: Arc<[Rgb]>) {
-        self.canvas.preview(preview, &shown(&self.earlier, &self.known).state);
+        self.canvas.preview(preview, &shown(&self.earlier, &self.view).state);
     }
 
     /// Applies the updates since the last call and advances the shown time; `clock` is egui's, in seconds. Returns
@@ -115,16 +115,16 @@ impl Stage {
         let passed = Duration::try_from_secs_f64(clock - self.ticked.unwrap_or(clock)).unwrap_or_default();
         self.ticked = Some(clock);
         // The log sorts its end once for all parties' records.
-        let (mut told, mut ends) = (Vec::new(), false);
-        while let Some(update) = self.performer.updates().and_then(|updates| updates.try_recv().ok()) {
+        let (mut new_records, mut ends) = (Vec::new(), false);
+        while let Some(update) = self.source.updates().and_then(|updates| updates.try_recv().ok()) {
             match update {
                 Update::Records(records) => {
-                    records.iter().for_each(|record| self.known.apply(record));
-                    told.extend(records);
+                    records.iter().for_each(|record| self.view.apply(record));
+                    new_records.extend(records);
                 }
                 Update::Placed { atoms, pixels } => {
                     let division = self.log.header.division;
-                    let state = &shown(&self.earlier, &self.known).state;
+                    let state = &shown(&self.earlier, &self.view).state;
                     for (range, (place, colours)) in atoms.iter().zip(division.placed(&atoms, &pixels)) {
                         self.frame.place(place, colours);
                         self.canvas.take(range.clone(), colours);
@@ -139,7 +139,7 @@ impl Stage {
                 Update::Failed(error) => self.phase = Phase::Failed(error.to_string()),
             }
         }
-        self.sort_in(told);
+        self.sort_in(new_records);
         if ends {
             self.result = Summary::of(&self.log);
         }
@@ -164,18 +164,18 @@ impl Stage {
     }
 
     /// Returns the markers on the time line.
-    pub fn signs(&self) -> &Markers {
-        &self.known.markers
+    pub fn markers(&self) -> &Markers {
+        &self.view.markers
     }
 
     /// Returns the lanes of the whole run so far.
     pub fn lanes(&self) -> &Lanes {
-        &self.known.lanes
+        &self.view.lanes
     }
 
     /// Returns the details of a subject, independent of the shown time.
-    pub fn dossier(&mut self, about: Subject, language: Language) -> Details {
-        Details::of(about, &self.log, &self.known.lanes, &mut self.past, language)
+    pub fn details(&mut self, subject: Subject, language: Language) -> Details {
+        Details::of(subject, &self.log, &self.view.lanes, &mut self.snapshots, language)
     }
 
     /// Returns the number of records before the shown moment.
@@ -190,7 +190,7 @@ impl Stage {
 
     /// Returns the latest state of the run, independent of the shown time.
     pub fn latest(&self) -> &RunState {
-        &self.known.latest.state
+        &self.view.latest.state
     }
 
     /// Whether the latest state is shown.
@@ -205,7 +205,7 @@ impl Stage {
 
     /// Returns the canvas of the picture, drawn with this layer and its share (0 to 1).
     pub fn canvas(&mut self, look: (Layer, f32), ground: Rgb) -> &mut Canvas {
-        self.canvas.set_look(look, ground, &shown(&self.earlier, &self.known).state);
+        self.canvas.set_look(look, ground, &shown(&self.earlier, &self.view).state);
         &mut self.canvas
     }
 
@@ -217,8 +217,8 @@ impl Stage {
     /// Returns the length of the run so far.
     pub fn length(&self) -> Time {
         let is_over = matches!(self.phase, Phase::Finished | Phase::Failed(_));
-        let end = is_over.then(|| self.known.latest.state.head());
-        self.known.latest.state.finished().or(end).unwrap_or_else(|| self.clock())
+        let end = is_over.then(|| self.view.latest.state.head());
+        self.view.latest.state.finished().or(end).unwrap_or_else(|| self.clock())
     }
 
     /// Returns the precision of times in texts, as a playback rate: the shorter the run and the slower its playback,
@@ -248,13 +248,13 @@ impl Stage {
         self.time.is_live()
     }
 
-    /// Shows the run at `time`; `stands` stops the shown time there.
-    pub fn seek(&mut self, time: Time, stands: bool) {
+    /// Shows the run at `time`; `paused` stops the shown time there.
+    pub fn seek(&mut self, time: Time, paused: bool) {
         self.stepped_to = None;
         if time >= self.clock() && self.phase == Phase::Running {
             self.time.follow();
         } else {
-            self.time.seek(time.min(self.clock()), stands);
+            self.time.seek(time.min(self.clock()), paused);
         }
         self.show_now();
     }
@@ -271,7 +271,7 @@ impl Stage {
         let at =
             records.checked_sub(1).and_then(|last| self.log.records().get(last)).map_or(Time::ZERO, |last| last.at);
         // At the end the last messages have to arrive on the screen.
-        let is_end = records >= self.log.records().len() && self.known.latest.state.finished().is_some();
+        let is_end = records >= self.log.records().len() && self.view.latest.state.finished().is_some();
         self.time.seek(if is_end { self.clock() } else { at }, true);
         self.stepped_to = Some(records);
         self.show_now();
@@ -295,35 +295,36 @@ impl Stage {
     /// Sets the playback rate to this entry of [`RATES`](crate::view::RATES).
     pub fn set_rate(&mut self, index: usize) {
         self.time.set_rate(index);
-        self.performer.set_rate(self.time.rate());
+        self.source.set_rate(self.time.rate());
     }
 
     fn shown(&self) -> &Snapshot {
-        shown(&self.earlier, &self.known)
+        shown(&self.earlier, &self.view)
     }
 
     /// Returns the time of the run's own clock.
     fn clock(&self) -> Time {
-        let end = self.known.latest.state.head() + LINGER.mul_f64(self.time.rate().min(1.0));
-        match (&self.performer, &self.phase) {
+        let end = self.view.latest.state.head() + LINGER.mul_f64(self.time.rate().min(1.0));
+        match (&self.source, &self.phase) {
             (RunSource::Live(run), Phase::Finished | Phase::Failed(_)) => run.now().min(end),
             (RunSource::Live(run), _) => run.now(),
             (RunSource::Recorded(_), _) => end,
-            (RunSource::Nobody, _) => Time::ZERO,
+            (RunSource::None, _) => Time::ZERO,
         }
     }
 
     /// Whether the run's own clock has the playback rate, as in virtual time.
     fn keeps_pace(&self) -> bool {
-        matches!(self.performer, RunSource::Live(_)) && self.log.header.driver == Driver::Sim
+        matches!(self.source, RunSource::Live(_)) && self.log.header.driver == Driver::Sim
     }
 
-    fn sort_in(&mut self, told: Vec<Record>) {
-        if told.is_empty() {
+    /// Adds records to the log in order of time, and drops the snapshots after the first of them.
+    fn sort_in(&mut self, records: Vec<Record>) {
+        if records.is_empty() {
             return;
         }
-        let same = self.log.add(told);
-        self.past.forget_after(same);
+        let same = self.log.add(records);
+        self.snapshots.forget_after(same);
         if self.earlier.as_ref().is_some_and(|moment| moment.records() > same) {
             // The next show_now() builds it again.
             (self.earlier, self.stepped_to) = (Some(Snapshot::new(&self.log.header)), None);
@@ -342,19 +343,19 @@ impl Stage {
         };
         if records >= self.log.records().len() {
             if self.earlier.take().is_some() {
-                self.known.latest.state.take_touched();
-                self.canvas.show_all(&self.known.latest.state);
+                self.view.latest.state.take_touched();
+                self.canvas.show_all(&self.view.latest.state);
             }
         } else if self.earlier.as_ref().is_none_or(|earlier| earlier.records() != records) {
             let is_first = self.earlier.is_none();
             let moment = self.earlier.get_or_insert_with(|| Snapshot::new(&self.log.header));
-            let went_on = self.past.seek(&self.log, records, moment);
+            let went_on = self.snapshots.seek(&self.log, records, moment);
             if is_first || !went_on {
                 moment.state.take_touched();
                 self.canvas.show_all(&moment.state);
             }
         }
-        let state = &mut self.earlier.as_mut().unwrap_or(&mut self.known.latest).state;
+        let state = &mut self.earlier.as_mut().unwrap_or(&mut self.view.latest).state;
         state.set_rate(self.time.rate());
         for atoms in state.take_touched() {
             self.canvas.show(atoms, state);
@@ -363,6 +364,6 @@ impl Stage {
 }
 
 /// Returns the shown snapshot. A function of the two fields, so that the canvas can be borrowed mutably beside it.
-fn shown<'a>(earlier: &'a Option<Snapshot>, known: &'a RunView) -> &'a Snapshot {
-    earlier.as_ref().unwrap_or(&known.latest)
+fn shown<'a>(earlier: &'a Option<Snapshot>, view: &'a RunView) -> &'a Snapshot {
+    earlier.as_ref().unwrap_or(&view.latest)
 }

@@ -8,7 +8,7 @@ use crate::view::StepUnit;
 impl Stage {
     /// Returns the length of the run as the window shows it: so far, or, while later moments are hidden, up to the
     /// latest shown moment, but at least one second so that the line has a length.
-    pub fn told_length(&self) -> Time {
+    pub fn shown_length(&self) -> Time {
         const MIN_LENGTH_S: f64 = 1.0;
         let told = self.time.reached().max(Time::from_secs(MIN_LENGTH_S));
         if self.hides_later { told.min(self.length()) } else { self.length() }
@@ -34,16 +34,16 @@ impl Session {
     pub fn set_run_paused(&mut self, paused: bool) {
         if self.stage.phase == Phase::Running {
             self.stage.paused = paused;
-            self.stage.performer.set_paused(paused);
+            self.stage.source.set_paused(paused);
         }
     }
 
     /// Shows the moment to which the time is dragged; it is stopped meanwhile.
-    pub fn drag_to(&mut self, time: Time, stands: bool) {
-        if self.dragged_from.is_none() && stands {
+    pub fn drag_to(&mut self, time: Time, paused: bool) {
+        if self.dragged_from.is_none() && paused {
             self.dragged_from = Some(self.stage.time.is_paused() && !self.stage.is_live());
         }
-        self.stage.seek(time, stands);
+        self.stage.seek(time, paused);
     }
 
     /// Ends a drag of the time: it advances again if it did before.

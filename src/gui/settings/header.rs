@@ -10,8 +10,8 @@ use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::view::Sharing;
 
 impl Settings {
-    /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the whole
-    /// picture on the reference machine at full pace; `cores` is the number of this computer's cores.
+    /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the
+    /// whole picture on the reference machine at full pace; `cores` is the number of this computer's cores.
     pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
         let handling = Duration::from_millis(self.handling.into());
         let speeds: Vec<f64> = self.all_speeds().collect();
@@ -44,8 +44,8 @@ impl Settings {
         }
     }
 
-    /// Returns settings for a run like that of this header; `pace` is used if its pace was not full. The window does not
-    /// offer two threads a node, so these become one.
+    /// Returns settings for a run like that of this header; `pace` is used if its pace was not full. The window does
+    /// not offer two threads a node, so these become one.
     pub fn of(header: &Header, pace: Pace) -> Self {
         let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
         let own = header.speeds.len().saturating_sub(header.spares.into());
@@ -72,8 +72,8 @@ impl Settings {
 
     /// Returns the fraction of a real core that the reference machine gets.
     pub(super) fn pace_fraction(&self, work: Duration, cores: usize) -> f64 {
-        // The sum of all speeds is the power of a ring that shares perfectly. Other strategies take longer, which is the
-        // point of the demonstration; only the serial run, which uses one machine, gets its own sum.
+        // The sum of all speeds is the power of a ring that shares perfectly. Other strategies take longer, which is
+        // the point of the demonstration; only the serial run, which uses one machine, gets its own sum.
         let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
         let all: Vec<f64> = self.all_speeds().collect();
         let max = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&all, cores) };

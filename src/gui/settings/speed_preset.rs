@@ -15,8 +15,8 @@ pub enum SpeedPreset {
     Laboratory,
 }
 
-/// Machines of a laboratory of about 1997 and their speeds. The fastest and the slowest are the article's (§9, Figures 6
-/// and 7: 580 s and 6,099 s for the same picture); the others are estimates from their clock rates.
+/// Machines of a laboratory of about 1997 and their speeds. The fastest and the slowest are the article's (§9, Figures
+/// 6 and 7: 580 s and 6,099 s for the same picture); the others are estimates from their clock rates.
 const LABORATORY: [(&str, f64); 8] = [
     ("Pentium 75", 1.0),
     ("486 DX4 100", 0.62),

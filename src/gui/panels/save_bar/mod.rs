@@ -81,6 +81,7 @@ impl SaveBar {
         self.open_for(SaveKind::Run, session);
     }
 
+    /// Opens the bar for a kind, with a suggested path; size and samples stay as they were.
     fn open_for(&mut self, kind: SaveKind, session: &Session) {
         let Self { size, samples, .. } = *self;
         let caption = &session.header().caption;
@@ -342,6 +343,7 @@ impl SaveBar {
         }
     }
 
+    /// Starts saving a file of the run on the stage.
     fn save_run_as(&self, kind: SaveKind, session: &mut Session, path: PathBuf, shown: (Layer, f32), size: Size) {
         match kind {
             SaveKind::Render => session.save_picture(path, (Layer::Owners, 0.0)),

@@ -9,7 +9,7 @@ use crate::scenario::Command;
 /// Source of a run's records and pixels.
 pub enum RunSource {
     /// None yet: the first scene is still being compiled.
-    Nobody,
+    None,
     /// A live run in threads.
     Live(Run),
     /// A recorded run, whose picture is traced again.
@@ -20,7 +20,7 @@ impl RunSource {
     /// Returns the channel of updates, oldest first.
     pub fn updates(&self) -> Option<&Receiver<Update>> {
         match self {
-            Self::Nobody => None,
+            Self::None => None,
             Self::Live(run) => Some(run.updates()),
             Self::Recorded(retrace) => Some(retrace.updates()),
         }
@@ -31,14 +31,14 @@ impl RunSource {
         match (self, paused) {
             (Self::Live(run), true) => run.pause(),
             (Self::Live(run), false) => run.resume(),
-            (Self::Nobody | Self::Recorded(_), _) => {}
+            (Self::None | Self::Recorded(_), _) => {}
         }
     }
 
     /// Tells all threads to end, without waiting for them.
     pub fn stop(&self) {
         match self {
-            Self::Nobody => {}
+            Self::None => {}
             Self::Live(run) => run.stop(),
             Self::Recorded(retrace) => retrace.stop(),
         }
@@ -47,7 +47,7 @@ impl RunSource {
     /// Whether all threads have ended.
     pub fn has_ended(&self) -> bool {
         match self {
-            Self::Nobody => true,
+            Self::None => true,
             Self::Live(run) => run.has_ended(),
             Self::Recorded(retrace) => retrace.has_ended(),
         }
