@@ -26,7 +26,7 @@ pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
     let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
     let performed = lesson.perform(&|more| bar.inc(more.into()), &CancelToken::default());
     bar.finish_and_clear();
-    let performed = performed.map_err(Failure::Refused)?.unwrap_or_default();
+    let performed = performed.map_err(|error| Failure::Refused(error.to_string()))?.unwrap_or_default();
     for (number, step) in (1..).zip(&lesson.steps) {
         let run = performed.iter().find(|(name, _)| *name == step.run);
         let at = run.zip(step.until).and_then(|((_, run), until)| Some((run, until.of(&run.log)?.0)));

@@ -9,7 +9,7 @@ use super::jobs::Jobs;
 use super::preview::guess;
 use crate::cancel::CancelToken;
 use crate::language::{Language, say};
-use crate::lesson::Lesson;
+use crate::lesson::{Lesson, LessonError};
 use crate::view::RunView;
 
 /// A lesson that is being prepared.
@@ -77,7 +77,7 @@ impl Jobs {
             let performed = lesson.perform(&done, &CancelToken::default());
             let taught = performed.and_then(|performed| {
                 let performed = performed.unwrap_or_default();
-                lesson.has_moments(&performed)?;
+                lesson.check_moments(&performed)?;
                 let values = lesson.values(&performed);
                 let recorded = performed.into_iter().map(|(name, run)| {
                     let known = Arc::new(RunView::of(&run.log));
@@ -86,8 +86,9 @@ impl Jobs {
                 });
                 Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
             });
-            let unshown =
-                |why| say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}");
+            let unshown = |why: LessonError| {
+                say!(language, "The lesson cannot be shown: {why}", "A lição não pode ser mostrada: {why}")
+            };
             JobResult::Lesson(number, taught.map_err(unshown))
         });
         number
