@@ -97,7 +97,7 @@ fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Turns an error of the arguments into one sentence; prints help and version, and exits.
+/// Turns an error of the arguments into one sentence. If help or the version is asked for, prints it and exits.
 fn usage(error: clap::Error) -> Failure {
     if !error.use_stderr() {
         error.exit();
