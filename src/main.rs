@@ -1,4 +1,4 @@
-//! The program: see `anel --help`.
+//! The program `anel`; `anel --help` lists its commands.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! A recorded run, or a scene, in the forms of other programs.
+//! `anel export`: writes a recorded run or a scene in the formats of other programs.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -27,7 +27,9 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     }
     if let Some(pov) = &args.pov {
         let (source, pov) = (source.display(), pov.display());
-        return Err(Failure::Refused(format!("{source} is a recorded run; {pov} (--pov) is made of a scene")));
+        return Err(Failure::Refused(format!(
+            "{source} is a recorded run, but {pov} is made of a scene; leave out --pov"
+        )));
     }
     let drawings = drawings(args)?;
     let log = RunLog::load(source).map_err(|error| Failure::Refused(error.to_string()))?;
@@ -44,7 +46,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
         return Ok(());
     }
     let scene = Scene::parse(&log.header.scene_text)
-        .map_err(|error| Failure::Refused(format!("the run's own scene cannot be read: {error}")))?;
+        .map_err(|error| Failure::Refused(format!("the scene in the run file cannot be read: {error}")))?;
     if let Some(path) = &args.png {
         picture(path, &scene, args.size.unwrap_or(log.header.size), log.header.quality)?;
     }
@@ -54,15 +56,14 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Of a scene there is only one form.
+/// Exports a scene, for which there is only `--pov`.
 fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     let opened = open(&args.source)?;
     let (others, source) = (outputs(args), &args.source);
     match (&args.pov, others.first()) {
         (Some(pov), _) if others.len() == 1 => {
-            // Neither side is 0.
-            let usual = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
-            let size = args.size.map_or_else(usual, Ok)?;
+            let default_size = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
+            let size = args.size.map_or_else(default_size, Ok)?;
             let text = to_pov(&opened.scene, size, &Quality::default());
             write(pov, |file| file.write_all(text.as_bytes()))
         }
@@ -70,22 +71,22 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
             let other = others.iter().find(|other| pov.as_deref() != Some(**other)).or(other);
             let other = other.map_or_else(String::new, |other| other.display().to_string());
             Err(Failure::Refused(format!(
-                "{source} is a scene, but {other} is made of a recorded run; `anel render {source} --out … --log RUN.anel` \
-                 records one"
+                "{source} is a scene, but {other} is made of a recorded run; record one with \
+                 `anel render {source} --out … --log RUN.anel`"
             )))
         }
     }
 }
 
-/// All files that are asked for.
+/// The files to write.
 fn outputs(args: &ExportArgs) -> Vec<&Path> {
     let ExportArgs { pov, csv, trace, gif, ring, timeline, png, .. } = args;
     [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path).collect()
 }
 
-/// The drawings that are asked for, and whether as PNG.
+/// The drawings to make: path, drawing, and whether as PNG.
 fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
-    // The end is known only when the run is read; whatever is later is the end, too.
+    // The run is not read yet. Every time after its end shows the end.
     let ring = Drawing::Ring(args.at.unwrap_or(Time(u64::MAX)));
     let all = [(&args.ring, ring), (&args.timeline, Drawing::Timeline)];
     let asked = all.into_iter().filter_map(|(path, drawing)| Some((path.as_deref()?, drawing)));
@@ -94,23 +95,27 @@ fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
         match ending.as_deref().and_then(|ending| ending.to_str()) {
             Some("svg") => Ok((drawing, false)),
             Some("png") => Ok((drawing, true)),
-            _ => Err(Failure::Refused(format!("{} is drawn as .svg or .png; name it so", path.display()))),
+            _ => Err(Failure::Refused(format!(
+                "{} is drawn as .svg or .png; give its name one of these endings",
+                path.display()
+            ))),
         }
     };
     asked.map(|(path, drawing)| with_ending((path, drawing)).map(|(drawing, is_png)| (path, drawing, is_png))).collect()
 }
 
-/// The scene's picture at any size.
+/// Traces the scene at any size and writes the picture.
 fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
     let tracer = Arc::new(Tracer::new(scene, size, quality));
     let bar = parts("tracing");
     let rgb = trace_strips(&tracer, &|part| show(&bar, part), &CancelToken::default())
         .map_err(|error| Failure::Failed(error.to_string()))?;
     bar.finish_and_clear();
-    // Nobody has ended it.
+    // It is `None` only if cancelled, which nothing does here.
     write_png(path, size, &rgb.unwrap_or_default()).map_err(|error| Failure::Failed(error.to_string()))
 }
 
+/// Traces the picture of the run and writes the animation.
 fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Failure> {
     let header = &log.header;
     let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
@@ -136,7 +141,7 @@ fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result
     write_whole(path, fill).map_err(|error| Failure::Failed(error.to_string()))
 }
 
-/// Thousandths of what is done.
+/// A progress bar of 1000 steps.
 fn parts(what: &'static str) -> ProgressBar {
     progress(1000, "{percent:>3} %  {msg}  {elapsed} ({eta} left)").with_message(what)
 }

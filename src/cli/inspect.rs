@@ -1,4 +1,4 @@
-//! One pixel, in words or as JSON.
+//! `anel inspect`: explains one pixel, as text or as JSON.
 
 use serde_json::{Value, json};
 
@@ -17,9 +17,8 @@ pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     let tracer = Tracer::new(&opened.scene, size, args.quality.quality());
     let Some(inspected) = Inspected::new(&tracer, &opened.scene, args.pixel) else {
         let (right, bottom) = (size.width() - 1, size.height() - 1);
-        let sentence = format!(
-            "there is no pixel {x},{y} in a picture of {size}; the last one, in the lower right corner, is {right},{bottom}"
-        );
+        let sentence =
+            format!("there is no pixel {x},{y} in a picture of {size}; the lower right pixel is {right},{bottom}");
         return Err(Failure::Refused(sentence));
     };
     if args.json {
@@ -29,7 +28,7 @@ pub(super) fn inspect(args: &InspectArgs) -> Result<(), Failure> {
     }
 }
 
-/// All that is known of the pixel. Colours are linear light, distances those of the scene; an infinite one is null.
+/// The JSON form of the pixel: colours in linear light, distances in units of the scene, infinite distances as null.
 fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
     let colour = inspected.colour();
     let sample = |sample: &ExplainedSample| sample_json(sample, sample.share(&inspected.samples), scene);
@@ -49,7 +48,7 @@ fn json(inspected: &Inspected, tracer: &Tracer, scene: &Scene) -> Value {
         "srgb": srgb8(colour.as_vec3().to_array()),
         "rays": inspected.rays,
         "samples": samples,
-        // Those of the first ray of the first sample that counts.
+        // Terms and spans are those of the first ray of the first sample that counts.
         "terms": terms,
         "spans": spans,
     })

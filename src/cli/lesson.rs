@@ -1,11 +1,11 @@
-//! `anel lesson`: what a lesson says, and whether what it claims is true of its runs.
+//! `anel lesson`: prints the steps of a lesson and checks its claims.
 
 use super::{Failure, print, progress};
 use crate::cancel::CancelToken;
 use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
 
-/// Plays a lesson's runs in virtual time and prints its steps and claims; without one, lists the built-in lessons.
+/// Plays the lesson `argument`; without one, lists the built-in lessons.
 pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
     let Some(argument) = argument else {
         for (name, _) in BUILT_IN {
@@ -21,12 +21,12 @@ pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
     play(&Lesson::open(argument).map_err(|error| Failure::Refused(error.to_string()))?)
 }
 
-/// Plays a lesson's runs in virtual time and prints its steps and claims.
+/// Executes the runs of a lesson in virtual time, and prints its steps and its claims. Fails if a claim is not true.
 pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
     let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
     let performed = lesson.perform(&|more| bar.inc(more.into()), &CancelToken::default());
     bar.finish_and_clear();
-    let performed = performed.map_err(Failure::Refused)?.unwrap_or_default();
+    let performed = performed.map_err(|error| Failure::Refused(error.to_string()))?.unwrap_or_default();
     for (number, step) in (1..).zip(&lesson.steps) {
         let run = performed.iter().find(|(name, _)| *name == step.run);
         let at = run.zip(step.until).and_then(|((_, run), until)| Some((run, until.of(&run.log)?.0)));
@@ -34,12 +34,12 @@ pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
         let at = at.map_or_else(String::new, |at| format!(" to {:.2} s", at.secs()));
         print(&format!("{number}. [{}{at}] {}", step.run, step.say.in_language(Language::English)))?;
     }
-    let told = lesson.check(&performed);
-    for (claim, holds) in &told {
-        print(&format!("{} {claim}", if *holds { "true: " } else { "FALSE:" }))?;
+    let claims = lesson.check(&performed);
+    for (claim, is_true) in &claims {
+        print(&format!("{} {claim}", if *is_true { "true: " } else { "FALSE:" }))?;
     }
-    match told.iter().filter(|(_, holds)| !holds).count() {
+    match claims.iter().filter(|(_, is_true)| !is_true).count() {
         0 => Ok(()),
-        false_ones => Err(Failure::Failed(format!("{false_ones} of {} claims are not true", told.len()))),
+        false_ones => Err(Failure::Failed(format!("{false_ones} of {} claims are not true", claims.len()))),
     }
 }

@@ -1,4 +1,4 @@
-//! The command line: a window, or a headless command.
+//! The command line: opens the window, or executes a command without it.
 
 mod args;
 mod export;
@@ -28,17 +28,17 @@ use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
 use args::{Args, CliCommand};
 
-/// Why a command ended without doing its work: one sentence.
+/// Why a command failed, in one sentence.
 #[derive(Debug)]
 enum Failure {
-    /// The arguments, the scene or an output path are wrong; nothing was traced. Exit code 2.
+    /// An argument, the scene or an output path is invalid; nothing was traced. Exit code 2.
     Refused(String),
     /// The run itself failed. Exit code 1.
     Failed(String),
 }
 
-/// Runs the program with the arguments of the process. Exit codes: 0 done, 1 the run failed, 2 the arguments, the
-/// scene or an output path are wrong.
+/// Runs the program with the arguments of the process. Exit codes: 0 success, 1 the run failed, 2 an argument, the
+/// scene or an output path is invalid.
 pub fn main() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(CliCommand::Render(render)) => render::render(&render),
@@ -60,7 +60,7 @@ pub fn main() -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Says something on standard error. Where that is closed there is nobody left to tell.
+/// Prints a sentence on standard error; ignores errors, since standard error may be closed.
 fn tell(sentence: &str) {
     let _ = writeln!(io::stderr(), "anel: {sentence}");
 }
@@ -68,20 +68,20 @@ fn tell(sentence: &str) {
 /// Prints a result on standard output.
 fn print(result: &str) -> Result<(), Failure> {
     match writeln!(io::stdout(), "{result}") {
-        // Whoever reads the output has read enough.
+        // The reader has closed the pipe; this is not an error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::Failed(format!("standard output cannot be written: {error}"))),
         Ok(()) => Ok(()),
     }
 }
 
-/// A bar of so many steps; `words` stand beside it, as indicatif's templates have them.
-fn progress(steps: u64, words: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template(&format!("{{bar:32}} {words}"));
+/// Creates a progress bar; `template` is the text beside it, in indicatif's syntax.
+fn progress(steps: u64, template: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(&format!("{{bar:32}} {template}"));
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// Refuses files that cannot be written, and such as would replace the scene or each other.
+/// Refuses output files that cannot be written, or that would replace the scene or each other.
 fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
     for (index, output) in outputs.iter().enumerate() {
         check_writable(output).map_err(|error| Failure::Refused(error.to_string()))?;
@@ -97,7 +97,7 @@ fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is wrong with the arguments, in one sentence; help and version are printed as they are.
+/// Turns an error of the arguments into one sentence. If help or the version is asked for, prints it and exits.
 fn usage(error: clap::Error) -> Failure {
     if !error.use_stderr() {
         error.exit();
@@ -109,11 +109,11 @@ fn usage(error: clap::Error) -> Failure {
     let command =
         command.filter(|first| ["render", "inspect", "export", "study", "lesson", "replay"].contains(&&**first));
     let command = command.map(|command| format!("{command} ")).unwrap_or_default();
-    Failure::Refused(format!("{} (`anel {command}--help` tells more)", sentence.trim_start_matches("error: ")))
+    Failure::Refused(format!("{} (see `anel {command}--help`)", sentence.trim_start_matches("error: ")))
 }
 
-/// Opens the viewer with a scene, a recorded run, or what was open last; where that is not possible, traces the picture
-/// without it.
+/// Opens the window with a scene, a recorded run, a lesson, or the last one that was open. If no window can be opened,
+/// does the run without it.
 fn window(argument: Option<&str>, log: Option<PathBuf>) -> Result<(), Failure> {
     let opening = argument.map(Opening::read).transpose().map_err(Failure::Refused)?;
     check_outputs(argument.unwrap_or_default(), log.as_deref().as_slice())?;
@@ -126,26 +126,26 @@ fn replay(path: &Path) -> Result<(), Failure> {
 }
 
 fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
-    // As other programs ask, in this order.
+    // The order of POSIX: the first variable that is set counts.
     let locale = ["LC_ALL", "LC_MESSAGES", "LANG"].into_iter().filter_map(|name| env::var(name).ok());
     let language = locale.map(|locale| Language::of_locale(&locale)).next().unwrap_or_default();
     let launch = gui::Launch { opening: opening.clone(), log: log.clone(), language };
     let Err(why) = gui::open(launch) else { return Ok(()) };
-    tell(&format!("no window can be opened ({why}); the same run goes on without one."));
+    tell(&format!("no window can be opened ({why}); the run is done without one."));
     let opening = opening.map_or_else(|| Opening::read("ten-objects"), Ok).map_err(Failure::Refused)?;
     let (scene, mut header) = match opening {
         Opening::Scene(scene) => {
             let header = Settings::default().header(&scene.name, &scene.text, Duration::ZERO, cores());
             (scene.scene.clone(), header)
         }
-        // Nobody can raise a speed of 0 here, so that only the picture is that of the recorded run.
+        // A speed of 0 could not be raised here, so all speeds are 1; only the picture is that of the recorded run.
         Opening::Run(run) => {
             let scene = Scene::parse(&run.header.scene_text).map_err(|error| Failure::Refused(error.to_string()))?;
             (scene, Header { speeds: vec![1.0; run.header.speeds.len()], ..run.header.clone() })
         }
         Opening::Lesson(taught) => return lesson::play(&taught),
     };
-    // Nobody watches: no need to go slowly.
+    // Without a viewer the run may go at the full pace.
     header.pace = auto_pace(&header.speeds, header.cores);
     let out = free_name(&as_file_name(&header.scene));
     check_outputs("", &[&out])?;

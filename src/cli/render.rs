@@ -1,4 +1,4 @@
-//! A run without a window.
+//! `anel render`: a run without a window.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -17,14 +17,14 @@ use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
 use crate::tracer::{RayCounts, Tracer};
 
-/// Where a run's results go.
+/// The destinations of a run's results.
 pub(super) struct Outputs<'a> {
     pub out: &'a Path,
     pub log: Option<&'a Path>,
     pub json: bool,
 }
 
-/// What a run leaves behind.
+/// The results of a run.
 struct RenderResult {
     frame: Frame,
     log: RunLog,
@@ -43,7 +43,8 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     run_and_save(&tracer, &header, measured, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
 }
 
-/// Does the run that `header` describes, and says how it was; in virtual time it is `measured`, if that is given.
+/// Does the run that `header` describes, saves its results, and prints its report. In virtual time it uses `measured`,
+/// if that is given.
 pub(super) fn run_and_save(
     tracer: &Arc<Tracer>,
     header: &Header,
@@ -55,30 +56,30 @@ pub(super) fn run_and_save(
     if let Some(log) = to.log {
         outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
     }
-    // In virtual time nothing is contended for.
+    // In virtual time threads do not compete for cores and caches.
     let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
     let mut report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
     if to.json {
         report.levels = tracer.levels();
         return print(&report.json());
     }
-    // The picture is what was asked for; where standard error is closed the figures are not missed.
+    // The picture is saved; if standard error is closed, the report is not needed.
     let _ = write!(io::stderr(), "{report}");
     print(&to.out.display().to_string())
 }
 
-#[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+#[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
 fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let run = Run::start(Arc::clone(tracer), header);
     let bar = atoms_bar(header);
     let mut frame = Frame::new(header.size);
-    // One batch for the log, which would else sort its end for each party's.
-    let mut told = Vec::new();
+    // The log gets all records at once; otherwise it would sort its end for the batch of each party.
+    let mut all_records = Vec::new();
     let mut rays = RayCounts::default();
     let failure = loop {
         match run.updates().recv() {
-            Ok(Update::Records(records)) => told.extend(records),
+            Ok(Update::Records(records)) => all_records.extend(records),
             Ok(Update::Placed { atoms, pixels }) => {
                 for (place, colours) in header.division.placed(&atoms, &pixels) {
                     frame.place(place, colours);
@@ -97,14 +98,14 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
         Some(error) => Err(Failure::Failed(error.to_string())),
         None => {
             let mut log = RunLog::new(header.clone());
-            log.add(told);
+            log.add(all_records);
             Ok(RenderResult { frame, log, rays, wall })
         }
     }
 }
 
-/// Traces the picture, then runs its sharing in virtual time as fast as this computer can.
-#[expect(clippy::disallowed_methods, reason = "the wall time of the whole run, as its user feels it")]
+/// Traces the picture, then executes the run in virtual time, as fast as this computer can.
+#[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
 fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
@@ -123,20 +124,20 @@ fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Res
     Ok(RenderResult { frame, log, rays: whole.counts, wall: begun.elapsed() })
 }
 
-/// The run in virtual time with the costs of a recorded run of the same picture.
+/// Prepares a run in virtual time with the costs of a recorded run of the same picture.
 fn measured(path: &Path, header: &Header) -> Result<Sim, Failure> {
     let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
     Sim::measured(header, &log)
         .map_err(|why| Failure::Refused(format!("the costs in {} cannot be used: {why}", path.display())))
 }
 
-/// A bar that counts atoms.
+/// A progress bar that counts atoms.
 fn atoms_bar(header: &Header) -> ProgressBar {
     progress(header.division.atoms().into(), "{percent:>3} %  {pos}/{len} atoms  {elapsed} ({eta} left)")
 }
 
-/// How much dearer atoms were in the run than one after another on one thread, from a sample of them: contention for
-/// caches and cores hides in an atom's cost, and so in the efficiency.
+/// Returns the cost of atoms in the run divided by their cost on one thread, measured on a sample; `None` if the sample
+/// is empty. Contention for caches and cores raises the cost of an atom, so the efficiency does not show it.
 fn overhead(tracer: &Tracer, log: &RunLog) -> Option<f64> {
     let costs = log.costs();
     let budget = (Metrics::of(log).work() / 10).min(Duration::from_secs(1));

@@ -1,4 +1,4 @@
-//! What a headless run says about itself.
+//! The report of a run without a window, as text or as JSON.
 
 use std::fmt;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use crate::picture::Quality;
 use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::tracer::{RayCounts, SceneStats, Tracer};
 
-/// The run in figures; times are in seconds.
+/// The figures of a run; times are in seconds.
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     scene: String,
@@ -22,16 +22,16 @@ pub(super) struct Report {
     nodes: usize,
     speeds: Vec<f64>,
     pace: f64,
-    /// As the user felt it, threads started and ended.
+    /// Wall time of the whole run, from the start of its threads to their end.
     wall_s: f64,
     /// From the first band sent to the last atom placed.
     makespan_s: f64,
     /// CPU time in the tracer.
     work_s: f64,
-    /// The least makespan possible for this work on these machines.
+    /// The shortest possible makespan for this work on these machines.
     ideal_s: f64,
     efficiency: f64,
-    /// An atom's cost in the run over its cost alone; null where there was too little to measure.
+    /// The cost of atoms in the run / their cost on one thread; null if there was too little to measure.
     overhead: Option<f64>,
     finish_spread_s: f64,
     rays: RayCounts,
@@ -39,7 +39,7 @@ pub(super) struct Report {
     atoms_by_node: Vec<u32>,
     messages: MessageCounts,
     compiled: SceneStats,
-    /// Of a sample of the pixels: primary, reflected and refracted rays on each level of their trees.
+    /// Primary, reflected and refracted rays on each level of the tree of rays, for a sample of the pixels.
     pub levels: Vec<u64>,
 }
 
@@ -73,7 +73,7 @@ impl Report {
         }
     }
 
-    /// One JSON object on one line.
+    /// Formats the report as one JSON object on one line.
     pub fn json(&self) -> String {
         serde_json::to_string(self).expect("numbers, texts and lists have a JSON form")
     }

@@ -1,4 +1,4 @@
-//! From arguments to what a run is asked to do.
+//! Builds the header of a run from the arguments of `anel render`.
 
 use super::args::{PaceArg, RenderArgs, SchedulerArg};
 use crate::balance::{Rules, Strategy};
@@ -8,16 +8,16 @@ use crate::picture::Division;
 use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::scene::Opened;
 
-/// What a run with these arguments is asked to do.
+/// Builds the header of a run with these arguments.
 ///
 /// # Errors
-/// A sentence that says which argument is impossible, and why.
+/// A sentence that names the invalid argument and says what to do.
 pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, String> {
     let speeds = node_speeds(args)?;
     let division = Division::new(args.size.pixels(), args.atom);
     if division.atoms() > Division::MAX_ATOMS {
         return Err(format!(
-            "{} atoms of {} pixels are too many; at most {} are possible (--atom makes them larger)",
+            "{} atoms of {} pixels are too many; at most {} are possible, so make them larger with --atom",
             division.atoms(),
             args.atom,
             Division::MAX_ATOMS
@@ -25,28 +25,23 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     }
     let (driver, strategy) = match (args.strategy, args.driver) {
         (SchedulerArg::By(strategy), driver) => (driver, strategy),
-        // Its own rules are not among ours.
+        // Rayon ignores the rules of a strategy; the header needs one nevertheless.
         (SchedulerArg::Rayon, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
         (SchedulerArg::Rayon, other) => {
-            return Err(format!(
-                "rayon shares by its own rules, on threads of its own; it cannot use {}",
-                other.name()
-            ));
+            return Err(format!("rayon runs only with --driver threads, not with --driver {}", other.name()));
         }
     };
     let travels = !args.latency.is_zero() || args.bandwidth.is_some() || args.shared_wire || !args.handling.is_zero();
     if driver == Driver::WorkStealing && travels {
-        return Err(
-            "nothing travels between rayon's threads, which share their memory; leave out --latency, --bandwidth, \
-                    --shared-wire and --handling"
-                .into(),
-        );
+        return Err("--latency, --bandwidth, --shared-wire and --handling do not apply to rayon; leave them out".into());
     }
     if args.costs.is_some() && driver != Driver::Sim {
-        return Err("measured costs are for runs in virtual time; add --driver sim".into());
+        return Err("--costs applies only to runs in virtual time; add --driver sim".into());
     }
     if !args.without.is_empty() && args.strategy != SchedulerArg::By(Strategy::Adaptive) {
-        return Err("only the ring that adapts has remedies: add --strategy adaptive, or leave out --without".into());
+        return Err(
+            "--without applies only to the adaptive ring; add --strategy adaptive, or leave out --without".into()
+        );
     }
     let mut rules = Rules::usual(strategy, division, speeds.len());
     rules.part = args.part.unwrap_or(rules.part);
@@ -55,11 +50,11 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     let cores = if driver == Driver::Sim { speeds.len() } else { cores() };
     let pace = match args.pace {
         PaceArg::Of(pace) => pace,
-        // Nobody has to wait for a core there.
+        // In virtual time machines do not wait for a core.
         PaceArg::Auto if driver == Driver::Sim => 1.0,
         PaceArg::Auto => auto_pace(&speeds, cores),
     };
-    // A run in virtual time is the same on every computer.
+    // A run in virtual time is the same on every computer, so its file names none.
     let machine = if driver == Driver::Sim { Metadata::default() } else { Metadata::here(cores) };
     let header = Header {
         scene: opened.name.clone(),
@@ -78,24 +73,25 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         caption: Metadata { title: args.title.clone(), memo: args.memo.clone(), ..machine },
     };
     if driver == Driver::Pairs && !header.is_full_speed() {
-        return Err(
-            "two threads a node compete for real cores, at full speed; leave out --speeds, --seed and --pace".into()
-        );
+        return Err("--driver pairs runs at full speed; leave out --speeds, --seed and --pace".into());
     }
     Ok(header)
 }
 
-/// A speed for each node.
+/// Returns the speed of each node.
+///
+/// # Errors
+/// A sentence if the number of nodes does not fit the strategy or the speeds.
 fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
     let is_serial = args.strategy == SchedulerArg::By(Strategy::Serial);
-    let usual = match args.speeds.len() {
+    let default = match args.speeds.len() {
         0 if is_serial => 1,
         0 => 4,
         speeds => speeds,
     };
-    let nodes = args.nodes.map_or(usual, usize::from);
+    let nodes = args.nodes.map_or(default, usize::from);
     if is_serial && nodes != 1 {
-        return Err(format!("serial is one node that traces all; it cannot have {nodes} nodes"));
+        return Err(format!("serial has one node, not {nodes}; set --nodes 1, or choose another --strategy"));
     }
     match (args.speeds.len(), args.seed) {
         (0, None) => Ok(vec![1.0; nodes]),

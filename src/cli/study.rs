@@ -1,4 +1,4 @@
-//! Studies on the command line.
+//! `anel study`: does a study and writes its files.
 
 use std::io::Write;
 use std::path::Path;
@@ -12,9 +12,9 @@ use crate::picture::Size;
 use crate::scene::{BUILT_IN, Opened};
 use crate::study::{Study, accuracy, chaos, needs, paper, peer, remedies, rivals, scale, stability};
 
-/// Does a study and writes its files into the directory `out`, which is made if it does not exist.
+/// Does a study and writes its files into the directory `out`, which it creates if needed.
 ///
-/// `chaos` tries the seeds from the first of `seeds` on, as many as the second says.
+/// `seeds` are the first seed and the number of seeds, for `chaos` only.
 pub(super) fn study(
     kind: StudyKind,
     scene: Option<&str>,
@@ -23,13 +23,13 @@ pub(super) fn study(
     as_json: bool,
 ) -> Result<(), Failure> {
     if !matches!(kind, StudyKind::Chaos) && seeds != (None, None) {
-        return Err(Failure::Refused("only chaos is made of seeds: leave out --seeds and --seed".into()));
+        return Err(Failure::Refused("--seeds and --seed apply only to chaos; leave them out".into()));
     }
     let first = seeds.0.unwrap_or(0);
     let count = seeds.1.unwrap_or(if seeds.0.is_some() { 1 } else { 10_000 });
     let scenes: Vec<&str> = match (scene, kind) {
         (Some(_), StudyKind::Stability) => {
-            return Err(Failure::Refused("stability makes its own cases and takes no scene: leave out --scene".into()));
+            return Err(Failure::Refused("stability has its own cases; leave out --scene".into()));
         }
         (None, StudyKind::Stability) => Vec::new(),
         (Some(scene), _) => vec![scene],
@@ -40,25 +40,25 @@ pub(super) fn study(
     };
     let scenes: Vec<Opened> = scenes.into_iter().map(open).collect::<Result<_, _>>()?;
     std::fs::create_dir_all(out)
-        .map_err(|error| Failure::Refused(format!("the directory {} cannot be made: {error}", out.display())))?;
+        .map_err(|error| Failure::Refused(format!("the directory {} cannot be created: {error}", out.display())))?;
     check_writable(&out.join("study.md")).map_err(|error| Failure::Refused(error.to_string()))?;
     let bar = progress(1, "{percent:>3} %  {elapsed} ({eta} left)  {msg}");
-    let mut told = |done: usize, of: usize, what: &str| {
+    let mut report_step = |done: usize, of: usize, what: &str| {
         bar.set_length(of as u64);
         bar.set_position(done as u64);
         bar.set_message(what.to_owned());
     };
     let size = Size::new(320, 240).map_err(|error| Failure::Failed(error.to_string()))?;
     let study = match kind {
-        StudyKind::Paper => paper(&scenes[0], &mut told),
-        StudyKind::Scale => scale(&scenes[0], &mut told),
-        StudyKind::Rivals => rivals(&scenes, &mut told),
-        StudyKind::Peer => peer(&scenes, size, &mut told),
-        StudyKind::Needs => needs(&scenes, &mut told),
-        StudyKind::Stability => stability(&mut told),
-        StudyKind::Accuracy => accuracy(&scenes, size, &mut told),
-        StudyKind::Remedies => remedies(&scenes[0], &mut told),
-        StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut told),
+        StudyKind::Paper => paper(&scenes[0], &mut report_step),
+        StudyKind::Scale => scale(&scenes[0], &mut report_step),
+        StudyKind::Rivals => rivals(&scenes, &mut report_step),
+        StudyKind::Peer => peer(&scenes, size, &mut report_step),
+        StudyKind::Needs => needs(&scenes, &mut report_step),
+        StudyKind::Stability => stability(&mut report_step),
+        StudyKind::Accuracy => accuracy(&scenes, size, &mut report_step),
+        StudyKind::Remedies => remedies(&scenes[0], &mut report_step),
+        StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut report_step),
     };
     let took = bar.elapsed();
     bar.finish_and_clear();
@@ -70,16 +70,16 @@ pub(super) fn study(
         written.push(path.display().to_string());
     }
     if as_json {
-        let mut said = json!({ "study": name, "files": written });
+        let mut object = json!({ "study": name, "files": written });
         if summary.is_empty() {
-            said["rows"] = rows.into();
+            object["rows"] = rows.into();
         }
-        summary.into_iter().for_each(|(name, value)| said[name] = value);
-        return print(&said.to_string());
+        summary.into_iter().for_each(|(name, value)| object[name] = value);
+        return print(&object.to_string());
     }
     if let Some(seeds) = summary.get("seeds") {
         let a_minute = count as f64 / took.as_secs_f64() * 60.0;
-        tell(&format!("{seeds} seeds, {} failures; {a_minute:.0} seeds a minute", summary["failures"]));
+        tell(&format!("{seeds} seeds, {} failures; {a_minute:.0} seeds per minute", summary["failures"]));
     }
     let report = written.iter().find(|path| path.ends_with(".md"));
     let rows = if summary.is_empty() { rows.len() as u64 } else { count };

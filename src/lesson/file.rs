@@ -1,4 +1,4 @@
-//! A lesson's file: RON, and errors that say where.
+//! The lesson file: its RON grammar, its limits, and its errors with their places.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,10 @@ use std::time::Duration;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use super::{BUILT_IN, Claim, Lesson, LowerView, Moment, Question, RunPlan, Step, Words};
+use super::error::{InvalidLesson, Part, Problem};
+use super::{
+    BUILT_IN, Claim, Lesson, LowerView, MAX_ATOMS, MAX_MACHINES, MAX_SIDE_PX, Moment, Question, RunPlan, Step, Words,
+};
 use crate::balance::{Condition, NodeId, Remedies, Remedy, Strategy};
 use crate::picture::Size;
 use crate::ron_file::{self, FileError, comment_or_string_length, find_path};
@@ -15,13 +18,8 @@ use crate::scenario::Command;
 use crate::scene;
 use crate::time::Time;
 
-/// What a window can show of a run.
-const MOST_MACHINES: usize = 32;
-const MOST_ATOMS: u32 = 1 << 18;
-const LONGEST_SIDE: u32 = 2048;
-
 impl Lesson {
-    /// Reads a lesson's file, or the built-in lesson of that name if there is no such file.
+    /// Reads the lesson file at the path `argument`, or the built-in lesson of that name if there is no such file.
     ///
     /// # Errors
     /// A [`FileError`] that names the file.
@@ -39,22 +37,22 @@ impl Lesson {
             .map_err(|error| error.in_file(argument))
     }
 
-    /// Reads the text of a lesson's file, beside which there are no scenes.
+    /// Reads the text of a lesson file without a directory; its runs can use only built-in scenes.
     ///
     /// # Errors
-    /// The first thing that is wrong, with its line, its column and its field.
+    /// The first mistake, with its line, column and field.
     pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
         Self::parse_in(PathBuf::new(), name, text)
     }
 
     fn parse_in(directory: PathBuf, name: &str, text: &str) -> Result<Self, FileError> {
-        const DEEP: &str = "a lesson has no such depths";
+        const DEEP: &str = "the file is nested too deeply for a lesson";
         let file: LessonFile = ron_file::parse(text, "lesson", "a title, runs and steps", DEEP)?;
-        file.resolve(name, directory).map_err(|Wrong { path, why }| FileError::new(find_path(text, &path), &why))
+        file.resolve(name, directory).map_err(|error| FileError::new(find_path(text, &error.path), &error.to_string()))
     }
 }
 
-/// Whether this is a file that begins like a lesson, after comments: then its mistakes are a lesson's.
+/// Whether the file begins with `Lesson`, after comments; its errors are then reported as those of a lesson.
 pub fn is_lesson_file(path: &Path) -> bool {
     let text = ron_file::read(path, "lesson", []).unwrap_or_default();
     let mut rest = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
@@ -64,7 +62,7 @@ pub fn is_lesson_file(path: &Path) -> bool {
     rest.starts_with("Lesson")
 }
 
-/// The file as it is written.
+/// The fields of a lesson file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "Lesson")]
 struct LessonFile {
@@ -74,6 +72,7 @@ struct LessonFile {
     steps: Vec<StepFile>,
 }
 
+/// The fields of a run.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct PlanFile {
@@ -90,13 +89,13 @@ struct PlanFile {
     spares: usize,
     #[serde(deserialize_with = "remedies")]
     without: Vec<Remedy>,
-    script: Vec<ScriptStep>,
+    script: Vec<ScriptEntry>,
 }
 
-/// At some second a machine gets another speed, or something else becomes of it.
+/// An entry of `script`: at this second a machine gets another speed or another condition.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ScriptStep {
+struct ScriptEntry {
     at: f64,
     machine: usize,
     #[serde(default)]
@@ -105,7 +104,7 @@ struct ScriptStep {
     becomes: Option<ConditionFile>,
 }
 
-/// What becomes of a machine.
+/// The condition of a machine, as `becomes` names it.
 #[derive(Clone, Copy, Deserialize)]
 enum ConditionFile {
     Well,
@@ -114,6 +113,7 @@ enum ConditionFile {
     Off,
 }
 
+/// The fields of a step.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StepFile {
@@ -132,6 +132,7 @@ struct StepFile {
     holds: Vec<Claim>,
 }
 
+/// The fields of a question.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct QuestionFile {
@@ -142,7 +143,7 @@ struct QuestionFile {
 }
 
 impl Default for PlanFile {
-    /// The article's scene on eight equal machines in a ring, in some twenty seconds.
+    /// The article's scene on eight equal machines in a ring; the run lasts about twenty seconds.
     fn default() -> Self {
         Self {
             scene: "ten-objects".into(),
@@ -161,108 +162,87 @@ impl Default for PlanFile {
     }
 }
 
-/// What is wrong, and where in the file.
-struct Wrong {
-    path: Vec<String>,
-    why: String,
-}
-
-impl Wrong {
-    fn new(path: &[&str], why: impl Into<String>) -> Self {
-        Self { path: path.iter().map(|&step| step.to_owned()).collect(), why: why.into() }
-    }
-
-    /// The same within something else, which is called so.
-    fn within(mut self, path: &[&str], called: &str) -> Self {
-        self.path.splice(0..0, path.iter().map(|&step| step.to_owned()));
-        Self { path: self.path, why: format!("{called}: {}", self.why) }
-    }
-}
-
 impl LessonFile {
-    fn resolve(self, name: &str, directory: PathBuf) -> Result<Lesson, Wrong> {
+    fn resolve(self, name: &str, directory: PathBuf) -> Result<Lesson, InvalidLesson> {
         if self.runs.is_empty() {
-            return Err(Wrong::new(&["runs"], "a lesson needs at least one run"));
+            return Err(InvalidLesson::new(&["runs"], Problem::NoRuns));
         }
         let mut runs = BTreeMap::new();
         for (name, plan) in self.runs {
-            let plan = plan.resolve(&directory);
-            let plan = plan.map_err(|wrong| wrong.within(&["runs", &name], &format!("the run `{name}`")))?;
+            let plan = plan.resolve(&directory).map_err(|error| error.within(Part::Run(name.clone())))?;
             runs.insert(name, plan);
         }
         let mut steps: Vec<Step> = Vec::new();
         for (index, step) in self.steps.into_iter().enumerate() {
             let only = runs.keys().next().filter(|_| runs.len() == 1);
             let run = step.run.clone().or_else(|| steps.last().map(|step| step.run.clone())).or_else(|| only.cloned());
-            let unknown = || Wrong::new(&[], "which run does it show? The first step has to say `run:`");
-            let step = run.ok_or_else(unknown).and_then(|run| step.resolve(&runs, run));
-            let within = |wrong: Wrong| wrong.within(&["steps", &index.to_string()], &format!("step {}", index + 1));
-            steps.push(step.map_err(within)?);
+            let run = run.ok_or_else(|| InvalidLesson::new(&[], Problem::NoRunNamed));
+            let step = run.and_then(|run| step.resolve(&runs, run));
+            steps.push(step.map_err(|error| error.within(Part::Step(index)))?);
         }
         if steps.is_empty() {
-            return Err(Wrong::new(&["steps"], "a lesson needs at least one step"));
+            return Err(InvalidLesson::new(&["steps"], Problem::NoSteps));
         }
         Ok(Lesson { name: name.into(), directory, title: self.title, about: self.about, runs, steps })
     }
 }
 
 impl PlanFile {
-    fn resolve(self, directory: &Path) -> Result<RunPlan, Wrong> {
+    fn resolve(self, directory: &Path) -> Result<RunPlan, InvalidLesson> {
         if scene::built_in(&self.scene).is_none() && !directory.join(&self.scene).is_file() {
-            let names: Vec<_> = scene::BUILT_IN.iter().map(|(name, _)| *name).collect();
-            let (scene, names) = (&self.scene, names.join(", "));
-            let why = format!("there is no scene `{scene}` beside the lesson, and no built-in one (they are {names})");
-            return Err(Wrong::new(&["scene"], why));
+            let known: Vec<_> = scene::BUILT_IN.iter().map(|(name, _)| *name).collect();
+            let problem = Problem::NoScene { scene: self.scene, known: known.join(", ") };
+            return Err(InvalidLesson::new(&["scene"], problem));
         }
-        let size = Size::new(self.size.0, self.size.1).map_err(|why| Wrong::new(&["size"], why))?;
-        if size.width().max(size.height()) > LONGEST_SIDE {
-            return Err(Wrong::new(&["size"], format!("a side of the picture can be up to {LONGEST_SIDE} pixels")));
+        let size = Size::new(self.size.0, self.size.1).map_err(|error| InvalidLesson::new(&["size"], error.into()))?;
+        if size.width().max(size.height()) > MAX_SIDE_PX {
+            return Err(InvalidLesson::new(&["size"], Problem::LongSide));
         }
-        if self.atom == 0 || size.pixels().div_ceil(self.atom.max(1)) > MOST_ATOMS {
-            let why = format!("atoms of {} pixels: there can be up to {MOST_ATOMS} of at least one", self.atom);
-            return Err(Wrong::new(&["atom"], why));
+        if self.atom == 0 {
+            return Err(InvalidLesson::new(&["atom"], Problem::EmptyAtom));
         }
-        if !(1..=MOST_MACHINES).contains(&self.speeds.len()) {
-            let why = format!("there can be 1 to {MOST_MACHINES} machines, not {}", self.speeds.len());
-            return Err(Wrong::new(&["speeds"], why));
+        if size.pixels().div_ceil(self.atom) > MAX_ATOMS {
+            return Err(InvalidLesson::new(&["atom"], Problem::TooManyAtoms(self.atom)));
+        }
+        if !(1..=MAX_MACHINES).contains(&self.speeds.len()) {
+            return Err(InvalidLesson::new(&["speeds"], Problem::MachineCount(self.speeds.len())));
         }
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
-            return Err(Wrong::new(&["speeds"], "a speed can be 0 to 1"));
+            return Err(InvalidLesson::new(&["speeds"], Problem::Speed));
         }
         if self.spares >= self.speeds.len() || self.spares > 0 && self.strategy != Strategy::Adaptive {
-            let why = "only an `adaptive` run has spare machines, the last of its `speeds`, and not all can be spare";
-            return Err(Wrong::new(&["spares"], why));
+            return Err(InvalidLesson::new(&["spares"], Problem::Spares));
         }
         if !self.without.is_empty() && self.strategy != Strategy::Adaptive {
-            return Err(Wrong::new(&["without"], "only an `adaptive` run has remedies that it could be without"));
+            return Err(InvalidLesson::new(&["without"], Problem::NoRemedies));
         }
-        let ms = |field, value| {
-            within(&format!("`{field}`"), value, 0.0, 60_000.0)
+        let duration = |field, what, milliseconds| {
+            in_range(what, milliseconds, 0.0, 60_000.0)
                 .map(|value| Duration::from_secs_f64(value * 1e-3))
-                .map_err(|why| Wrong::new(&[field], why))
+                .map_err(|problem| InvalidLesson::new(&[field], problem))
         };
-        let part = self.part.filter(|part| !(1..=MOST_ATOMS).contains(part));
-        if let Some(part) = part {
-            return Err(Wrong::new(&["part"], format!("a part can be 1 to {MOST_ATOMS} atoms, not {part}")));
+        if let Some(part) = self.part.filter(|part| !(1..=MAX_ATOMS).contains(part)) {
+            return Err(InvalidLesson::new(&["part"], Problem::Part(part)));
         }
         let mut script = Vec::new();
-        for (index, deed) in self.script.into_iter().enumerate() {
-            let deed = deed.resolve(self.speeds.len());
-            script.push(deed.map_err(|why| Wrong::new(&["script", &index.to_string()], why))?);
+        for (index, entry) in self.script.into_iter().enumerate() {
+            let entry = entry.resolve(self.speeds.len());
+            script.push(entry.map_err(|problem| InvalidLesson::new(&["script", &index.to_string()], problem))?);
         }
         script.sort_by_key(|(at, _)| *at);
-        let lasts = within("`seconds`", self.seconds, 0.1, 3600.0).map_err(|why| Wrong::new(&["seconds"], why))?;
+        let lasts = in_range("`seconds`", self.seconds, 0.1, 3600.0)
+            .map_err(|problem| InvalidLesson::new(&["seconds"], problem))?;
         Ok(RunPlan {
             scene: self.scene,
             size,
             atom: self.atom,
             strategy: self.strategy,
             part: self.part,
-            latency: ms("latency_ms", self.latency_ms)?,
-            handling: ms("handling_ms", self.handling_ms)?,
+            latency: duration("latency_ms", "`latency_ms`", self.latency_ms)?,
+            handling: duration("handling_ms", "`handling_ms`", self.handling_ms)?,
             lasts: Duration::from_secs_f64(lasts),
             speeds: self.speeds,
-            // Fewer than machines, of which there are few.
+            // Fewer than the machines, of which there are at most 32.
             spares: self.spares as NodeId,
             remedies: self.without.into_iter().fold(Remedies::ALL, Remedies::without),
             script,
@@ -270,14 +250,14 @@ impl PlanFile {
     }
 }
 
-impl ScriptStep {
-    fn resolve(self, machines: usize) -> Result<(Time, Command), String> {
+impl ScriptEntry {
+    fn resolve(self, machines: usize) -> Result<(Time, Command), Problem> {
         let node = node(self.machine, machines)?;
-        let at = within("the second at which a machine changes", self.at, 0.0, 3600.0)?;
+        let at = in_range("`at`, in seconds,", self.at, 0.0, 3600.0)?;
         let command = match (self.speed, self.becomes) {
-            (Some(speed), None) => Command::Speed { node, speed: within("a speed", speed, 0.0, 1.0)? },
+            (Some(speed), None) => Command::Speed { node, speed: in_range("a speed", speed, 0.0, 1.0)? },
             (None, Some(becomes)) => Command::Condition { node, condition: becomes.condition() },
-            _ => return Err("a machine gets another `speed`, or `becomes` something: one of both".into()),
+            _ => return Err(Problem::ScriptEntry),
         };
         Ok((Time::from_secs(at), command))
     }
@@ -295,69 +275,64 @@ impl ConditionFile {
 }
 
 impl StepFile {
-    fn resolve(self, runs: &BTreeMap<String, RunPlan>, run: String) -> Result<Step, Wrong> {
-        let known = |name: &String, path: &[&str]| {
-            let all: Vec<_> = runs.keys().map(|name| format!("`{name}`")).collect();
-            let wrong = || Wrong::new(path, format!("there is no run `{name}`; there are {}", all.join(", ")));
-            runs.get(name).ok_or_else(wrong)
+    fn resolve(self, runs: &BTreeMap<String, RunPlan>, run: String) -> Result<Step, InvalidLesson> {
+        let find = |name: &String, path: &[&str]| {
+            let known: Vec<_> = runs.keys().map(|name| format!("`{name}`")).collect();
+            let problem = || Problem::NoRun { name: name.clone(), known: known.join(", ") };
+            runs.get(name).ok_or_else(|| InvalidLesson::new(path, problem()))
         };
-        let machines = known(&run, &["run"])?.speeds.len();
+        let machines = find(&run, &["run"])?.speeds.len();
         for (index, claim) in self.holds.iter().enumerate() {
             let index = index.to_string();
             for (field, name) in [("of", &claim.of), ("over", &claim.over)] {
-                name.iter().try_for_each(|name| known(name, &["holds", &index, field]).map(|_| ()))?;
+                name.iter().try_for_each(|name| find(name, &["holds", &index, field]).map(|_| ()))?;
             }
             if claim.at_least.is_none() && claim.at_most.is_none() {
-                return Err(Wrong::new(&["holds", &index], "a claim needs `at_least` or `at_most`"));
+                return Err(InvalidLesson::new(&["holds", &index], Problem::Unbounded));
             }
         }
         let machine = self.machine.map(|machine| node(machine, machines)).transpose();
-        let machine = machine.map_err(|why| Wrong::new(&["machine"], why))?;
+        let machine = machine.map_err(|problem| InvalidLesson::new(&["machine"], problem))?;
         let ask = self.ask.map(QuestionFile::resolve).transpose()?;
         Ok(Step { say: self.say, run, until: self.until, machine, look: self.look, ask, holds: self.holds })
     }
 }
 
 impl QuestionFile {
-    fn resolve(self) -> Result<Question, Wrong> {
+    fn resolve(self) -> Result<Question, InvalidLesson> {
         let answers = self.answers.len();
         if !(2..=5).contains(&answers) {
-            let why = format!("a question can have 2 to 5 answers, not {answers}");
-            return Err(Wrong::new(&["ask", "answers"], why));
+            return Err(InvalidLesson::new(&["ask", "answers"], Problem::AnswerCount(answers)));
         }
         if !(1..=answers).contains(&self.right) {
-            let why = format!("`right` is the number of the right answer, 1 to {answers}, not {}", self.right);
-            return Err(Wrong::new(&["ask", "right"], why));
+            let problem = Problem::RightAnswer { right: self.right, answers };
+            return Err(InvalidLesson::new(&["ask", "right"], problem));
         }
         let Self { question, answers, right, because } = self;
         Ok(Question { question, answers, right: right - 1, because })
     }
 }
 
-/// By its name on the command line.
+/// Reads a strategy by its name on the command line.
 fn strategy<'de, D: Deserializer<'de>>(from: D) -> Result<Strategy, D::Error> {
     String::deserialize(from)?.parse().map_err(D::Error::custom)
 }
 
-/// By their names on the command line.
+/// Reads remedies by their names on the command line.
 fn remedies<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Remedy>, D::Error> {
     let names = Vec::<String>::deserialize(from)?;
     names.iter().map(|name| name.parse().map_err(D::Error::custom)).collect()
 }
 
-/// People count machines from 1.
-fn node(machine: usize, machines: usize) -> Result<NodeId, String> {
-    let is_there = (1..=machines).contains(&machine);
-    // No more than 32.
-    if is_there {
-        Ok((machine - 1) as NodeId)
-    } else {
-        Err(format!("there are machines 1 to {machines}, not {machine}"))
-    }
+/// Converts a machine's number, from 1, into its node.
+fn node(machine: usize, machines: usize) -> Result<NodeId, Problem> {
+    let exists = (1..=machines).contains(&machine);
+    // At most 32.
+    if exists { Ok((machine - 1) as NodeId) } else { Err(Problem::NoMachine { machine, machines }) }
 }
 
-/// A number within bounds.
-fn within(what: &str, value: f64, least: f64, most: f64) -> Result<f64, String> {
-    let is_possible = (least..=most).contains(&value);
-    if is_possible { Ok(value) } else { Err(format!("{what} can be {least} to {most}, not {value}")) }
+/// Returns `value` if it lies from `least` to `most`.
+fn in_range(what: &'static str, value: f64, least: f64, most: f64) -> Result<f64, Problem> {
+    let is_valid = (least..=most).contains(&value);
+    if is_valid { Ok(value) } else { Err(Problem::OutOfRange { what, least, most, value }) }
 }

@@ -1,14 +1,16 @@
-//! What is taught: a lesson is a text file with runs in virtual time, steps through them, questions to be answered before
-//! one sees, and claims that are true of the runs.
+//! Lessons: text files with runs in virtual time, steps through these runs, questions that are answered before the
+//! result is shown, and claims about the runs, which are checked.
 
 mod claim;
+mod claim_words;
+mod error;
 mod file;
 mod moment;
 mod perform;
-mod validate;
 mod words;
 
 pub use claim::{Claim, ClaimFigure};
+pub use error::{LessonError, MissingMoment};
 pub use file::is_lesson_file;
 pub use moment::Moment;
 pub use perform::LessonRun;
@@ -24,27 +26,34 @@ use crate::balance::{NodeId, Remedies, Strategy};
 use crate::picture::Size;
 use crate::scenario::Script;
 
-/// A lesson as it is read from its file.
+/// The greatest number of machines of a run; the window can show no more.
+const MAX_MACHINES: usize = 32;
+/// The greatest number of atoms of a run.
+const MAX_ATOMS: u32 = 1 << 18;
+/// The longest side of a run's picture.
+const MAX_SIDE_PX: u32 = 2048;
+
+/// A lesson as read from its file: its names exist, and its numbers are in their ranges.
 #[derive(Clone, Debug)]
 pub struct Lesson {
-    /// Its file's name without its ending.
+    /// The name of its file without the ending.
     pub name: String,
-    /// Where its file lies, and scenes that are files beside it; the working directory, if it is no file.
+    /// The directory of its file and of its scene files; empty, which is the working directory, for a built-in lesson.
     pub directory: PathBuf,
-    /// What it is called.
+    /// The title.
     pub title: Words,
-    /// What it is about, in a line.
+    /// The subject, in one line.
     pub about: Words,
-    /// The runs that it shows, by name.
+    /// The runs that it shows, by name; at least one.
     pub runs: BTreeMap<String, RunPlan>,
-    /// What is said and shown, one after the other; at least one.
+    /// The steps in their order; at least one.
     pub steps: Vec<Step>,
 }
 
 /// A run that a lesson shows.
 #[derive(Clone, Debug)]
 pub struct RunPlan {
-    /// A built-in scene, or a scene's file beside the lesson's.
+    /// The name of a built-in scene, or of a scene file beside the lesson file.
     pub scene: String,
     /// Width and height of the picture.
     pub size: Size,
@@ -52,67 +61,67 @@ pub struct RunPlan {
     pub atom: u32,
     /// How the atoms are shared.
     pub strategy: Strategy,
-    /// The atoms of a farm's part, or the least of a transfer; the strategy's usual if `None`.
+    /// Atoms of a farm's part, or the fewest atoms of a transfer; the strategy's default if `None`.
     pub part: Option<u32>,
-    /// A machine a speed, 0 to 1.
+    /// The speed of each machine, 0 to 1.
     pub speeds: Vec<f64>,
-    /// How many of the machines, the last ones, are off at first and may join.
+    /// The number of machines, the last ones, that are off at first and may join.
     pub spares: NodeId,
-    /// What the ring that adapts does otherwise than the article's.
+    /// The remedies of the adaptive ring that are in use.
     pub remedies: Remedies,
-    /// How long a message travels.
+    /// The time that a message travels.
     pub latency: Duration,
-    /// How long the parent is busy with a message.
+    /// The time for which the parent is busy with a message.
     pub handling: Duration,
-    /// How long the run would last, had the work been shared perfectly.
+    /// The makespan if the work were shared perfectly.
     pub lasts: Duration,
-    /// What is done to it.
+    /// Commands to the run, in the order of their times.
     pub script: Script,
 }
 
 /// A step of a lesson.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What is said.
+    /// The text.
     pub say: Words,
-    /// Which run is shown.
+    /// The name of the run that is shown.
     pub run: String,
-    /// Up to where time goes.
+    /// The moment to which the run is played; if `None` it stays at the moment of the step before.
     pub until: Option<Moment>,
-    /// Which machine stands out.
+    /// The node of the machine that stands out.
     pub machine: Option<NodeId>,
-    /// What is looked at.
+    /// The view below the picture and the ring.
     pub look: LowerView,
-    /// What is asked before one sees.
+    /// The question that is answered before the run goes on.
     pub ask: Option<Question>,
-    /// What is claimed.
+    /// The claims about the runs.
     pub holds: Vec<Claim>,
 }
 
-/// What stands below the picture and the ring.
+/// The view below the picture and the ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum LowerView {
-    /// The machines.
+    /// The table of machines.
     #[default]
     Machines,
-    /// A lane a machine.
+    /// The timeline, with a lane for each machine.
     Timeline,
 }
 
 /// A question with answers, one of which is right.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// What is asked.
+    /// The question.
     pub question: Words,
-    /// What may be answered.
+    /// The answers to choose from, two to five.
     pub answers: Vec<Words>,
-    /// Which of them is right.
+    /// The index of the right answer, from 0.
     pub right: usize,
-    /// Why.
+    /// The reason, shown after the answer.
     pub because: Words,
 }
 
-/// The lessons that come with the program, in the order in which they are best taken: name and text.
+/// The built-in lessons in the order in which they are best taken: name and text.
 pub const BUILT_IN: [(&str, &str); 14] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),

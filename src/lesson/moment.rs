@@ -1,4 +1,4 @@
-//! Moments of a run that a lesson goes to.
+//! The moments of a run to which steps of a lesson go.
 
 use serde::Deserialize;
 
@@ -14,27 +14,27 @@ use crate::view::Subject;
 pub enum Moment {
     /// Before anything has happened.
     Start,
-    /// So many seconds after its beginning.
+    /// This time after the beginning, in seconds.
     Seconds(f64),
-    /// So much of the picture is traced, 0 to 1.
+    /// This share of the atoms is traced, 0 to 1.
     Traced(f64),
     /// A machine offers help for the first time.
     FirstOffer,
     /// Atoms go from one machine to another for the first time.
     FirstTransfer,
-    /// The transfer of most atoms.
+    /// The transfer of most atoms; the first of equals.
     BiggestTransfer,
-    /// The transfer of fewest atoms; of equals the last.
+    /// The transfer of fewest atoms; the last of equals.
     SmallestTransfer,
-    /// A machine is no longer needed for the first time.
+    /// A machine's own offer comes back for the first time: it retires, or sleeps in the adaptive ring.
     FirstRetired,
-    /// Something becomes of a machine for the first time.
+    /// The condition of a machine changes for the first time.
     FirstFailure,
     /// The ring closes round a machine, or opens for one, for the first time.
     FirstGone,
-    /// Atoms that are late or lost are given to another machine for the first time, to be traced again.
+    /// Late or lost atoms are given out again for the first time.
     FirstAgain,
-    /// A machine that sleeps is woken for the first time.
+    /// A sleeping machine is woken for the first time.
     FirstWake,
     /// From here on only one machine traces.
     LastAlone,
@@ -43,7 +43,8 @@ pub enum Moment {
 }
 
 impl Moment {
-    /// How many records have happened then, and what the last of them is about. `None` if the run has no such moment.
+    /// Returns the number of records up to the moment, and the subject of the last of them. `None` if the run does not
+    /// have the moment.
     pub fn of(self, log: &RunLog) -> Option<(usize, Option<Subject>)> {
         let records = log.records();
         let first = |is_it: &dyn Fn(&RecordKind) -> bool| records.iter().position(|record| is_it(&record.what));
@@ -70,7 +71,7 @@ impl Moment {
             Self::FirstRetired => first(&|what| matches!(what, RecordKind::Retired { .. })),
             Self::FirstFailure => first(&|what| matches!(what, RecordKind::Condition { .. })),
             Self::FirstGone => records.iter().position(|record| {
-                // At the beginning only the seats are empty that were never taken.
+                // At time 0 the ring closes round the spare machines, which are off at first.
                 record.at > Time::ZERO && matches!(record.what, RecordKind::Sent { message: Message::Gone(_), .. })
             }),
             Self::FirstAgain => first(&|what| matches!(what, RecordKind::Sent { message: Message::Again(_), .. })),
@@ -90,7 +91,7 @@ fn is_own_offer(what: &RecordKind) -> bool {
     matches!(what, RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
 }
 
-/// How many atoms go from one machine to another.
+/// The number of atoms that the record sends from one machine to another.
 fn moved(what: &RecordKind) -> u32 {
     match what {
         RecordKind::Sent { message: Message::Transfer(ranges), .. } => atoms_in(ranges),
@@ -98,11 +99,12 @@ fn moved(what: &RecordKind) -> u32 {
     }
 }
 
+/// The transfers: index of the record, and number of atoms.
 fn transfers(records: &[Record]) -> impl Iterator<Item = (usize, u32)> {
     records.iter().enumerate().map(|(i, record)| (i, moved(&record.what))).filter(|(_, atoms)| *atoms > 0)
 }
 
-/// Where the last atom of the last machine but one is done.
+/// The index of the last atom's record of the last machine but one: from there on one machine traces alone.
 fn alone(log: &RunLog) -> Option<usize> {
     let mut ends = vec![None; log.header.speeds.len()];
     for (i, record) in log.records().iter().enumerate() {

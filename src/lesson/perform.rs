@@ -1,11 +1,11 @@
-//! Runs a lesson's runs.
+//! Executes the runs of a lesson in virtual time.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Lesson, RunPlan};
+use super::{Lesson, LessonError, RunPlan};
 use crate::balance::Rules;
 use crate::cancel::CancelToken;
 use crate::driver::TracedPicture;
@@ -15,18 +15,18 @@ use crate::scene::{Opened, built_in};
 use crate::sim::{PixelCosts, Trial};
 use crate::tracer::Tracer;
 
-/// A run of a lesson that has been run.
+/// A finished run of a lesson.
 #[derive(Clone)]
 pub struct LessonRun {
     /// Its scene.
     pub opened: Arc<Opened>,
-    /// The scene, compiled for its picture.
+    /// The scene, compiled for the size of the picture.
     pub tracer: Arc<Tracer>,
-    /// All that happened.
+    /// The records of the run.
     pub log: Arc<RunLog>,
 }
 
-/// A scene's picture at a size, and what its pixels cost.
+/// A scene traced at one size, and the cost of each pixel.
 struct TracedPixels {
     opened: Arc<Opened>,
     tracer: Arc<Tracer>,
@@ -34,26 +34,24 @@ struct TracedPixels {
 }
 
 impl Lesson {
-    /// Runs all runs in virtual time, and tells `done` how many more pixels are traced. `None` if cancelled before the end.
+    /// Executes all runs in virtual time. Calls `done` with the number of newly traced pixels. Returns `None` if
+    /// cancelled before the end.
     ///
     /// # Errors
-    /// A sentence that names the run.
+    /// [`LessonError::Scene`] if a scene cannot be opened, [`LessonError::Trace`] if a thread fails.
     pub fn perform(
         &self,
         done: &(dyn Fn(u32) + Sync),
         cancel: &CancelToken,
-    ) -> Result<Option<Vec<(String, LessonRun)>>, String> {
-        // Each scene is traced once at each size.
-        let mut known: BTreeMap<(&str, u32, u32), TracedPixels> = BTreeMap::new();
+    ) -> Result<Option<Vec<(String, LessonRun)>>, LessonError> {
+        // Runs with the same scene and size share one traced picture.
+        let mut pictures: BTreeMap<(&str, u32, u32), TracedPixels> = BTreeMap::new();
         let mut performed = Vec::new();
         for (name, plan) in &self.runs {
-            let traced = match known.entry(plan.picture()) {
+            let traced = match pictures.entry(plan.picture()) {
                 Entry::Occupied(traced) => traced.into_mut(),
                 Entry::Vacant(place) => {
-                    let traced = trace(plan, &self.directory, done, cancel);
-                    let Some(traced) = traced.map_err(|why| format!("the run `{name}`: {why}"))? else {
-                        return Ok(None);
-                    };
+                    let Some(traced) = trace(name, plan, &self.directory, done, cancel)? else { return Ok(None) };
                     place.insert(traced)
                 }
             };
@@ -64,7 +62,7 @@ impl Lesson {
         Ok(Some(performed))
     }
 
-    /// How many pixels are traced to run all runs.
+    /// The number of pixels that [`Lesson::perform`] traces.
     pub fn pixels(&self) -> u32 {
         let pictures: BTreeSet<_> = self.runs.values().map(RunPlan::picture).collect();
         pictures.iter().map(|(_, width, height)| width * height).sum()
@@ -72,15 +70,15 @@ impl Lesson {
 }
 
 impl RunPlan {
-    /// The picture that is to be traced: its scene, width and height.
+    /// The picture of the run: scene, width and height.
     fn picture(&self) -> (&str, u32, u32) {
         (&self.scene, self.size.width(), self.size.height())
     }
 
-    /// The run, on machines so fast that it would last as long as planned.
+    /// The run, at a pace that gives the planned makespan if the work is shared perfectly.
     fn trial(&self, opened: &Opened, costs: &PixelCosts) -> Trial {
         let plain = Header::plain(self.size, self.atom, self.strategy, self.speeds.clone());
-        // Some machines may stand still, but not all.
+        // A speed may be 0. If all are 0, the limit keeps the pace finite.
         let own = self.speeds.len() - usize::from(self.spares);
         let power: f64 = self.speeds[..own].iter().sum::<f64>().max(1e-3);
         let pace = costs.whole().as_secs_f64() / (self.lasts.as_secs_f64() * power);
@@ -104,18 +102,21 @@ impl RunPlan {
     }
 }
 
+/// Traces the picture of the run `name` pixel by pixel.
 fn trace(
+    name: &str,
     plan: &RunPlan,
     directory: &Path,
     done: &(dyn Fn(u32) + Sync),
     cancel: &CancelToken,
-) -> Result<Option<TracedPixels>, String> {
+) -> Result<Option<TracedPixels>, LessonError> {
     let beside = directory.join(&plan.scene);
     let argument =
         if built_in(&plan.scene).is_some() { plan.scene.clone() } else { beside.to_string_lossy().into_owned() };
-    let opened = Arc::new(Opened::new(&argument).map_err(|error| error.to_string())?);
+    let opened = Opened::new(&argument).map_err(|source| LessonError::Scene { run: name.to_owned(), source })?;
+    let opened = Arc::new(opened);
     let tracer = Arc::new(Tracer::new(&opened.scene, plan.size, Quality::default()));
-    let traced = TracedPicture::by_pixel(&tracer, done, cancel).map_err(|error| error.to_string())?;
-    let Some((_, costs)) = traced else { return Ok(None) };
-    Ok(Some(TracedPixels { opened, tracer, costs }))
+    let traced = TracedPicture::by_pixel(&tracer, done, cancel)
+        .map_err(|source| LessonError::Trace { run: name.to_owned(), source })?;
+    Ok(traced.map(|(_, costs)| TracedPixels { opened, tracer, costs }))
 }

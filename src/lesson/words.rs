@@ -7,7 +7,7 @@ use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 
 use crate::language::Language;
 
-/// A text in English and in Portuguese. In a file it is written `("English", "Português")`, or as one text for both.
+/// A text in English and in Portuguese. A file has `("English", "Português")`, or one text for both languages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Words {
     english: String,

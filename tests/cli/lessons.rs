@@ -18,7 +18,7 @@ fn claims_of_every_lesson_hold() {
         let wrong: Vec<_> = claims.iter().filter(|(_, holds)| !holds).map(|(claim, _)| claim).collect();
         assert!(wrong.is_empty(), "{name}: {wrong:#?}");
         // A lesson without claims could say anything.
-        assert!(claims.len() >= 3, "{name} makes {} claims", claims.len());
+        assert!(claims.len() >= 3, "{name} has {} claims", claims.len());
         assert!(lesson.steps.iter().any(|step| step.ask.is_some()), "{name} has no question");
     }
 }
@@ -53,9 +53,10 @@ fn false_claim_is_found() {
         claims.len() == 1 && claims[0].0.starts_with("step 1: the run `one` has no FirstTransfer; it lasts "),
         "{claims:?}"
     );
-    // A time after the end of the run does not occur either.
+    // A run has no moment after its end.
     let lesson = Lesson::parse("mine", &lesson_text("", "until: Seconds(500)")).expect("a lesson");
-    let refused = lesson.has_moments(&performed(&lesson)).expect_err("the run lasts some twenty seconds");
+    let refused =
+        lesson.check_moments(&performed(&lesson)).expect_err("the run lasts about twenty seconds").to_string();
     assert!(refused.starts_with("step 1: the run `one` has no Seconds(500.0); it lasts "), "{refused}");
 }
 
@@ -109,7 +110,7 @@ fn scene_beside_the_lesson_is_found() {
     assert_eq!(performed[0].1.opened.name, "ball");
     let lesson = Lesson { directory: "/nowhere".into(), ..lesson };
     let missing = lesson.perform(&|_| {}, &CancelToken::default());
-    assert!(missing.is_err_and(|why| why.starts_with("the run `one`: ")), "it names the run");
+    assert!(missing.is_err_and(|error| error.to_string().starts_with("the run `one`: ")), "it names the run");
 }
 
 #[test]

@@ -191,12 +191,12 @@ fn bad_arguments_are_refused_before_tracing() {
         (&["--out", "/dev/null"], "not a regular file"),
         (&["--log", "missing/run.log"], "does not exist"),
         (&["--sise", "1x1"], "--sise"),
-        (&["--strategy", "rayon", "--latency", "1"], "share their memory"),
-        (&["--strategy", "rayon", "--bandwidth", "1e6"], "share their memory"),
-        (&["--strategy", "rayon", "--handling", "1"], "share their memory"),
-        (&["--strategy", "rayon", "--shared-wire"], "share their memory"),
-        (&["--strategy", "rayon", "--driver", "pairs"], "threads of its own"),
-        (&["--strategy", "rayon", "--driver", "sim"], "threads of its own"),
+        (&["--strategy", "rayon", "--latency", "1"], "do not apply to rayon"),
+        (&["--strategy", "rayon", "--bandwidth", "1e6"], "do not apply to rayon"),
+        (&["--strategy", "rayon", "--handling", "1"], "do not apply to rayon"),
+        (&["--strategy", "rayon", "--shared-wire"], "do not apply to rayon"),
+        (&["--strategy", "rayon", "--driver", "pairs"], "only with --driver threads"),
+        (&["--strategy", "rayon", "--driver", "sim"], "only with --driver threads"),
     ];
     for (arguments, names) in cases {
         let mut all = vec!["render", "glass"];

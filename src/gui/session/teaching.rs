@@ -9,7 +9,7 @@ use super::jobs::Jobs;
 use super::preview::preview_pixels;
 use crate::cancel::CancelToken;
 use crate::language::{Language, say};
-use crate::lesson::Lesson;
+use crate::lesson::{Lesson, LessonError};
 use crate::view::RunView;
 
 /// A lesson that is being prepared.
@@ -79,7 +79,7 @@ impl Jobs {
             let performed = lesson.perform(&done, &CancelToken::default());
             let prepared = performed.and_then(|performed| {
                 let performed = performed.unwrap_or_default();
-                lesson.has_moments(&performed)?;
+                lesson.check_moments(&performed)?;
                 let values = lesson.values(&performed);
                 let recorded = performed.into_iter().map(|(name, run)| {
                     let view = Arc::new(RunView::of(&run.log));
@@ -88,7 +88,7 @@ impl Jobs {
                 });
                 Ok(PreparedLesson { runs: recorded.collect(), lesson, values })
             });
-            let error = |why| {
+            let error = |why: LessonError| {
                 say!(
                     language,
                     "The lesson cannot be shown. Correct its file: {why}",

@@ -193,7 +193,9 @@ impl Lane {
 mod tests {
     use super::*;
 
-    fn lane(changes: &[(u64, fn(&mut Lane, Time))]) -> Lane {
+    type Change = fn(&mut Lane, Time);
+
+    fn lane(changes: &[(u64, Change)]) -> Lane {
         let mut lane = Lane::new(1.0, false);
         changes.iter().for_each(|(at, change)| change(&mut lane, Time(*at)));
         lane

@@ -55,10 +55,9 @@ impl Findings {
         growth: Option<&Growth>,
         now: Time,
         length: Time,
-        look: Look,
         language: Language,
     ) -> Option<Time> {
-        let mut sought = None;
+        let (look, mut sought) = (Look::of(ui.ctx()), None);
         let area = ui.available_rect_before_wrap();
         let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID);
         let left = area.with_max_x(area.right() - right - 3.0 * GRID);

@@ -222,7 +222,7 @@ impl Compare {
         let area = ui.available_rect_before_wrap();
         ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
             let growth = self.growth.as_ref().and_then(|(_, growth)| growth.as_ref());
-            if let Some(time) = self.findings.show(ui, &mut self.columns, growth, now, length, look, language) {
+            if let Some(time) = self.findings.show(ui, &mut self.columns, growth, now, length, language) {
                 self.time.seek(time, true);
             }
         });

@@ -74,7 +74,7 @@ fn several(state: &RunState, busy: &[Machine<'_>], still: &[Machine<'_>], langua
     let (name, left) = (node_name(*node), atoms_words(last.left(), language));
     let retired = retired(state);
     if !still.is_empty() {
-        format!("{compute}; {}", machines_stand_still(&still, language))
+        format!("{compute}; {}", machines_stand_still(still, language))
     } else if !retired.is_empty() && retired.len() == machines - busy.len() && last.left() > PIPE_ATOMS {
         let who = names(&retired, language);
         match &*retired {

@@ -1,26 +1,27 @@
-//! What claims came to, for whoever takes the lesson.
+//! Texts of checked claims, which the window shows below the answer of a step.
 
 use super::{Claim, ClaimFigure, Step};
 use crate::language::{Language, decimal, say, word};
 use crate::view::{count, fraction, seconds_words};
 
 impl Step {
-    /// What its claims came to, of which these are the values; nothing if it claims nothing.
+    /// The text of the step's claims with their values; `None` if there is no claim to show.
     pub fn checked_words(&self, values: &[Option<f64>], language: Language) -> Option<String> {
-        let told: Vec<_> = self
+        let claims: Vec<_> = self
             .holds
             .iter()
             .zip(values)
             .filter_map(|(claim, value)| claim.words(&self.run, (*value)?, language))
             .collect();
-        let told = told.join(" · ");
-        (!told.is_empty())
-            .then(|| say!(language, "Checked on these runs: {told}", "Conferido nestas execuções: {told}"))
+        let claims = claims.join(" · ");
+        (!claims.is_empty())
+            .then(|| say!(language, "Checked on these runs: {claims}", "Conferido nestas execuções: {claims}"))
     }
 }
 
 impl Claim {
-    /// Its value in words; `run` is what the step shows. `None` if there is nothing to be told that one does not see.
+    /// The text of the claim with its value; `run` is the run that the step shows. `None` for
+    /// [`ClaimFigure::Ends`], which the picture itself shows.
     fn words(&self, run: &str, value: f64, language: Language) -> Option<String> {
         let (name, of) = (self.figure.name(language)?, self.of.as_deref().unwrap_or(run));
         Some(match (&self.over, &self.of) {
@@ -32,6 +33,7 @@ impl Claim {
 }
 
 impl ClaimFigure {
+    /// The name of the figure; `None` for [`Self::Ends`].
     fn name(self, language: Language) -> Option<&'static str> {
         Some(match self {
             Self::Seconds => word!(language, "time", "tempo"),
@@ -53,12 +55,13 @@ impl ClaimFigure {
         })
     }
 
+    /// The value with its unit.
     fn shown(self, value: f64, language: Language) -> String {
         match self {
             Self::Seconds => seconds_words(value, language),
             Self::Efficiency | Self::Waiting | Self::Asking | Self::Starting | Self::Alone => fraction(value),
             Self::Dearest => decimal(language, value, 1),
-            // Counts of what happens in a run that can be shown.
+            // The other figures are counts.
             _ => count(value as u64),
         }
     }
@@ -70,16 +73,16 @@ mod tests {
     use crate::language::Language;
 
     #[test]
-    fn what_was_claimed_is_told_with_its_value() {
+    fn claims_are_shown_with_their_values() {
         let text = "Lesson(title: \"A\", about: \"B\", runs: {\"bands\": (), \"ring\": ()}, steps: [(say: \"C\", \
                     run: \"ring\", holds: [(figure: Seconds, over: \"bands\", at_most: 0.6), (figure: Efficiency, \
                     of: \"bands\", at_least: 0.1), (figure: Ends, at_least: 1), (figure: Offers, at_least: 1)])])";
         let lesson = Lesson::parse("mine", text).expect("a lesson");
-        let told_in = |language| lesson.steps[0].checked_words(&[Some(0.517), Some(0.5), Some(1.0), None], language);
+        let words_in = |language| lesson.steps[0].checked_words(&[Some(0.517), Some(0.5), Some(1.0), None], language);
         let english = "Checked on these runs: time, ring ÷ bands: 0.52 · efficiency, bands: 50 %";
-        assert_eq!(told_in(Language::English).as_deref(), Some(english));
+        assert_eq!(words_in(Language::English).as_deref(), Some(english));
         let portuguese = "Conferido nestas execuções: tempo, ring ÷ bands: 0,52 · eficiência, bands: 50 %";
-        assert_eq!(told_in(Language::Portuguese).as_deref(), Some(portuguese));
+        assert_eq!(words_in(Language::Portuguese).as_deref(), Some(portuguese));
         assert_eq!(lesson.steps[0].checked_words(&[None; 4], Language::English), None);
     }
 }
