@@ -17,8 +17,8 @@ pub(super) struct FramePalette {
 /// Most colours in a palette of 256 entries, of which one is transparent.
 const MAX_COLOURS: usize = 255;
 
-/// With too many colours, a colour that covers at least this fraction of the pixels (1 / `AREA_DIVISOR`) is kept exactly: areas
-/// stay flat and meet earlier frames without a seam.
+/// With too many colours, a colour that covers at least this fraction of the pixels (1 / `AREA_DIVISOR`) is kept
+/// exactly: areas stay flat and meet earlier frames without a seam.
 const AREA_DIVISOR: usize = 100;
 
 impl FramePalette {

@@ -258,7 +258,8 @@ impl Walk {
         self.look_everywhere(&format!("{name}, the end"));
     }
 
-    /// Looks in windows of two sizes, in projector mode and in both languages. Returns to the first window and to English.
+    /// Looks in windows of two sizes, in projector mode and in both languages. Returns to the first window and to
+    /// English.
     fn look_everywhere(&mut self, page: &str) {
         for (size, in_projector_mode) in [(SIZE, false), (SIZE, true), ([1920.0, 1080.0], true)] {
             self.window.set_size(size.into());

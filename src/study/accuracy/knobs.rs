@@ -59,7 +59,8 @@ impl Knob {
     }
 }
 
-/// Returns sensible combinations of all knobs, with at most [`MAX_SAMPLES_PER_SIDE`] × [`MAX_SAMPLES_PER_SIDE`] samples a pixel.
+/// Returns sensible combinations of all knobs, with at most [`MAX_SAMPLES_PER_SIDE`] × [`MAX_SAMPLES_PER_SIDE`]
+/// samples a pixel.
 pub fn combinations() -> Vec<Quality> {
     const LIMITS: [(u32, f64); 3] = [(4, 0.03), (10, 1.0 / 255.0), (20, 1e-3)];
     // With this few samples a threshold would only add some.

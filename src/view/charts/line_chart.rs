@@ -55,8 +55,8 @@ pub enum Style {
     Dashed,
 }
 
-/// Returns the colour of the `i`-th series of a chart: that of a node in a ring of [`crate::palette::DISTINCT_COLOURS`]. From
-/// the ninth on colours repeat.
+/// Returns the colour of the `i`-th series of a chart: that of a node in a ring of
+/// [`crate::palette::DISTINCT_COLOURS`]. From the ninth on colours repeat.
 pub fn series_hue(i: usize) -> Hue {
     Hue::Node(CHART_NODES[i % CHART_NODES.len()])
 }
