@@ -19,7 +19,7 @@ fn main() {
 #[expect(clippy::disallowed_methods, reason = "a benchmark")]
 fn run(strategy: Strategy, nodes: usize, width: u32, height: u32) {
     let size = Size::new(width, height).expect("a size");
-    let plain = Header::plain(size, 1, strategy, vec![1.0; nodes]);
+    let plain = Header::plain(size, 1, strategy.clone(), vec![1.0; nodes]);
     let header = Header {
         driver: Driver::Sim,
         link: LinkSettings { latency: Duration::from_millis(1), ..plain.link },

@@ -16,7 +16,7 @@ use crate::picture::Division;
 use crate::time::Time;
 
 /// A way to share the atoms among the nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strategy {
     /// The first node traces all atoms; the others do nothing.
@@ -40,7 +40,7 @@ pub enum Strategy {
 pub(super) const LEASE_BEATS: u32 = 4;
 
 /// The strategy of a run and its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rules {
     /// The strategy.
     pub strategy: Strategy,
@@ -67,7 +67,7 @@ impl Strategy {
         [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring, Self::Adaptive];
 
     /// Returns the name on the command line and in files.
-    pub fn name(self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         match self {
             Self::Serial => "serial",
             Self::Static => "static",
@@ -80,17 +80,17 @@ impl Strategy {
     }
 
     /// Returns whether nodes ask the parent for parts.
-    pub fn is_farm(self) -> bool {
+    pub fn is_farm(&self) -> bool {
         matches!(self, Self::Farm | Self::FarmBySpeed)
     }
 
     /// Returns whether nodes offer help along a ring.
-    pub fn is_ring(self) -> bool {
+    pub fn is_ring(&self) -> bool {
         matches!(self, Self::Ring | Self::Adaptive)
     }
 
     /// Returns the default of [`Rules::part`]: 1 in a ring; in a farm the size that makes about 16 parts for each node.
-    pub fn usual_part(self, division: Division, nodes: usize) -> u32 {
+    pub fn usual_part(&self, division: Division, nodes: usize) -> u32 {
         let parts = 16 * nodes.max(1) as u64;
         // The cast is exact: the result is at most the number of atoms, a u32.
         if self.is_farm() { (u64::from(division.atoms()) / parts).max(1) as u32 } else { 1 }
@@ -124,7 +124,7 @@ impl Rules {
 
 /// A name that is not the name of a strategy.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("there is no strategy `{0}`; there are: {known}", known = Strategy::ALL.map(Strategy::name).join(", "))]
+#[error("there is no strategy `{0}`; there are: {known}", known = Strategy::ALL.map(|strategy| strategy.name()).join(", "))]
 pub struct UnknownStrategy(String);
 
 impl fmt::Display for Strategy {

@@ -1,12 +1,11 @@
 //! The arguments of the command line, their help texts and the errors of their values.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{ArgGroup, Parser, Subcommand};
 
-use crate::balance::{Remedy, Strategy, UnknownStrategy};
+use crate::balance::{Remedy, Scheduler};
 use crate::export::Film;
 use crate::picture::{Quality, Size};
 use crate::runlog::Driver;
@@ -154,7 +153,7 @@ pub(super) struct RenderArgs {
     pub nodes: Option<u16>,
     /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, adaptive, or rayon
     #[arg(long, default_value = "ring")]
-    pub strategy: SchedulerArg,
+    pub strategy: Scheduler,
     /// What executes the run: threads (real time), pairs (two threads for each node, at full speed), or sim (virtual
     /// time)
     #[arg(long, default_value = "threads", value_parser = driver)]
@@ -251,27 +250,6 @@ impl QualityArgs {
     pub fn quality(&self) -> Quality {
         let Self { samples, threshold, depth, cutoff, .. } = *self;
         Quality { samples, threshold, max_depth: depth, cutoff, ..Quality::default() }
-    }
-}
-
-/// The value of `--strategy`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SchedulerArg {
-    By(Strategy),
-    /// Rayon's work stealing.
-    Rayon,
-}
-
-impl FromStr for SchedulerArg {
-    type Err = String;
-
-    /// # Errors
-    /// A sentence that lists the names.
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == Driver::WorkStealing.name() {
-            return Ok(Self::Rayon);
-        }
-        text.parse().map(Self::By).map_err(|error: UnknownStrategy| format!("{error}, rayon"))
     }
 }
 

@@ -52,7 +52,7 @@ impl Report {
             width: header.size.width(),
             height: header.size.height(),
             quality: header.quality,
-            strategy: header.strategy_name(),
+            strategy: header.scheduler().name(),
             driver: header.driver.name(),
             nodes: header.speeds.len(),
             speeds: header.speeds.clone(),

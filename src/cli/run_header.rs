@@ -1,7 +1,7 @@
 //! Builds the header of a run from the arguments of `anel render`.
 
-use super::args::{PaceArg, RenderArgs, SchedulerArg};
-use crate::balance::{Rules, Strategy};
+use super::args::{PaceArg, RenderArgs};
+use crate::balance::{Rules, Scheduler, Strategy};
 use crate::driver::{auto_pace, cores};
 use crate::gui::SpeedPreset;
 use crate::picture::Division;
@@ -23,11 +23,11 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
             Division::MAX_ATOMS
         ));
     }
-    let (driver, strategy) = match (args.strategy, args.driver) {
-        (SchedulerArg::By(strategy), driver) => (driver, strategy),
+    let (driver, strategy) = match (&args.strategy, args.driver) {
+        (Scheduler::Protocol(strategy), driver) => (driver, strategy.clone()),
         // Rayon ignores the rules of a strategy; the header needs one nevertheless.
-        (SchedulerArg::Rayon, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
-        (SchedulerArg::Rayon, other) => {
+        (Scheduler::WorkStealing, Driver::Threads) => (Driver::WorkStealing, Strategy::Ring),
+        (Scheduler::WorkStealing, other) => {
             return Err(format!("rayon runs only with --driver threads, not with --driver {}", other.name()));
         }
     };
@@ -38,7 +38,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     if args.costs.is_some() && driver != Driver::Sim {
         return Err("--costs applies only to runs in virtual time; add --driver sim".into());
     }
-    if !args.without.is_empty() && args.strategy != SchedulerArg::By(Strategy::Adaptive) {
+    if !args.without.is_empty() && args.strategy != Scheduler::Protocol(Strategy::Adaptive) {
         return Err(
             "--without applies only to the adaptive ring; add --strategy adaptive, or leave out --without".into()
         );
@@ -83,7 +83,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
 /// # Errors
 /// A sentence if the number of nodes does not fit the strategy or the speeds.
 fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
-    let is_serial = args.strategy == SchedulerArg::By(Strategy::Serial);
+    let is_serial = args.strategy == Scheduler::Protocol(Strategy::Serial);
     let default = match args.speeds.len() {
         0 if is_serial => 1,
         0 => 4,

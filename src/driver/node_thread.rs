@@ -50,7 +50,7 @@ pub(super) struct NodeHandler {
 impl NodeHandler {
     /// Creates the handler of node `id`.
     pub fn new(header: &Header, id: NodeId) -> Self {
-        let (nodes, rules) = (header.speeds.len() as NodeId, header.rules);
+        let (nodes, rules) = (header.speeds.len() as NodeId, header.rules.clone());
         let node = Node::new(&rules, id, nodes);
         Self { id, nodes, rules, node, division: header.division, actions: Vec::new(), finished: false }
     }

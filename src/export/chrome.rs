@@ -37,7 +37,7 @@ pub fn write_chrome(mut to: impl Write, log: &RunLog) -> io::Result<()> {
     let header = &log.header;
     let about = json!({
         "scene": header.scene,
-        "strategy": header.strategy_name(),
+        "strategy": header.scheduler().name(),
         "driver": header.driver.name(),
         "title": header.caption.title,
         "memo": header.caption.memo,
@@ -107,7 +107,7 @@ type AtomPlaces = BTreeMap<Atom, (NodeId, Traced)>;
 type MessageSlices = BTreeMap<u64, TrackPoint>;
 
 fn name_tracks(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
-    let run = format!("{}, {}", log.header.title(), log.header.strategy_name());
+    let run = format!("{}, {}", log.header.title(), log.header.scheduler().name());
     let processes = [
         (MACHINES, run.as_str()),
         (ATOMS, "atoms in flight"),

@@ -85,7 +85,7 @@ impl Comparison {
 
 impl ComparisonEntry {
     fn name(&self) -> String {
-        trial_name(self.strategy, &self.changes, Language::English)
+        trial_name(&self.strategy, &self.changes, Language::English)
     }
 
     fn row(&self) -> ComparisonRow {
@@ -126,7 +126,7 @@ mod tests {
         let costs = vec![Duration::from_micros(50); ring.header.size.pixels() as usize];
         let costs = PixelCosts::new(ring.header.size, &costs);
         let run = |strategy, changes: Vec<Change>| {
-            let trial = changes.iter().fold(ring.clone(), |trial, change| trial.with(*change));
+            let trial = changes.iter().fold(ring.clone(), |trial, change| trial.with(change.clone()));
             let account = TimeBudget::of(&trial.run(&costs));
             ComparisonEntry { strategy, changes, machines: 3, account }
         };

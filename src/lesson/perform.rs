@@ -77,7 +77,7 @@ impl RunPlan {
 
     /// The run, at a pace that gives the planned makespan if the work is shared perfectly.
     fn trial(&self, opened: &Opened, costs: &PixelCosts) -> Trial {
-        let plain = Header::plain(self.size, self.atom, self.strategy, self.speeds.clone());
+        let plain = Header::plain(self.size, self.atom, self.strategy.clone(), self.speeds.clone());
         // A speed may be 0. If all are 0, the limit keeps the pace finite.
         let own = self.speeds.len() - usize::from(self.spares);
         let power: f64 = self.speeds[..own].iter().sum::<f64>().max(1e-3);

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use super::Metadata;
-use crate::balance::{NodeId, Remedies, Rules, Strategy};
+use crate::balance::{NodeId, Remedies, Rules, Scheduler, Strategy};
 use crate::picture::{Division, Quality, Size};
 
 /// The settings of a run.
@@ -97,9 +97,12 @@ impl Header {
         }
     }
 
-    /// Returns the name of the scheduler on the command line: the strategy's, or rayon's.
-    pub fn strategy_name(&self) -> &'static str {
-        if self.driver == Driver::WorkStealing { self.driver.name() } else { self.rules.strategy.name() }
+    /// Returns the scheduler: [`Driver::WorkStealing`] ignores the strategy of the rules.
+    pub fn scheduler(&self) -> Scheduler {
+        match self.driver {
+            Driver::WorkStealing => Scheduler::WorkStealing,
+            Driver::Threads | Driver::Pairs | Driver::Sim => Scheduler::Protocol(self.rules.strategy.clone()),
+        }
     }
 
     /// Returns the title of the run, or the name of its scene if it has none.
@@ -109,8 +112,7 @@ impl Header {
 
     /// Returns the remedies that the run uses; none unless it is an adaptive ring.
     pub fn remedies(&self) -> Remedies {
-        let adapts = self.driver != Driver::WorkStealing && self.rules.strategy == Strategy::Adaptive;
-        if adapts { self.rules.remedies } else { Remedies::NONE }
+        if self.scheduler().is_adaptive() { self.rules.remedies } else { Remedies::NONE }
     }
 
     /// Returns whether this node is a spare, which is off at first.

@@ -81,7 +81,7 @@ impl Sim {
             wire: header.link.shared.then(Wire::default),
             faults: Faults::default(),
             parent_timer: None,
-            rules: header.rules,
+            rules: header.rules.clone(),
             latency: header.link.latency,
             bandwidth: header.link.bandwidth,
             handling: header.handling,

@@ -20,7 +20,7 @@ pub struct Trial {
 }
 
 /// One change of a trial; everything else stays the same.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// Another strategy, with its default parameters.
     Strategy(Strategy),
@@ -69,10 +69,12 @@ impl Trial {
     pub fn with(&self, change: Change) -> Self {
         let mut trial = self.clone();
         let header = &mut trial.header;
+        let sets_part = matches!(change, Change::Strategy(_) | Change::Nodes(_) | Change::Atom(_));
+        let sets_beat = matches!(change, Change::Nodes(_) | Change::Handling(_));
         match change {
             Change::Strategy(strategy) => {
                 header.rules.strategy = strategy;
-                if strategy != Strategy::Adaptive {
+                if header.rules.strategy != Strategy::Adaptive {
                     // Only the adaptive ring lets spare machines in.
                     header.speeds.truncate(header.speeds.len() - usize::from(std::mem::take(&mut header.spares)));
                 }
@@ -103,11 +105,10 @@ impl Trial {
             Change::Latency(latency) => header.link.latency = latency,
             Change::Handling(handling) => header.handling = handling,
         }
-        if matches!(change, Change::Strategy(_) | Change::Nodes(_) | Change::Atom(_)) {
-            let Rules { strategy, .. } = header.rules;
-            header.rules.part = strategy.usual_part(header.division, header.speeds.len());
+        if sets_part {
+            header.rules.part = header.rules.strategy.usual_part(header.division, header.speeds.len());
         }
-        if matches!(change, Change::Nodes(_) | Change::Handling(_)) {
+        if sets_beat {
             header.rules.beat = Rules::beat_for(header.handling, header.speeds.len());
         }
         header.cores = header.speeds.len();
@@ -200,7 +201,7 @@ mod tests {
         let trial = Trial::new(header(&[1.0, 1.0, 1.0, 0.1]), Vec::new());
         let bands = trial.with(Change::Strategy(Strategy::Static));
         assert!(makespan(&bands) > 2 * makespan(&trial), "{:?} {:?}", makespan(&bands), makespan(&trial));
-        assert_eq!(bands.with(Change::Strategy(trial.header.rules.strategy)), trial);
+        assert_eq!(bands.with(Change::Strategy(trial.header.rules.strategy.clone())), trial);
         let equal = trial.with(Change::Equal);
         assert_eq!(equal, trial.with(Change::Speed(3, 1.0)));
         assert!(makespan(&equal) < makespan(&trial));

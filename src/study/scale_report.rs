@@ -142,7 +142,7 @@ fn report(rows: &[ScaleRow], scene: &str) -> Report {
         for network in NETWORKS_MS {
             let kind = if weak { "The picture grows with the machines" } else { "The same picture" };
             report.line(format!("## {kind}, {}\n", network_words(network)));
-            let names = STRATEGIES.map(Strategy::name).join(" | ");
+            let names = STRATEGIES.map(|strategy| strategy.name()).join(" | ");
             report.line(format!("| machines | {names} | bound | ring: messages per machine | idle at the end |"));
             report.line(format!("|---:|{}---:|---:|---:|", "---:|".repeat(STRATEGIES.len())));
             for nodes in node_counts() {

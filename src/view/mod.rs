@@ -77,7 +77,6 @@ pub use state::lanes::{Lanes, Load, Trip, Usage};
 pub use state::node_rows::{NodeRow, NodeShare, node_rows, node_shares};
 pub use state::node_state::{Activity, NodeState, Parcels, Slot};
 pub use state::run_state::{Arrived, RunState};
-pub use state::scheduler::Sharing;
 pub use text::format::{
     activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words, seconds_words,
     time_words, two_digits,

@@ -170,7 +170,7 @@ fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<
     let (header, room) = (&log.header, width - 2.0 * MARGIN);
     let nodes = header.speeds.len();
     let plural = if nodes == 1 { "" } else { "s" };
-    let mut what = format!("{}: {}, {nodes} machine{plural}", header.size, header.strategy_name());
+    let mut what = format!("{}: {}, {nodes} machine{plural}", header.size, header.scheduler().name());
     if header.title() != header.scene {
         what = format!("{}, {what}", header.scene);
     }

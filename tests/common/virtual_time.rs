@@ -53,7 +53,7 @@ fn check_atoms(log: &RunLog) {
 }
 
 fn may_repeat(log: &RunLog) -> bool {
-    let rules = log.header.rules;
+    let rules = log.header.rules.clone();
     rules.strategy == Strategy::Adaptive && rules.remedies != Remedies::NONE
 }
 

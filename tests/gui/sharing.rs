@@ -39,7 +39,7 @@ fn every_strategy_can_be_chosen_and_traces() {
     ];
     for (name, strategy, part) in all {
         choose(&mut window, "Strategy", name);
-        let rules = session(&window).header().rules;
+        let rules = session(&window).header().rules.clone();
         assert_eq!((rules.strategy, rules.part, driver(&window)), (strategy, part, Driver::Threads));
         until(&mut window, "atoms", |window| done(window) > 20);
     }
@@ -129,14 +129,14 @@ fn run_in_virtual_time_obeys_and_is_replayed_and_made_live() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("virtual.anel");
     session(&window).stage().log.save(&path).expect("a file");
-    let rules = session(&window).header().rules;
+    let rules = session(&window).header().rules.clone();
     let mut again = open_with(SIZE, path.to_str().expect("a plain path"));
     assert!(session(&again).is_recorded() && driver(&again) == Driver::Sim);
     until(&mut again, "the speed", |window| session(window).stage().state().nodes()[7].speed == 1.0);
     press(&mut again, "Set up");
     press(&mut again, "Make it live");
     until(&mut again, "live run", |window| !session(window).is_recorded() && done(window) > 10);
-    assert_eq!((driver(&again), session(&again).header().rules), (Driver::Sim, rules));
+    assert_eq!((driver(&again), session(&again).header().rules.clone()), (Driver::Sim, rules));
 }
 
 #[test]

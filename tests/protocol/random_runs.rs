@@ -40,8 +40,8 @@ impl Random {
         self.next() % end
     }
 
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.below(choices.len() as u64) as usize]
+    fn one_of<T: Clone>(&mut self, choices: &[T]) -> T {
+        choices[self.below(choices.len() as u64) as usize].clone()
     }
 
     fn speed(&mut self) -> f64 {
@@ -292,7 +292,7 @@ fn finish(run: &Run, header: &Header) -> RunLog {
     while !take(run.updates().recv().unwrap(), &mut log, &mut placed) {}
     let metrics = Metrics::of(&log);
     let (traced, atoms) = (metrics.atoms_by_node().iter().sum::<u32>(), header.division.atoms());
-    if header.strategy_name() == Strategy::Adaptive.name() {
+    if header.scheduler().name() == Strategy::Adaptive.name() {
         // Other nodes may trace a late atom too.
         assert!(placed.into_iter().flatten().collect::<BTreeSet<_>>().into_iter().eq(0..atoms) && traced >= atoms);
     } else {

@@ -72,7 +72,7 @@ fn compare(driver: Driver, strategy: Strategy, speed: fn(usize) -> f64) {
     }
     for nodes in [1, 2, 3, 4, 7, 8, 16, 32] {
         for atom_pixels in ATOM_PIXELS {
-            let header = header(driver, strategy, size, atom_pixels, (0..nodes).map(speed).collect());
+            let header = header(driver, strategy.clone(), size, atom_pixels, (0..nodes).map(speed).collect());
             let frame = picture(&tracer, &header);
             assert!(bits(frame.pixels()).eq(bits(&plain)), "{nodes} nodes, atoms of {atom_pixels}");
         }

@@ -39,7 +39,7 @@ fn header(number: u32) -> Header {
     let size = Size::new(1000, 100).expect("a size");
     // Every third node has speed 0 from the start.
     let speeds = (0..NODES).map(|node| if node % 3 == 0 { 0.0 } else { 0.5 }).collect();
-    let strategy = [Strategy::Ring, Strategy::Adaptive][number as usize / 6 % 2];
+    let strategy = [Strategy::Ring, Strategy::Adaptive][number as usize / 6 % 2].clone();
     let plain = Header::plain(size, [10, 50_000][number as usize % 2], strategy, speeds);
     let driver = [Driver::Threads, Driver::WorkStealing, Driver::Pairs][number as usize / 2 % 3];
     Header {

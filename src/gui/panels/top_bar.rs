@@ -10,7 +10,7 @@ use crate::gui::widgets::{Emphasis, button, named_button};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::sentence::shown;
-use crate::view::{Sharing, count, time_words};
+use crate::view::{count, time_words};
 
 /// Which pages and panels are open; their buttons are shown as pressed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -227,7 +227,7 @@ fn time_state(session: &Session) -> Option<&'static str> {
 fn run_text(ui: &Ui, session: &Session) -> String {
     let language = session.language();
     let header = session.header();
-    let machines = Sharing::of(header).machines(header.speeds.len(), language);
+    let machines = header.scheduler().machines(header.speeds.len(), language);
     let virtual_time =
         if header.driver == Driver::Sim { word!(language, " · virtual time", " · tempo virtual") } else { "" };
     let machines = format!("{machines}{virtual_time}");

@@ -164,9 +164,9 @@ fn growth_of(trial: &Trial, costs: &PixelCosts) -> Growth {
     bare.header.spares = 0;
     let one = bare.with(Change::Nodes(1)).with(Change::Equal).with(Change::Strategy(Strategy::Serial));
     let alone = Metrics::of(&one.run(costs)).makespan().unwrap_or_default();
-    let points_of = |strategy| {
+    let points_of = |strategy: Strategy| {
         let run = |machines: usize| {
-            let equal = bare.with(Change::Nodes(machines)).with(Change::Equal).with(Change::Strategy(strategy));
+            let equal = bare.with(Change::Nodes(machines)).with(Change::Equal).with(Change::Strategy(strategy.clone()));
             let trial = match slow {
                 Some(speed) if machines > 1 => equal.with(Change::Speed(machines as u16 - 1, speed)),
                 _ => equal,
@@ -175,7 +175,8 @@ fn growth_of(trial: &Trial, costs: &PixelCosts) -> Growth {
             let (makespan, efficiency) = (metrics.makespan()?, metrics.efficiency()?);
             Some(GrowthPoint { machines, speedup: alone.div_duration_f64(makespan), efficiency })
         };
-        (strategy, (1..=MAX_MACHINES).filter_map(run).collect())
+        let points = (1..=MAX_MACHINES).filter_map(run).collect();
+        (strategy, points)
     };
     let curves = [Strategy::Static, Strategy::Farm, Strategy::Ring, Strategy::Adaptive].map(points_of).into();
     Growth { curves, alone, slow }

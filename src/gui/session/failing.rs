@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use super::{Phase, Session};
-use crate::balance::{Condition, NodeId, Party, Remedy};
+use crate::balance::{Condition, NodeId, Party, Remedy, Scheduler};
 use crate::scenario::Command;
-use crate::view::{NodeState, Sharing};
+use crate::view::NodeState;
 
 impl Session {
     /// Returns the condition of a machine: of a recorded run at the shown moment, else now.
@@ -20,7 +20,7 @@ impl Session {
 
     /// Whether conditions can be set: in a live run that has not ended, unless rayon shares the work.
     pub fn can_fail(&self) -> bool {
-        !self.is_recorded() && self.stage.phase == Phase::Running && self.sharing() != Sharing::Stealing
+        !self.is_recorded() && self.stage.phase == Phase::Running && self.scheduler() != Scheduler::WorkStealing
     }
 
     /// Whether the run recovers lost atoms (the remedy *leases*).
@@ -55,7 +55,7 @@ impl Session {
         state.nodes().get(usize::from(node))
     }
 
-    fn sharing(&self) -> Sharing {
-        Sharing::of(self.header())
+    fn scheduler(&self) -> Scheduler {
+        self.header().scheduler()
     }
 }

@@ -16,8 +16,8 @@ impl Settings {
         quality_difference(self.quality, before.quality, &mut add, language);
         let atom = self.atom;
         add(atom != before.atom, say!(language, "atoms of {atom} pixels", "átomos de {atom} pixels"));
-        let (sharing, sharing_before) = (self.sharing(), before.sharing());
-        add(sharing != sharing_before, sharing.name(language).to_lowercase());
+        let (scheduler, sharing_before) = (self.scheduler(), before.scheduler());
+        add(scheduler != sharing_before, scheduler.title(language).to_lowercase());
         let virtual_time = self.driver == Driver::Sim;
         let time = if virtual_time {
             word!(language, "virtual time", "tempo virtual")
@@ -32,8 +32,8 @@ impl Settings {
         } else {
             say!(language, "at least {part} atoms in a transfer", "ao menos {part} átomos por transferência")
         };
-        add(sharing == sharing_before && part != before.part, part_text);
-        add(sharing == sharing_before && self.remedies != before.remedies, remedies_words(self.remedies, language));
+        add(scheduler == sharing_before && part != before.part, part_text);
+        add(scheduler == sharing_before && self.remedies != before.remedies, remedies_words(self.remedies, language));
         add(self.pace != before.pace, self.pace.text(language));
         let (latency, handling) = (self.latency, self.handling);
         add(latency != before.latency, say!(language, "{latency} ms a hop", "{latency} ms por salto"));
@@ -58,7 +58,7 @@ impl Settings {
     /// Describes the difference of the machines: their number, or else their speeds.
     fn machines_difference(&self, before: &Self, language: Language) -> Option<String> {
         let (spares, nodes) = (self.spares.len(), self.speeds.len());
-        if self.sharing() == before.sharing() && spares != before.spares.len() {
+        if self.scheduler() == before.scheduler() && spares != before.spares.len() {
             return Some(match spares {
                 0 => word!(language, "no spare machine", "nenhuma máquina de reserva").into(),
                 1 => word!(language, "1 spare machine", "1 máquina de reserva").into(),

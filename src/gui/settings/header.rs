@@ -4,10 +4,9 @@ use std::time::Duration;
 
 use super::Settings;
 use super::pace::Pace;
-use crate::balance::{NodeId, Rules, Strategy};
+use crate::balance::{NodeId, Rules, Scheduler, Strategy};
 use crate::driver::auto_pace;
 use crate::runlog::{Driver, Header, LinkSettings, Metadata};
-use crate::view::Sharing;
 
 impl Settings {
     /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the
@@ -23,7 +22,7 @@ impl Settings {
             division: self.division(),
             driver: self.driver,
             rules: Rules {
-                strategy: self.strategy,
+                strategy: self.strategy.clone(),
                 part: self.part,
                 batch: Some(Rules::batch_for(handling, speeds.len())),
                 beat: Rules::beat_for(handling, speeds.len()),
@@ -55,7 +54,7 @@ impl Settings {
             quality: header.quality,
             atom: header.division.atom_pixels(),
             driver: if header.driver == Driver::Pairs { Driver::Threads } else { header.driver },
-            strategy: header.rules.strategy,
+            strategy: header.rules.strategy.clone(),
             part: header.rules.part,
             pace: if header.pace < 1.0 { pace } else { Pace::Full },
             speeds: speeds.to_vec(),
@@ -74,7 +73,8 @@ impl Settings {
     pub(super) fn pace_fraction(&self, work: Duration, cores: usize) -> f64 {
         // The sum of all speeds is the power of a ring that shares perfectly. Other strategies take longer, which is
         // the point of the demonstration; only the serial run, which uses one machine, gets its own sum.
-        let speeds = if self.sharing() == Sharing::By(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
+        let speeds =
+            if self.scheduler() == Scheduler::Protocol(Strategy::Serial) { &self.speeds[..1] } else { &self.speeds };
         let all: Vec<f64> = self.all_speeds().collect();
         let max = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&all, cores) };
         self.pace.fraction(work, speeds.iter().sum(), max)

@@ -11,11 +11,10 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::balance::{NodeId, Remedies, Strategy};
+use crate::balance::{NodeId, Remedies, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::Driver;
-use crate::view::Sharing;
 use pace::Pace;
 use speed_preset::SpeedPreset;
 
@@ -189,24 +188,28 @@ impl Settings {
     }
 
     /// Returns who shares the atoms: rayon, or a protocol with its strategy.
-    pub fn sharing(&self) -> Sharing {
-        if self.driver == Driver::WorkStealing { Sharing::Stealing } else { Sharing::By(self.strategy) }
+    pub fn scheduler(&self) -> Scheduler {
+        if self.driver == Driver::WorkStealing {
+            Scheduler::WorkStealing
+        } else {
+            Scheduler::Protocol(self.strategy.clone())
+        }
     }
 
     /// Sets who shares the atoms, with the usual part and spare machines. Virtual time stays, except with rayon.
-    pub fn set_sharing(&mut self, sharing: Sharing) {
-        match sharing {
-            Sharing::Stealing => {
+    pub fn set_scheduler(&mut self, scheduler: Scheduler) {
+        match scheduler {
+            Scheduler::WorkStealing => {
                 self.driver = Driver::WorkStealing;
                 self.spares.clear();
             }
-            Sharing::By(strategy) => {
+            Scheduler::Protocol(strategy) => {
                 if self.driver == Driver::WorkStealing {
                     self.driver = Driver::Threads;
                 }
-                self.strategy = strategy;
                 self.part = strategy.usual_part(self.division(), self.speeds.len());
-                self.set_spares(if strategy == Strategy::Adaptive { 1 } else { 0 });
+                self.strategy = strategy;
+                self.set_spares(if self.strategy == Strategy::Adaptive { 1 } else { 0 });
             }
         }
     }
@@ -297,9 +300,9 @@ mod tests {
         assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "new speeds for 8 machines");
         assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
-        let farm = Sharing::By(Strategy::Farm);
-        assert_eq!(with(|s| s.set_sharing(farm)).difference(&Settings::default(), language), "farm");
-        assert_eq!(told(|s| s.set_sharing(Sharing::Stealing)), "work stealing (rayon)");
+        let farm = Scheduler::Protocol(Strategy::Farm);
+        assert_eq!(with(|s| s.set_scheduler(farm)).difference(&Settings::default(), language), "farm");
+        assert_eq!(told(|s| s.set_scheduler(Scheduler::WorkStealing)), "work stealing (rayon)");
         assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, at least 5 atoms in a transfer");
         assert_eq!(
             told(|s| (s.handling, s.bandwidth, s.shared_wire) = (20, 100, true)),
@@ -309,21 +312,21 @@ mod tests {
 
     #[test]
     fn strategy_sets_its_usual_part_and_rayon_leaves_virtual_time() {
-        let farm = with(|s| s.set_sharing(Sharing::By(Strategy::Farm)));
-        assert_eq!((farm.part, farm.sharing()), (6144 / 128, Sharing::By(Strategy::Farm)));
+        let farm = with(|s| s.set_scheduler(Scheduler::Protocol(Strategy::Farm)));
+        assert_eq!((farm.part, farm.scheduler()), (6144 / 128, Scheduler::Protocol(Strategy::Farm)));
         let mut settings = with(|s| s.driver = Driver::Sim);
-        settings.set_sharing(Sharing::By(Strategy::Static));
+        settings.set_scheduler(Scheduler::Protocol(Strategy::Static));
         assert_eq!((settings.driver, settings.part), (Driver::Sim, 1));
-        settings.set_sharing(Sharing::Stealing);
-        assert_eq!((settings.driver, settings.sharing()), (Driver::WorkStealing, Sharing::Stealing));
-        settings.set_sharing(Sharing::By(Strategy::Ring));
+        settings.set_scheduler(Scheduler::WorkStealing);
+        assert_eq!((settings.driver, settings.scheduler()), (Driver::WorkStealing, Scheduler::WorkStealing));
+        settings.set_scheduler(Scheduler::Protocol(Strategy::Ring));
         assert_eq!(settings, Settings::default());
     }
 
     #[test]
     fn adaptive_ring_has_a_spare_machine() {
         let language = Language::English;
-        let mut settings = with(|s| s.set_sharing(Sharing::By(Strategy::Adaptive)));
+        let mut settings = with(|s| s.set_scheduler(Scheduler::Protocol(Strategy::Adaptive)));
         assert_eq!((settings.spares.len(), settings.speeds.len()), (1, 8));
         settings.set_speed(8, 0.5);
         let header = settings.header("", "", Duration::from_millis(300), 2);
@@ -335,14 +338,14 @@ mod tests {
         assert_eq!(more.difference(&settings, language), "2 spare machines");
         settings.set_nodes(32);
         assert_eq!((settings.speeds.len(), settings.check(language)), (31, Ok(())));
-        settings.set_sharing(Sharing::By(Strategy::Ring));
+        settings.set_scheduler(Scheduler::Protocol(Strategy::Ring));
         assert!(settings.spares.is_empty());
     }
 
     #[test]
     fn header_keeps_the_settings() {
         let settings = with(|s| {
-            s.set_sharing(Sharing::By(Strategy::FarmBySpeed));
+            s.set_scheduler(Scheduler::Protocol(Strategy::FarmBySpeed));
             (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20, 100, true, 7);
         });
         let header = settings.header("", "", Duration::from_millis(300), 2);

@@ -176,7 +176,7 @@ impl<'a> Check<'a> {
     /// The most messages that the run may need (see `src/balance/adaptive/README.md`).
     fn bound(&self) -> f64 {
         let nodes = self.plan.header.speeds.len();
-        let rules = self.plan.header.rules;
+        let rules = &self.plan.header.rules;
         let stops = RingMembers::new(nodes as NodeId, rules.remedies.has(Remedy::Shortcuts)).stops();
         let beats = self.last.secs() / rules.beat.as_secs_f64();
         let moments = self.atoms_done as f64 + nodes as f64 * (beats + 2.0) + self.gone as f64;

@@ -44,7 +44,7 @@ fn makespans(rows: &[PaperRow], driver: &str, network: &str, title: &str) -> Bar
         let mut bars = Vec::new();
         for strategy in STRATEGIES {
             let Some(row) = ours.clone().find(|row| row.strategy == strategy.name()) else { continue };
-            let other = article::over_ideal(strategy, nodes, slow);
+            let other = article::over_ideal(&strategy, nodes, slow);
             bars.push(Bar { name: strategy.name().to_owned(), value: row.over_ideal, other });
         }
         (if slow { "4 and a slow one".into() } else { format!("{nodes} machines") }, bars)

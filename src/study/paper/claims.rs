@@ -156,8 +156,8 @@ fn easier_to_size(rows: &FigureRows<'_>) -> ClaimVerdict {
 }
 
 fn slow_machine_helps(rows: &FigureRows<'_>) -> ClaimVerdict {
-    let gain = |driver, network, strategy| {
-        let time = |nodes| rows.figure((driver, network, strategy, nodes), |row| row.makespan_s);
+    let gain = |driver, network, strategy: Strategy| {
+        let time = |nodes| rows.figure((driver, network, strategy.clone(), nodes), |row| row.makespan_s);
         100.0 * (1.0 - time(5) / time(4))
     };
     let best = 100.0 * (1.0 - 4.0 / (4.0 + slow_speed()));

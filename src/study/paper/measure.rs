@@ -75,7 +75,7 @@ impl<'a> PaperRuns<'a> {
         for _ in 0..RUNS {
             for ((subject, header, script), rows) in thread_runs.iter().zip(&mut rows) {
                 let header = Header { pace: self.pace, cores: cores(), ..header.clone() };
-                progress.next(&format!("{} on {} machines", header.strategy_name(), header.speeds.len()));
+                progress.next(&format!("{} on {} machines", header.scheduler().name(), header.speeds.len()));
                 let log = run_to_end(&self.fixture.tracer, &header, script).map_err(StudyError::run)?;
                 // Rayon's rules are not simulated here; and threads obey a script a little later than it says.
                 let has_twin = header.driver == Driver::Threads && script.is_empty();
@@ -146,7 +146,7 @@ impl<'a> PaperRuns<'a> {
                 }
                 let strategies = [Strategy::Ring, Strategy::Adaptive, Strategy::Farm];
                 for (part, strategy) in
-                    PART_SIZES.into_iter().flat_map(|part| strategies.map(|strategy| (part, strategy)))
+                    PART_SIZES.into_iter().flat_map(|part| strategies.clone().map(|strategy| (part, strategy)))
                 {
                     let mut header = self.fixture.header(ATOM_PX, strategy, speeds.clone());
                     header.rules.part = part;

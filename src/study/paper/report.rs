@@ -38,7 +38,7 @@ fn packets(report: &mut Report, rows: &[PaperRow]) {
     report.line("| at least | ring | ring, network | adaptive | adaptive, network |\n|---:|---:|---:|---:|---:|");
     let parts: BTreeSet<u32> = select(rows, "part", "none", "sim").map(|row| row.part).collect();
     for part in parts {
-        let cell = |strategy: Strategy, network| {
+        let cell = |strategy: &Strategy, network| {
             let mut of = select(rows, "part", network, "sim");
             let row = of.find(|row| row.strategy == strategy.name() && !row.slow && row.part == part);
             row.map_or(String::new(), |row| match row.transfers {
@@ -47,7 +47,7 @@ fn packets(report: &mut Report, rows: &[PaperRow]) {
             })
         };
         let cells =
-            [Strategy::Ring, Strategy::Adaptive].map(|of| ["none", "modelled"].map(|on| cell(of, on)).join(" | "));
+            [Strategy::Ring, Strategy::Adaptive].map(|of| ["none", "modelled"].map(|on| cell(&of, on)).join(" | "));
         report.line(format!("| {part} | {} |", cells.join(" | ")));
     }
 }
@@ -97,7 +97,7 @@ fn figures(report: &mut Report, rows: &[PaperRow]) {
     ] {
         report.line(format!("\n## Figures 5 to 7: {name}\n"));
         report.line("Makespan / ideal; the article's value in brackets.\n");
-        let names = STRATEGIES.map(Strategy::name).join(" | ");
+        let names = STRATEGIES.map(|strategy| strategy.name()).join(" | ");
         report.line(format!("| machines | {names} | rayon |\n|---|{}---:|", "---:|".repeat(STRATEGIES.len())));
         for (nodes, label) in [(2, "2"), (3, "3"), (4, "4"), (5, "4 and a slow one")] {
             let figure = if nodes == 5 { "7" } else { "6" };
@@ -108,7 +108,7 @@ fn figures(report: &mut Report, rows: &[PaperRow]) {
                 article.map_or(ours.clone(), |article| format!("{ours} ({article:.3})"))
             };
             let cells = STRATEGIES
-                .map(|strategy| cell(strategy.name(), driver, article::over_ideal(strategy, nodes, nodes == 5)))
+                .map(|strategy| cell(strategy.name(), driver, article::over_ideal(&strategy, nodes, nodes == 5)))
                 .join(" | ");
             let rayon = if driver == "threads" { cell("rayon", "rayon", None) } else { "–".into() };
             report.line(format!("| {label} | {cells} | {rayon} |"));

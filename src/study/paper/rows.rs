@@ -64,11 +64,11 @@ impl PaperRow {
         let place = header.speeds.iter().position(|&speed| speed < 1.0);
         let nodes = header.speeds.len();
         let is_last = place.is_none_or(|place| place + 1 == nodes);
-        let article = article::over_ideal(header.rules.strategy, nodes, place.is_some());
+        let article = article::over_ideal(&header.rules.strategy, nodes, place.is_some());
         Self {
             figure: subject.figure,
             network: if subject.modelled { "modelled" } else { "none" },
-            strategy: header.strategy_name(),
+            strategy: header.scheduler().name(),
             driver: header.driver.name(),
             nodes,
             slow: place.is_some(),

@@ -150,7 +150,7 @@ fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     // The parent is busy with the messages that it receives.
     let arrived = slow.messages.requests + slow.messages.results;
     let (messages, wait) = (count(arrived), duration(waited, language));
-    if slow.sharing.is_farm() && waited > Duration::from_millis(1) {
+    if slow.scheduler.is_farm() && waited > Duration::from_millis(1) {
         say!(
             language,
             "In it machines wait {share} of their time for more work: the parent is busy with {messages} messages, \

@@ -3,13 +3,12 @@
 use std::cmp::Reverse;
 use std::time::Duration;
 
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::runlog::{Metrics, RunLog};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, seconds_words};
 
 /// Result of a finished run.
@@ -59,9 +58,12 @@ pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> 
     if machines == 1 {
         return words;
     }
-    let workers =
-        if state.sharing() == Sharing::Stealing { "threads" } else { word!(language, "machines", "máquinas") };
-    if state.sharing() != Sharing::By(Strategy::Serial) {
+    let workers = if *state.scheduler() == Scheduler::WorkStealing {
+        "threads"
+    } else {
+        word!(language, "machines", "máquinas")
+    };
+    if *state.scheduler() != Scheduler::Protocol(Strategy::Serial) {
         words += &say!(
             language,
             ". {machines} {workers} were done within {spread}",
@@ -86,22 +88,22 @@ fn seconds(length: Duration, language: Language) -> String {
 /// Says which machines did most and least of the work, and why, or which machine all others waited for. `None` if all
 /// did about the same.
 pub fn work_split_words(state: &RunState, language: Language) -> Option<String> {
-    match state.sharing() {
+    match state.scheduler() {
         _ if state.nodes().len() == 1 => None,
-        Sharing::By(Strategy::Serial) => {
+        Scheduler::Protocol(Strategy::Serial) => {
             let most = most_and_least(state).map(|[(most, _), _]| node_name(most))?;
             Some(say!(language, "{most} traced all of it alone", "{most} calculou tudo sozinha"))
         }
-        Sharing::By(Strategy::Static | Strategy::StaticEstimate) => {
+        Scheduler::Protocol(Strategy::Static | Strategy::StaticEstimate) => {
             waited_for(state, language).or_else(|| uneven(state, language))
         }
-        sharing if sharing.is_farm() => {
+        scheduler if scheduler.is_farm() => {
             let parts = counted(state.handed_out.count, word!(language, "part", "parte"), language);
             let handed_out =
                 say!(language, "Machines asked the parent for {parts}", "As máquinas pediram {parts} ao pai");
             Some(uneven(state, language).map_or_else(|| handed_out.clone(), |uneven| format!("{uneven}. {handed_out}")))
         }
-        Sharing::By(_) | Sharing::Stealing => uneven(state, language),
+        Scheduler::Protocol(_) | Scheduler::WorkStealing => uneven(state, language),
     }
 }
 
@@ -262,7 +264,7 @@ mod tests {
     fn state_and_metrics_agree_on_last_atoms() {
         for strategy in Strategy::ALL {
             let mut header = sample_runs::header(&[1.0, 0.5, 0.1], 300);
-            header.rules = Rules { strategy, part: 10, ..header.rules };
+            header.rules = Rules { strategy: strategy.clone(), part: 10, ..header.rules };
             let (mut state, mut metrics) = (RunState::new(&header), Metrics::new(&header));
             for record in sample_runs::records(&header) {
                 state.apply(&record);

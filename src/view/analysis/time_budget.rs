@@ -2,20 +2,19 @@
 
 use std::time::Duration;
 
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Message, NodeId, Party, Scheduler};
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::time::Time;
 use crate::view::state::lane::Lane;
 use crate::view::state::lanes::Lanes;
-use crate::view::state::scheduler::Sharing;
 
 /// Time budget of a finished run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeBudget {
     /// Scheduler of the run.
-    pub sharing: Sharing,
+    pub scheduler: Scheduler,
     /// From the first band sent, or from the beginning of the estimate that it needs, to the last atom placed.
     pub makespan: Duration,
     /// Makespan if the work had been shared perfectly ([`Metrics::ideal`]).
@@ -113,7 +112,7 @@ impl TimeBudget {
             spent.waiting += lane.waiting;
         }
         Some(Self {
-            sharing: Sharing::of(&log.header),
+            scheduler: log.header.scheduler(),
             makespan,
             ideal,
             powers: metrics.powers(),
@@ -208,7 +207,11 @@ mod tests {
 
     fn log(strategy: Strategy, speeds: &[f64], handling: u64) -> RunLog {
         let plain = sample_runs::header(speeds, 1200);
-        let rules = Rules { strategy, part: strategy.usual_part(plain.division, speeds.len()), ..plain.rules };
+        let rules = Rules {
+            strategy: strategy.clone(),
+            part: strategy.usual_part(plain.division, speeds.len()),
+            ..plain.rules
+        };
         let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
         let mut log = RunLog::new(header.clone());
         log.add(sample_runs::records(&header));
@@ -220,7 +223,7 @@ mod tests {
         fn parts_add_up_to_all_machine_seconds(
             speeds in prop::collection::vec(0.05..1.0f64, 1..6), strategy in 0..6usize, handling in 0..20u64,
         ) {
-            let log = log(Strategy::ALL[strategy], &speeds, handling);
+            let log = log(Strategy::ALL[strategy].clone(), &speeds, handling);
             let budget = TimeBudget::of(&log).expect("it came to its end");
             let end = log.records().iter().find(|record| record.what == RecordKind::Finished).expect("its end").at.secs();
             let (spent, parts) = (budget.spent, budget.spent.parts());

@@ -2,9 +2,8 @@
 
 use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
 use super::transfer_sentences;
-use crate::balance::{NodeId, Strategy};
+use crate::balance::{NodeId, Scheduler, Strategy};
 use crate::language::{Language, say, word};
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, counted, duration, fraction, names, node_name};
 
 /// Sentence for a run in virtual time whose costs are not known yet.
@@ -27,7 +26,9 @@ impl Happening {
                 "O pai amostra a imagem para estimar o custo de cada parte"
             )
             .into(),
-            &Self::Bands { machines, first, is_whole, sharing } => bands(language, machines, first, is_whole, sharing),
+            Self::Bands { machines, first, is_whole, scheduler } => {
+                bands(language, *machines, *first, *is_whole, scheduler)
+            }
             &Self::Part { to, atoms } => part(language, to, atoms),
             &Self::PartsSoFar(parts) => {
                 let parts = counted(parts, word!(language, "part", "parte"), language);
@@ -84,14 +85,14 @@ impl Happening {
     }
 }
 
-fn bands(language: Language, machines: usize, first: u32, is_whole: bool, sharing: Sharing) -> String {
+fn bands(language: Language, machines: usize, first: u32, is_whole: bool, scheduler: &Scheduler) -> String {
     match machines {
-        _ if sharing == Sharing::Stealing => say!(
+        _ if *scheduler == Scheduler::WorkStealing => say!(
             language,
             "{machines} threads trace the picture; an idle thread steals from another",
             "{machines} threads calculam a imagem; uma thread ociosa rouba de outra"
         ),
-        _ if sharing.is_farm() => {
+        _ if scheduler.is_farm() => {
             let part = atoms_words(first, language);
             say!(
                 language,
@@ -111,7 +112,7 @@ fn bands(language: Language, machines: usize, first: u32, is_whole: bool, sharin
             "O pai dá a imagem inteira a uma só máquina"
         )
         .into(),
-        _ if sharing == Sharing::By(Strategy::StaticEstimate) => say!(
+        _ if *scheduler == Scheduler::Protocol(Strategy::StaticEstimate) => say!(
             language,
             "The parent gives each of {machines} machines a band that should cost the same",
             "O pai dá a cada uma das {machines} máquinas uma faixa que deve custar o mesmo"

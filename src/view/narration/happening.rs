@@ -5,12 +5,11 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use crate::balance::{NodeId, PIPE_ATOMS, Remedy};
+use crate::balance::{NodeId, PIPE_ATOMS, Remedy, Scheduler};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 
 /// An event of a run, without a language.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +26,7 @@ pub enum Happening {
         first: u32,
         /// The first band is the whole picture.
         is_whole: bool,
-        sharing: Sharing,
+        scheduler: Scheduler,
     },
     /// A node of a farm asked for atoms and got this many.
     Part { to: NodeId, atoms: u32 },
@@ -162,7 +161,7 @@ impl Happening {
     pub(crate) fn bands(state: &RunState, first: &Range<Atom>) -> Self {
         let first = first.len() as u32;
         let machines = state.nodes().iter().filter(|node| !node.spare).count();
-        Self::Bands { machines, first, is_whole: first == state.atoms(), sharing: state.sharing }
+        Self::Bands { machines, first, is_whole: first == state.atoms(), scheduler: state.scheduler.clone() }
     }
 
     /// Describes `waiting` messages at the parent.
@@ -173,7 +172,7 @@ impl Happening {
     /// Describes why nodes retire.
     pub(crate) fn retired(state: &RunState, nodes: Vec<NodeId>) -> Self {
         let reason = match () {
-            () if state.sharing.is_farm() => Retirement::NothingLeft,
+            () if state.scheduler.is_farm() => Retirement::NothingLeft,
             () if state.has(Remedy::Wake) => Retirement::Sleeps,
             () => Retirement::OfferCameBack,
         };
@@ -194,7 +193,7 @@ impl Happening {
 
     /// Describes a transfer while it happens.
     pub(crate) fn transfer(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
-        if state.sharing == Sharing::Stealing {
+        if state.scheduler == Scheduler::WorkStealing {
             return Self::Theft { thief: to, from, atoms };
         }
         let giver = match machine(state, from) {
@@ -208,7 +207,7 @@ impl Happening {
 
     /// Describes a transfer for the list of events.
     pub(crate) fn gift(state: &RunState, from: NodeId, to: NodeId, atoms: u32) -> Self {
-        if state.sharing == Sharing::Stealing {
+        if state.scheduler == Scheduler::WorkStealing {
             return Self::Theft { thief: to, from, atoms };
         }
         let slow_at = machine(state, from).filter(|node| node.runs() && is_slow(node)).map(|node| node.speed);
@@ -221,14 +220,14 @@ impl Happening {
         let effect = match change {
             _ if machine(state, node).is_some_and(|node| node.paused) => SpeedEffect::AfterPause,
             Ordering::Equal => SpeedEffect::None,
-            _ if state.sharing.is_fixed() && machine(state, node).is_none_or(|machine| machine.left() == 0) => {
+            _ if state.scheduler.is_fixed() && machine(state, node).is_none_or(|machine| machine.left() == 0) => {
                 SpeedEffect::None
             }
-            Ordering::Less if state.sharing.is_fixed() => SpeedEffect::NobodyHelps,
-            Ordering::Greater if state.sharing.is_fixed() => SpeedEffect::BandSooner,
-            _ if state.sharing.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
-            Ordering::Less if state.sharing.is_farm() => SpeedEffect::AsksLess,
-            Ordering::Greater if state.sharing.is_farm() => SpeedEffect::AsksMore,
+            Ordering::Less if state.scheduler.is_fixed() => SpeedEffect::NobodyHelps,
+            Ordering::Greater if state.scheduler.is_fixed() => SpeedEffect::BandSooner,
+            _ if state.scheduler.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
+            Ordering::Less if state.scheduler.is_farm() => SpeedEffect::AsksLess,
+            Ordering::Greater if state.scheduler.is_farm() => SpeedEffect::AsksMore,
             Ordering::Less if others_run(state, node) => SpeedEffect::OthersHelp,
             Ordering::Less => SpeedEffect::None,
             Ordering::Greater => SpeedEffect::TakesMore,
@@ -243,9 +242,9 @@ impl Happening {
         };
         let atoms = machine.left();
         let effect = match atoms {
-            0 if !state.sharing.is_ring() && state.sharing != Sharing::Stealing => PauseEffect::None,
-            _ if state.sharing.is_farm() => PauseEffect::KeepsPart,
-            _ if state.sharing.is_fixed() => PauseEffect::NobodyHelps,
+            0 if !state.scheduler.is_ring() && state.scheduler != Scheduler::WorkStealing => PauseEffect::None,
+            _ if state.scheduler.is_farm() => PauseEffect::KeepsPart,
+            _ if state.scheduler.is_fixed() => PauseEffect::NobodyHelps,
             1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
             left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => PauseEffect::OthersHelp,
             _ => PauseEffect::None,
@@ -260,7 +259,7 @@ impl Happening {
 
     /// Describes a new latency of all links.
     pub(crate) fn latency(state: &RunState, latency: Duration) -> Self {
-        Self::Latency { latency, is_hop: state.sharing.is_ring() }
+        Self::Latency { latency, is_hop: state.scheduler.is_ring() }
     }
 }
 

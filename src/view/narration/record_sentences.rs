@@ -1,12 +1,11 @@
 //! Sentences for single records, with their reasons, for stepping through a run.
 
 use super::happening::Happening;
-use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy};
+use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy, Scheduler};
 use crate::language::{Language, say, word};
 use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, count, duration, node_name, party_name};
 use crate::view::text::tooltips::flight_words;
 
@@ -120,7 +119,7 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
 /// Explains the number of atoms in a transfer, the latest record of `state` (§7); `None` for work stealing, which does
 /// not compute a share.
 pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, language: Language) -> Option<String> {
-    if !matches!(state.sharing(), Sharing::By(_)) {
+    if !matches!(state.scheduler(), Scheduler::Protocol(_)) {
         return None;
     }
     if state.has(Remedy::Speed) {

@@ -4,13 +4,13 @@ use std::f32::consts::{PI, TAU};
 
 use super::angles::arc;
 use super::layout::RingLayout;
+use crate::balance::Scheduler;
 use crate::balance::Strategy;
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::analysis::summary::Summary;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, TextSize};
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{duration, fraction, percent};
 
 /// Draws the parent, the share of the picture that is traced, and whether the parent is busy.
@@ -22,13 +22,14 @@ pub(crate) fn parent(layout: &RingLayout, state: &RunState, now: Time, marks: &m
     // One message is handled quickly: its count would flicker.
     let (caption, hue) = match waiting {
         _ if state.is_estimating => (word!(language, "estimating", "estimando").into(), Hue::Text),
-        0..2 if state.sharing == Sharing::Stealing => (word!(language, "picture", "imagem").into(), Hue::Quiet),
+        0..2 if state.scheduler == Scheduler::WorkStealing => (word!(language, "picture", "imagem").into(), Hue::Quiet),
         0..2 => (word!(language, "parent", "pai").into(), Hue::Quiet),
         many => (say!(language, "{many} waiting", "{many} na fila"), Hue::Text),
     };
     let (done, large) = (state.done() as f32 / state.atoms().max(1) as f32, large_text_size(layout));
     // A parent that may be busy keeps its caption in smaller rings too.
-    let is_busy_at_times = !state.handling.is_zero() || state.sharing == Sharing::By(Strategy::StaticEstimate);
+    let is_busy_at_times =
+        !state.handling.is_zero() || state.scheduler == Scheduler::Protocol(Strategy::StaticEstimate);
     let has_room = TextSize::Small(layout.labels.text_scale).width("estimating".len()) < 2.0 * layout.parent_radius;
     let captions = has_captions(layout) || is_busy_at_times && has_room;
     let lift = if captions { large * 0.25 } else { 0.0 };

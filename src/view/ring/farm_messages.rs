@@ -166,7 +166,11 @@ mod tests {
     /// A run by `strategy` whose parent needs `handling` milliseconds for a message.
     fn header(strategy: Strategy, speeds: &[f64], handling: u64) -> Header {
         let plain = sample_runs::header(speeds, 240);
-        let rules = Rules { strategy, part: strategy.usual_part(plain.division, speeds.len()).max(3), ..plain.rules };
+        let rules = Rules {
+            strategy: strategy.clone(),
+            part: strategy.usual_part(plain.division, speeds.len()).max(3),
+            ..plain.rules
+        };
         Header { rules, handling: Duration::from_millis(handling), ..plain }
     }
 
@@ -193,7 +197,7 @@ mod tests {
         let language = Language::English;
         for (strategy, is_farm) in [(Strategy::Farm, true), (Strategy::Static, false), (Strategy::Ring, false)] {
             let mut seen = BTreeSet::new();
-            for_each_record(&header(strategy, &[1.0, 1.0, 0.2], 0), |state, now| {
+            for_each_record(&header(strategy.clone(), &[1.0, 1.0, 0.2], 0), |state, now| {
                 seen.extend(texts(state, now, SIZE, language))
             });
             for text in ["?", "×5", "×0"] {

@@ -22,8 +22,7 @@ use super::analysis::summary::Summary;
 use super::draw::display_list::{Hue, Mark, Point};
 use super::state::flight::Flight;
 use super::state::run_state::RunState;
-use super::state::scheduler::Sharing;
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Scheduler};
 use crate::language::Language;
 use crate::time::Time;
 use angles::arc;
@@ -57,11 +56,11 @@ pub enum RingSpot {
 pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: Time, language: Language) -> Vec<Mark> {
     let mut marks = RingMarks::default();
     let tracks = marks.layer(RingLayer::Tracks);
-    if state.sharing.is_ring() {
+    if state.scheduler.is_ring() {
         rail(layout, tracks);
     }
-    if state.sharing != Sharing::Stealing {
-        spokes(layout, state.sharing.is_farm(), tracks);
+    if state.scheduler != Scheduler::WorkStealing {
+        spokes(layout, state.scheduler.is_farm(), tracks);
     }
     let machines = marks.layer(RingLayer::Machines);
     for node in 0..state.nodes().len() as NodeId {

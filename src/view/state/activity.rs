@@ -102,8 +102,8 @@ impl RunState {
         } else if is_over {
             Activity::Done
         } else if state.retired && state.left() == 0 {
-            match self.sharing {
-                sharing if sharing.is_farm() => Activity::NoMore,
+            match &self.scheduler {
+                scheduler if scheduler.is_farm() => Activity::NoMore,
                 _ if self.has(Remedy::Wake) => Activity::Asleep,
                 _ => Activity::Retired,
             }
@@ -115,7 +115,7 @@ impl RunState {
             Activity::Receiving
         } else if state.left() > 0 {
             if state.speed > 0.0 { Activity::Tracing } else { Activity::SpeedZero }
-        } else if self.sharing.is_farm() && state.awaits_answer {
+        } else if self.scheduler.is_farm() && state.awaits_answer {
             self.request_progress(node, now)
         } else if state.awaits_answer || offers {
             Activity::Offering

@@ -9,5 +9,4 @@ pub mod lanes;
 pub mod node_rows;
 pub mod node_state;
 pub mod run_state;
-pub mod scheduler;
 pub mod throughput;

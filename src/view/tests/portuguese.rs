@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::sample_runs;
-use crate::balance::{Condition, NodeId, Rules, Strategy};
+use crate::balance::{Condition, NodeId, Rules, Scheduler, Strategy};
 use crate::language::Language;
 use crate::picture::{Difference, Quality, Size};
 use crate::record::RecordKind;
@@ -28,7 +28,6 @@ use crate::view::ring::labels;
 use crate::view::ring::layout::RingLayout;
 use crate::view::ring::{RingOverlay, ring};
 use crate::view::state::node_state::Activity;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::activity_word;
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
@@ -168,7 +167,7 @@ fn runs() -> Vec<RunLog> {
             for script in hands {
                 let plain = sample_runs::header(speeds, 900);
                 let part = strategy.usual_part(plain.division, speeds.len());
-                let rules = Rules { strategy, part, ..plain.rules };
+                let rules = Rules { strategy: strategy.clone(), part, ..plain.rules };
                 let header = Header { rules, driver, handling: Duration::from_millis(handling), ..plain };
                 let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
                 let fits = |(_, command): &&(Time, Command)| match command {
@@ -279,12 +278,12 @@ fn sentences_of_runs_are_portuguese() {
 fn names_and_numbers_are_portuguese() {
     compare(|language| {
         let mut said: Vec<String> = Vec::new();
-        for sharing in Sharing::ALL {
+        for scheduler in Scheduler::ALL {
             said.extend([
-                sharing.name(language).to_owned(),
-                sharing.hint(language).to_owned(),
-                sharing.machines(8, language),
-                sharing.machines(1, language),
+                scheduler.title(language).to_owned(),
+                scheduler.hint(language).to_owned(),
+                scheduler.machines(8, language),
+                scheduler.machines(1, language),
             ]);
         }
         said.extend(

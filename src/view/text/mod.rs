@@ -4,5 +4,6 @@ pub mod format;
 pub mod quality;
 pub mod remedies;
 pub mod scene_stats;
+pub mod scheduler_names;
 pub mod tooltips;
 pub mod trial_names;

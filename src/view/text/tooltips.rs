@@ -6,7 +6,7 @@ use super::format::{
     activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent, rate_words,
     seconds_words,
 };
-use crate::balance::{Condition, NodeId, Party};
+use crate::balance::{Condition, NodeId, Party, Scheduler};
 use crate::language::{Language, say, word};
 use crate::picture::Atom;
 use crate::time::Time;
@@ -15,7 +15,6 @@ use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::node_rows::node_rows;
 use crate::view::state::node_state::{Activity, NodeState, Parcels, Slot};
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 
 /// Kind of a fact about a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,26 +80,26 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
         (Fact::Rate, Some(rate_words(row.rate, language))),
         (Fact::Idle, Some(fraction(row.idle))),
     ];
-    facts.extend(shared_facts(state.sharing(), of, language));
+    facts.extend(shared_facts(state.scheduler(), of, language));
     facts
 }
 
 /// Returns facts about the atoms that a node has got from others and given to them.
-fn shared_facts(sharing: Sharing, of: &NodeState, language: Language) -> Vec<(Fact, Option<String>)> {
+fn shared_facts(scheduler: &Scheduler, of: &NodeState, language: Language) -> Vec<(Fact, Option<String>)> {
     let parcel = word!(language, "parcel", "pacote");
-    match sharing {
-        Sharing::Stealing => {
+    match scheduler {
+        Scheduler::WorkStealing => {
             let theft = word!(language, "theft", "roubo");
             vec![
                 (Fact::Stole, parcels_words(of.got, theft, language)),
                 (Fact::Lost, parcels_words(of.given, theft, language)),
             ]
         }
-        _ if sharing.is_farm() => vec![
+        _ if scheduler.is_farm() => vec![
             (Fact::Asked, Some(counted(of.requests, word!(language, "time", "vez"), language))),
             (Fact::Got, parcels_words(of.got, word!(language, "part", "parte"), language)),
         ],
-        _ if sharing.is_ring() => {
+        _ if scheduler.is_ring() => {
             let [made, passed] = [of.offers, of.hops].map(count);
             let offers = say!(language, "{made} made, {passed} passed on", "{made} feitas, {passed} repassadas");
             vec![
@@ -137,11 +136,11 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
             say!(language, "{messages}, {each} each", "{messages}, {each} cada"),
         ));
     }
-    if state.sharing().is_farm() {
+    if state.scheduler().is_farm() {
         let parts = parcels_words(state.handed_out, word!(language, "part", "parte"), language);
         words.push((word!(language, "handed out", "distribuiu"), parts.unwrap_or_else(|| nothing(language).into())));
     }
-    let way = if state.sharing().is_ring() {
+    let way = if state.scheduler().is_ring() {
         word!(language, "a hop takes", "um salto leva")
     } else {
         word!(language, "a message takes", "uma mensagem leva")
@@ -155,8 +154,8 @@ pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
     let (takes, handling) = (duration(state.latency(), language), duration(state.handling, language));
     let mut lines =
         vec![word!(language, "some atoms take longer than others", "alguns átomos demoram mais que outros").to_owned()];
-    match state.sharing() {
-        Sharing::Stealing => lines.push(
+    match state.scheduler() {
+        Scheduler::WorkStealing => lines.push(
             word!(
                 language,
                 "threads share their memory, without messages",
@@ -165,7 +164,7 @@ pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
             .into(),
         ),
         _ if state.latency().is_zero() && state.handling.is_zero() => {}
-        sharing if sharing.is_ring() => {
+        scheduler if scheduler.is_ring() => {
             lines.push(say!(language, "an offer takes {takes} a hop", "uma oferta leva {takes} por salto"));
         }
         _ if state.handling.is_zero() => {
@@ -177,7 +176,7 @@ pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
             "uma mensagem leva {takes}, o pai, {handling}"
         )),
     }
-    if !state.sharing().is_fixed() {
+    if !state.scheduler().is_fixed() {
         lines.push(
             word!(
                 language,

@@ -2,15 +2,15 @@
 
 use super::format::{count, duration, fraction, node_name, time_words};
 use super::remedies::without;
+use crate::balance::Scheduler;
 use crate::balance::Strategy;
 use crate::language::{Language, say, word};
 use crate::sim::Change;
-use crate::view::state::scheduler::Sharing;
 
 /// Describes a change in a few words.
-pub fn change_words(change: Change, language: Language) -> String {
-    match change {
-        Change::Strategy(strategy) => Sharing::By(strategy).name(language).to_owned(),
+pub fn change_words(change: &Change, language: Language) -> String {
+    match *change {
+        Change::Strategy(ref strategy) => Scheduler::Protocol(strategy.clone()).title(language).to_owned(),
         Change::Nodes(1) => word!(language, "1 machine", "1 máquina").to_owned(),
         Change::Nodes(nodes) => say!(language, "{nodes} machines", "{nodes} máquinas"),
         Change::Speed(node, speed) => {
@@ -45,26 +45,24 @@ pub fn change_words(change: Change, language: Language) -> String {
 }
 
 /// Names a run after its strategy and its changes. Of several changes of one thing only the last is named.
-pub fn trial_name(strategy: Strategy, changes: &[Change], language: Language) -> String {
-    let mut words = vec![Sharing::By(strategy).name(language).to_owned()];
-    let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| overrides(*change, *other));
+pub fn trial_name(strategy: &Strategy, changes: &[Change], language: Language) -> String {
+    let mut words = vec![Scheduler::Protocol(strategy.clone()).title(language).to_owned()];
+    let is_later = |change: &Change, later: &[Change]| later.iter().any(|other| overrides(change, other));
     for (i, change) in changes.iter().enumerate() {
         if !matches!(change, Change::Strategy(_)) && !is_later(change, &changes[i + 1..]) {
-            words.push(change_words(*change, language));
+            words.push(change_words(change, language));
         }
     }
     words.join(", ")
 }
 
 /// Whether the later change overrides the earlier one.
-fn overrides(earlier: Change, later: Change) -> bool {
+fn overrides(earlier: &Change, later: &Change) -> bool {
     match (earlier, later) {
         (Change::Speed(one, _), Change::Speed(other, _)) => one == other,
         (Change::Speed(..), Change::Equal) => true,
         (Change::Without(one), Change::Without(other)) => one == other,
-        _ => {
-            std::mem::discriminant(&earlier) == std::mem::discriminant(&later) && !matches!(later, Change::SpeedAt(..))
-        }
+        _ => std::mem::discriminant(earlier) == std::mem::discriminant(later) && !matches!(later, Change::SpeedAt(..)),
     }
 }
 
@@ -88,12 +86,18 @@ mod tests {
             Change::SpeedAt(Time::from_secs(2.0), 1, 0.1),
         ];
         assert_eq!(
-            trial_name(Strategy::Farm, &changes, language),
+            trial_name(&Strategy::Farm, &changes, language),
             "Farm, 200 ms a message, 8 at 50 %, 4 machines, 2 at 10 % from 2.0 s on"
         );
-        assert_eq!(trial_name(Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal], language), "Ring, all at 100 %");
-        assert_eq!(trial_name(Strategy::Ring, &[], language), "Ring");
+        assert_eq!(
+            trial_name(&Strategy::Ring, &[Change::Speed(1, 0.5), Change::Equal], language),
+            "Ring, all at 100 %"
+        );
+        assert_eq!(trial_name(&Strategy::Ring, &[], language), "Ring");
         let without = [Remedy::Wake, Remedy::Copies, Remedy::Wake].map(Change::Without);
-        assert_eq!(trial_name(Strategy::Adaptive, &without, language), "Adaptive ring, without copies, without waking");
+        assert_eq!(
+            trial_name(&Strategy::Adaptive, &without, language),
+            "Adaptive ring, without copies, without waking"
+        );
     }
 }

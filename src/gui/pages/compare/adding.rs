@@ -28,7 +28,7 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: La
         Some(word!(language, "Add …", "Acrescentar …")),
         Emphasis::Quiet,
     );
-    let changes = strategies.iter().map(|&strategy| (Change::Strategy(strategy), false)).collect();
+    let changes = strategies.iter().map(|strategy| (Change::Strategy(strategy.clone()), false)).collect();
     menu(&opener, |ui| row(ui, "", changes, look, language))
 }
 
@@ -104,7 +104,10 @@ type Choice = (Change, bool);
 /// Returns the possible changes in groups.
 fn possible_changes(trial: &Trial, language: Language) -> Vec<(&'static str, Vec<Choice>)> {
     let header = &trial.header;
-    let strategies = Strategy::ALL.map(|strategy| (Change::Strategy(strategy), strategy == header.rules.strategy));
+    let strategies = Strategy::ALL.map(|strategy| {
+        let is_present = strategy == header.rules.strategy;
+        (Change::Strategy(strategy), is_present)
+    });
     let lacks = |remedy| (Change::Without(remedy), !header.rules.remedies.has(remedy));
     let remedies = if header.rules.strategy == Strategy::Adaptive { Remedy::ALL.map(lacks).into() } else { Vec::new() };
     let mut machines = values(&[1, 2, 3, 4, 5, 8, 16, 32], header.speeds.len(), Change::Nodes);
@@ -168,7 +171,7 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Lan
             // A second line begins below the first one instead of below the heading.
             ui.horizontal_wrapped(|ui| {
                 for (change, is_present) in changes {
-                    if item(ui, change, is_present, look, language).clicked() {
+                    if item(ui, &change, is_present, look, language).clicked() {
                         chosen = Some(change);
                     }
                 }
@@ -179,8 +182,8 @@ fn row(ui: &mut Ui, group: &str, changes: Vec<Choice>, look: Look, language: Lan
 }
 
 /// Returns the text of a change without what its row says.
-fn short_text(change: Change, language: Language) -> String {
-    match change {
+fn short_text(change: &Change, language: Language) -> String {
+    match *change {
         Change::Nodes(nodes) => nodes.to_string(),
         Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
         Change::Atom(pixels) => count(pixels),
@@ -192,7 +195,7 @@ fn short_text(change: Change, language: Language) -> String {
 }
 
 /// Shows a change as a button; the present value is only outlined.
-fn item(ui: &mut Ui, change: Change, is_present: bool, look: Look, language: Language) -> Response {
+fn item(ui: &mut Ui, change: &Change, is_present: bool, look: Look, language: Language) -> Response {
     let galley = ui.painter().layout_no_wrap(short_text(change, language), theme::regular(theme::BODY), look.text);
     let sense = if is_present { Sense::hover() } else { Sense::click() };
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 2.0 * GRID, 3.75 * GRID), sense);
@@ -207,7 +210,7 @@ fn item(ui: &mut Ui, change: Change, is_present: bool, look: Look, language: Lan
     let corner = pos2(rect.left() + GRID, rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(corner, galley, look.text);
     match change {
-        Change::Without(remedy) => response.on_hover_text(remedy_hint(remedy, language)),
+        Change::Without(remedy) => response.on_hover_text(remedy_hint(*remedy, language)),
         _ if is_present => response.on_hover_text(word!(language, "The present value", "O valor atual")),
         _ => response,
     }

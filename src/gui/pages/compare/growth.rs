@@ -5,13 +5,14 @@ use egui::{RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::CompareColumn;
 use super::columns::letter;
+use crate::balance::Scheduler;
 use crate::gui::session::{Growth, GrowthPoint};
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, decimal, say, word};
 use crate::palette::{DISTINCT_COLOURS, node_colours};
 use crate::study::article_over_ideal;
-use crate::view::{Axis, Hue, LineChart, MIN_CHART_HEIGHT, Series, Sharing, Style, TimeBudget, fraction, series_hue};
+use crate::view::{Axis, Hue, LineChart, MIN_CHART_HEIGHT, Series, Style, TimeBudget, fraction, series_hue};
 
 /// Quantity of the chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +63,12 @@ fn chart(growth: &Growth, columns: &[CompareColumn], measure: Measure, language:
     let is_speedup = measure == Measure::Speedup;
     for (i, (strategy, runs)) in growth.curves.iter().enumerate() {
         let value = |run: &GrowthPoint| if is_speedup { run.speedup } else { run.efficiency };
-        let name = Sharing::By(*strategy).name(language);
+        let name = Scheduler::Protocol(strategy.clone()).title(language);
         let points = runs.iter().map(|run| (run.machines as f64, value(run))).collect();
         series.push(Series { name: name.to_owned(), hue: series_hue(i), points, style: Style::Line });
         // The article has figures for equal machines, and for four machines with a slow fifth one.
         let article = |run: &GrowthPoint| {
-            let over = article_over_ideal(*strategy, run.machines, growth.slow.is_some())?;
+            let over = article_over_ideal(strategy, run.machines, growth.slow.is_some())?;
             let power = run.speedup / run.efficiency;
             Some((run.machines as f64, if is_speedup { power / over } else { 1.0 / over }))
         };

@@ -106,11 +106,11 @@ impl Compare {
 
     /// Returns the strategies that no unchanged run of the comparison has.
     fn strategies(&self) -> Vec<Strategy> {
-        let is_missing = |strategy| {
-            let has_it = |column: &CompareColumn| column.trial.header.rules.strategy == strategy && !column.is_fork();
+        let is_missing = |strategy: &Strategy| {
+            let has_it = |column: &CompareColumn| column.trial.header.rules.strategy == *strategy && !column.is_fork();
             !self.columns.iter().any(has_it)
         };
-        Strategy::ALL.into_iter().filter(|&strategy| is_missing(strategy)).collect()
+        Strategy::ALL.into_iter().filter(is_missing).collect()
     }
 }
 

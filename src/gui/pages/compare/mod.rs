@@ -90,7 +90,7 @@ impl Default for Compare {
 impl CompareColumn {
     /// Returns the name of the run.
     fn name(&self, language: Language) -> String {
-        trial_name(self.trial.header.rules.strategy, &self.changes, language)
+        trial_name(&self.trial.header.rules.strategy, &self.changes, language)
     }
 
     /// Whether the run differs from the subject by more than its strategy.
@@ -145,7 +145,7 @@ impl Compare {
         let header = &self.subject.as_ref()?.trial.header;
         let entry = |column: &CompareColumn| {
             let header = &column.trial.header;
-            let (strategy, machines) = (header.rules.strategy, header.speeds.len());
+            let (strategy, machines) = (header.rules.strategy.clone(), header.speeds.len());
             let account = column.run.as_ref()?.budget.clone();
             Some(ComparisonEntry { strategy, changes: column.changes.clone(), machines, account })
         };
@@ -250,10 +250,10 @@ impl Compare {
         }
         let same_picture = self.subject.as_ref().is_some_and(|known| known.has_picture_of(&subject));
         self.picture = self.picture.take().filter(|_| same_picture);
-        let base = subject.trial.header.rules.strategy;
+        let base = subject.trial.header.rules.strategy.clone();
         let mut strategies = vec![Strategy::Static, Strategy::Farm, Strategy::Ring];
         if !strategies.contains(&base) {
-            strategies.insert(0, base);
+            strategies.insert(0, base.clone());
         }
         self.subject = Some(subject);
         (self.columns, self.growth, self.trouble) = (Vec::new(), None, None);
@@ -269,7 +269,7 @@ impl Compare {
     /// Adds a column: the subject with these changes.
     fn add(&mut self, changes: Vec<Change>) {
         let Some(subject) = &self.subject else { return };
-        let trial = changes.iter().fold(subject.trial.clone(), |trial, &change| trial.with(change));
+        let trial = changes.iter().fold(subject.trial.clone(), |trial, change| trial.with(change.clone()));
         self.last_id += 1;
         let (texture, lanes) = (CanvasTexture::default(), None);
         self.columns.push(CompareColumn { id: self.last_id, trial, changes, run: None, texture, lanes });

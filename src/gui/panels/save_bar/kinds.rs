@@ -173,7 +173,7 @@ impl SaveKind {
     /// Returns a file name that says what is saved. `large` is the size of a picture that is traced again, as text.
     pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
         let scene = as_file_name(&header.scene);
-        let of_run = format!("-{}-{}", header.strategy_name(), header.speeds.len());
+        let of_run = format!("-{}-{}", header.scheduler().name(), header.speeds.len());
         let content = match self {
             Self::Render | Self::Large => String::new(),
             Self::Owners => "-owners".into(),

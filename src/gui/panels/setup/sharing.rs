@@ -4,22 +4,22 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Button, ComboBox, Popup, PopupCloseBehavior, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
 
 use super::{VALUE_WIDTH_PT, explanation, high_row, labelled_row};
-use crate::balance::{Remedy, Strategy};
+use crate::balance::{Remedy, Scheduler, Strategy};
 use crate::gui::settings::Settings;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, choice_buttons, named_button, number_field, popup_frame};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
-use crate::view::{Sharing, remedies_words, remedy_hint, remedy_name};
+use crate::view::{remedies_words, remedy_hint, remedy_name};
 
 /// Shows the settings of strategy and driver.
 pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    let on = draft.sharing();
+    let on = draft.scheduler();
     let name = word!(language, "Strategy", "Estratégia");
     high_row(ui, name, look, |ui| {
         // The short name: the list has the full one.
         let combo = ComboBox::from_id_salt("strategy")
-            .selected_text(on.short_name(language))
+            .selected_text(on.short_title(language))
             .width(20.0 * GRID)
             .height(60.0 * GRID);
         let combo = combo.show_ui(ui, |ui| {
@@ -27,26 +27,27 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.spacing_mut().button_padding.y = 3.0;
             ui.visuals_mut().selection.bg_fill = look.hairline;
-            for sharing in Sharing::ALL {
-                if strategy(ui, sharing, sharing == on, look, language).clicked() && sharing != on {
-                    draft.set_sharing(sharing);
+            for scheduler in Scheduler::ALL {
+                let is_on = scheduler == on;
+                if strategy(ui, &scheduler, is_on, look, language).clicked() && !is_on {
+                    draft.set_scheduler(scheduler);
                 }
             }
         });
         combo.response.widget_info(|| {
             let mut info = WidgetInfo::labeled(egui::Role::ComboBox, true, name);
-            info.current_text_value = Some(on.name(language).to_owned());
+            info.current_text_value = Some(on.title(language).to_owned());
             info
         });
     });
     // The remedies explain what the adaptive ring does.
-    let is_adaptive = on == Sharing::By(Strategy::Adaptive);
+    let is_adaptive = on == Scheduler::Protocol(Strategy::Adaptive);
     if is_adaptive {
         remedies(ui, draft, look, language);
     } else {
         explanation(ui, on.hint(language), look);
     }
-    let stealing = on == Sharing::Stealing;
+    let stealing = on == Scheduler::WorkStealing;
     high_row(ui, word!(language, "Time", "Tempo"), look, |ui| {
         ui.add_enabled_ui(!stealing, |ui| {
             let virtual_hint = word!(
@@ -94,7 +95,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
 
 /// Shows the settings of the network; rayon's threads send no messages.
 pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    ui.add_enabled_ui(draft.sharing() != Sharing::Stealing, |ui| {
+    ui.add_enabled_ui(draft.scheduler() != Scheduler::WorkStealing, |ui| {
         labelled_row(ui, word!(language, "The parent takes", "O pai leva"), look, |ui| {
             let (max, suffix) = (Settings::MAX_HANDLING_MS, word!(language, " ms each", " ms cada"));
             let name = word!(language, "Parent's milliseconds for a message", "Milissegundos do pai por mensagem");
@@ -175,15 +176,15 @@ fn remedies(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
 }
 
 /// Shows a strategy of the list: its name, and below it its description.
-fn strategy(ui: &mut Ui, sharing: Sharing, on: bool, look: Look, language: Language) -> Response {
+fn strategy(ui: &mut Ui, scheduler: &Scheduler, on: bool, look: Look, language: Language) -> Response {
     let mut text = LayoutJob::default();
     let mut add = |part: &str, size, color| {
         text.append(part, 0.0, TextFormat { font_id: theme::regular(size), color, ..TextFormat::default() });
     };
-    add(&format!("{}\n", sharing.name(language)), theme::BODY, look.text);
-    add(sharing.hint(language), theme::SMALL, look.quiet);
+    add(&format!("{}\n", scheduler.title(language)), theme::BODY, look.text);
+    add(scheduler.hint(language), theme::SMALL, look.quiet);
     let response =
         ui.add(Button::selectable(on, text).wrap_mode(TextWrapMode::Extend).min_size(vec2(36.0 * GRID, 0.0)));
-    response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, on, sharing.name(language)));
+    response.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, on, scheduler.title(language)));
     response
 }

@@ -5,12 +5,11 @@ mod recovery;
 
 use super::failure::Failure;
 use super::happening::Happening;
-use crate::balance::{Message, NodeId, Party};
+use crate::balance::{Message, NodeId, Party, Scheduler};
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use list::{EventKind, with};
 
 pub(crate) use list::EventLog;
@@ -116,7 +115,7 @@ impl EventLog {
     }
 
     fn add_transfer(&mut self, at: Time, from: NodeId, to: NodeId, atoms: u32, state: &RunState) {
-        let is_theft = state.sharing == Sharing::Stealing;
+        let is_theft = state.scheduler == Scheduler::WorkStealing;
         if atoms > SMALL_TRANSFER_ATOMS {
             return self.add(at, EventKind::Transfer, Happening::gift(state, from, to, atoms));
         }
@@ -144,7 +143,7 @@ pub(crate) fn waiting_messages(state: &RunState, now: Time) -> Option<usize> {
 /// Whether `node` has just traced the last atom of its fixed band, while others still have atoms.
 pub(crate) fn is_band_done(state: &RunState, node: NodeId) -> bool {
     let is_last = state.nodes().get(usize::from(node)).is_some_and(|of| of.band_at.is_some() && of.left() == 0);
-    is_last && state.sharing.is_fixed() && state.nodes().iter().any(|other| other.left() > 0)
+    is_last && state.scheduler.is_fixed() && state.nodes().iter().any(|other| other.left() > 0)
 }
 
 #[cfg(test)]

@@ -160,13 +160,13 @@ fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
             ((1, 0), Happening::offer(state, *from, false, message.own_offer(*from)?))
         }
         // A node that is called back or let in gets an empty band.
-        RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.sharing.is_adaptive() => {
+        RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.scheduler.is_adaptive() => {
             return None;
         }
         RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
             ((2, 0), Happening::bands(state, band))
         }
-        RecordKind::Retired { .. } if state.sharing.is_farm() => return None,
+        RecordKind::Retired { .. } if state.scheduler.is_farm() => return None,
         RecordKind::Retired { node } => {
             let happening = Happening::retired(state, vec![*node]);
             let sleeps = matches!(happening, Happening::Retired { reason: Retirement::Sleeps, .. });

@@ -115,7 +115,7 @@ fn sentence_on_a_speed_follows_the_slider() {
 /// The sentences of a run by `strategy` whose last machine is slow, and the list of events at its end.
 fn story(strategy: Strategy, handling: u64, language: Language) -> (BTreeSet<String>, Vec<String>) {
     let plain = sample_runs::header(&[1.0, 1.0, 1.0, 1.0, 0.1], 2000);
-    let rules = Rules { strategy, part: strategy.usual_part(plain.division, 5), ..plain.rules };
+    let rules = Rules { strategy: strategy.clone(), part: strategy.usual_part(plain.division, 5), ..plain.rules };
     let header = Header { rules, handling: Duration::from_millis(handling), ..plain };
     let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), BTreeSet::new());
     for record in sample_runs::records(&header) {

@@ -1,11 +1,10 @@
 //! Sentences for a run that hangs because a machine has failed: the reason, and which ring recovers from it.
 
-use crate::balance::{Condition, NodeId, Party, Remedy, Strategy};
+use crate::balance::{Condition, NodeId, Party, Remedy, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, names};
 
 /// Explains why a run hangs after a failure; `None` if the run may still go on.
@@ -66,9 +65,9 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
 
 /// Says which ring recovers from a failure.
 fn recovery_words(state: &RunState, language: Language) -> &'static str {
-    if state.sharing.is_adaptive() {
+    if state.scheduler.is_adaptive() {
         word!(language, "without leases this ring cannot recover", "sem prazos este anel não se recupera")
-    } else if state.sharing == Sharing::By(Strategy::Ring) {
+    } else if state.scheduler == Scheduler::Protocol(Strategy::Ring) {
         word!(
             language,
             "the article's ring cannot recover, the adaptive ring can",

@@ -17,13 +17,13 @@ use without_ring::status_without_ring;
 
 /// Describes the status of a run in one sentence.
 pub(crate) fn status_sentence(state: &RunState, language: Language) -> String {
-    if state.sharing.is_adaptive() {
+    if state.scheduler.is_adaptive() {
         return adaptive_ring_status(state, language);
     }
     if let Some(words) = deadlock_words(state, language) {
         return words;
     }
-    if state.sharing.is_ring() { ring_status(state, language) } else { status_without_ring(state, language) }
+    if state.scheduler.is_ring() { ring_status(state, language) } else { status_without_ring(state, language) }
 }
 
 #[cfg(test)]

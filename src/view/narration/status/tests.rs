@@ -139,7 +139,7 @@ fn all_machines_stand_still() {
 /// The last state of a run by `strategy` in which machine 2 gets this condition at 0.5 s.
 fn end(strategy: Strategy, condition: Condition, language: Language) -> RunState {
     let mut header = sample_runs::header(&[1.0; 3], 300);
-    header.rules.strategy = strategy;
+    header.rules.strategy = strategy.clone();
     let script = [(Time::from_secs(0.5), Command::Condition { node: 1, condition })];
     let mut state = RunState::new(&header);
     let mut before = 0;

@@ -4,11 +4,10 @@ use super::phrases::{
     Machine, atoms_on_their_way, computing, has_most_atoms, last_computing, machines_wait_for_parent, single_machine,
 };
 use super::stopped::{all_stand_still, atoms_left, restart_words, stop_reason};
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Scheduler};
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::{Happening, is_slow};
 use crate::view::state::run_state::RunState;
-use crate::view::state::scheduler::Sharing;
 use crate::view::text::format::{atoms_words, fraction, left_words, names, node_name};
 
 /// Describes the status of a run without offers.
@@ -33,13 +32,13 @@ pub(crate) fn status_without_ring(state: &RunState, language: Language) -> Strin
 
 /// Whether no machine can get more atoms.
 fn all_is_given_away(state: &RunState) -> bool {
-    !state.sharing.is_farm() || state.nodes().iter().any(|node| node.retired)
+    !state.scheduler.is_farm() || state.nodes().iter().any(|node| node.retired)
 }
 
 /// One machine has all atoms that are left; the others wait.
 fn all_wait_for(state: &RunState, (node, last): Machine<'_>, language: Language) -> String {
     let (name, left, speed) = (node_name(node), left_words(last.left(), language), fraction(last.speed));
-    if state.sharing == Sharing::Stealing {
+    if state.scheduler == Scheduler::WorkStealing {
         return last_computing((node, last), language);
     }
     if last.done + last.left() == state.atoms() {
@@ -66,7 +65,8 @@ fn several(
     language: Language,
 ) -> String {
     let machines = state.nodes().len();
-    let what = if state.sharing == Sharing::Stealing { "threads" } else { word!(language, "machines", "máquinas") };
+    let what =
+        if state.scheduler == Scheduler::WorkStealing { "threads" } else { word!(language, "machines", "máquinas") };
     let compute = computing(busy.len(), machines, what, language);
     if let [(_, machine), ..] = still {
         let (is, they) = match still.len() {
@@ -75,8 +75,8 @@ fn several(
         };
         let who = names(&still.iter().map(|(node, _)| *node).collect::<Vec<_>>(), language);
         let left = atoms_words(atoms_left(still), language);
-        return match state.sharing {
-            Sharing::Stealing => say!(
+        return match &state.scheduler {
+            Scheduler::WorkStealing => say!(
                 language,
                 "{compute}; {who} {is}: {they} {left} can be stolen",
                 "{compute}; {who} {is}: as outras podem roubar {left}"
@@ -92,12 +92,12 @@ fn several(
     let most = busy.iter().rev().max_by_key(|(_, node)| node.left());
     let Some((name, last)) = most.map(|(node, last)| (node_name(*node), last)) else { return compute };
     let (left, speed) = (atoms_words(last.left(), language), fraction(last.speed));
-    match state.sharing {
-        Sharing::Stealing if busy.len() == machines => {
+    match &state.scheduler {
+        Scheduler::WorkStealing if busy.len() == machines => {
             say!(language, "{compute} their own atoms", "{compute} seus próprios átomos")
         }
-        Sharing::Stealing => has_most_atoms(&compute, name, language),
-        sharing if sharing.is_farm() => match asking {
+        Scheduler::WorkStealing => has_most_atoms(&compute, name, language),
+        scheduler if scheduler.is_farm() => match asking {
             [] if !all_is_given_away(state) => {
                 say!(
                     language,
@@ -186,21 +186,21 @@ mod tests {
     use crate::time::Time;
     use crate::view::tests::sample_runs;
 
-    const STATIC: Sharing = Sharing::By(Strategy::Static);
-    const FARM: Sharing = Sharing::By(Strategy::Farm);
+    const STATIC: Scheduler = Scheduler::Protocol(Strategy::Static);
+    const FARM: Scheduler = Scheduler::Protocol(Strategy::Farm);
 
     /// The status of a run in which machines have these atoms left at these speeds; some have asked or have retired.
     fn status(
-        sharing: Sharing,
+        scheduler: Scheduler,
         machines: &[(u32, f64)],
         asking: &[NodeId],
         retired: &[NodeId],
         language: Language,
     ) -> String {
         let mut header = sample_runs::header(&vec![1.0; machines.len()], 900);
-        match sharing {
-            Sharing::By(strategy) => header.rules.strategy = strategy,
-            Sharing::Stealing => header = Header { driver: Driver::WorkStealing, ..header },
+        match scheduler {
+            Scheduler::Protocol(strategy) => header.rules.strategy = strategy,
+            Scheduler::WorkStealing => header = Header { driver: Driver::WorkStealing, ..header },
         }
         let mut state = RunState::new(&header);
         let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
@@ -270,7 +270,7 @@ mod tests {
     #[test]
     fn threads_steal_from_stopped_threads_too() {
         let language = Language::English;
-        let status = |machines: &[(u32, f64)]| status(Sharing::Stealing, machines, &[], &[], language);
+        let status = |machines: &[(u32, f64)]| status(Scheduler::WorkStealing, machines, &[], &[], language);
         assert_eq!(status(&[(5, 1.0), (5, 1.0)]), "All 2 threads compute their own atoms");
         assert_eq!(status(&[(0, 1.0), (5, 1.0)]), "Only 2 still computes: 5 atoms left");
         assert_eq!(

@@ -11,8 +11,7 @@ use super::atom_state::AtomState;
 use super::flight::Flight;
 use super::flights::Flights;
 use super::node_state::{NodeState, Parcels};
-use super::scheduler::Sharing;
-use crate::balance::{NodeId, Party, Remedies, Remedy};
+use crate::balance::{NodeId, Party, Remedies, Remedy, Scheduler};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, RecordKind};
 use crate::runlog::{Driver, Header};
@@ -40,7 +39,7 @@ pub struct RunState {
     /// Atoms that look different since [`RunState::take_touched`].
     touched: Vec<Range<Atom>>,
     division: Division,
-    pub(crate) sharing: Sharing,
+    pub(crate) scheduler: Scheduler,
     /// Differences from the article's ring.
     remedies: Remedies,
     /// Whether the run is in virtual time, so that the whole picture is traced before the run begins.
@@ -87,7 +86,7 @@ impl RunState {
             placed_early: BTreeSet::new(),
             touched: Vec::new(),
             division: header.division,
-            sharing: Sharing::of(header),
+            scheduler: header.scheduler(),
             remedies,
             is_virtual: header.driver == Driver::Sim,
             latency: header.link.latency,
@@ -199,8 +198,8 @@ impl RunState {
     }
 
     /// Scheduler of the run.
-    pub fn sharing(&self) -> Sharing {
-        self.sharing
+    pub fn scheduler(&self) -> &Scheduler {
+        &self.scheduler
     }
 
     /// Whether the run is an adaptive ring with this remedy.
