@@ -240,11 +240,7 @@ impl Learn {
         let about = word!(language, "Your own lesson (a text file):", "Sua própria lição (um arquivo de texto):");
         ui.label(RichText::new(about).font(theme::regular(theme::BODY)).color(look.quiet));
         ui.horizontal(|ui| {
-            let hint = word!(
-                language,
-                "path of a lesson, for example mine.ron",
-                "caminho de uma lição, por exemplo minha.ron"
-            );
+            let hint = word!(language, "path of a lesson, for example mine.ron", "uma lição, por exemplo minha.ron");
             let name = word!(language, "Path of a lesson", "Caminho de uma lição");
             let field = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
             let opens =

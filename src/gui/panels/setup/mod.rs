@@ -268,7 +268,7 @@ fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
         }
     });
     if let Pace::Lasts(seconds) = &mut draft.pace {
-        labelled_row(ui, word!(language, "If shared well, about", "Bem dividida, cerca de"), look, |ui| {
+        labelled_row(ui, word!(language, "If shared well, about", "Se bem dividida"), look, |ui| {
             let name = word!(language, "Seconds of the run", "Segundos da execução");
             number_field(ui, seconds, 1..=Settings::MAX_RUN_S, " s", VALUE_WIDTH_PT, name).on_hover_text(word!(language, 
                 "The run takes this time if nearly all machines work until the end, as in a ring. Bands take longer with a \
