@@ -31,22 +31,22 @@ pub enum OutputError {
 /// Why a path can never hold the file.
 #[derive(Debug, PartialEq, Eq, Error)]
 pub enum PathProblem {
-    /// It ends in a separator, `.` or `..`.
+    /// The path ends in a separator, `.` or `..`.
     #[error("it does not name a file")]
     NoFileName,
     /// No usual file system takes so long a name.
     #[error("its name is longer than {MAX_NAME_BYTES} bytes")]
     LongName,
-    /// It names a directory.
+    /// The path names a directory.
     #[error("it is a directory; name a file in it")]
     Directory,
-    /// It names a device, a pipe or a socket.
+    /// The path names a device, a pipe or a socket.
     #[error("it is not a regular file")]
     NotRegular,
     /// The file is write-protected.
     #[error("it is read-only")]
     ReadOnly,
-    /// It is a symbolic link to nothing.
+    /// The path is a symbolic link to nothing.
     #[error("it is a link that leads nowhere")]
     DanglingLink,
     /// The file's directory is missing.

@@ -24,7 +24,7 @@ pub struct Neutral {
     pub accent: Rgb,
     /// Separating lines and axes.
     pub hairline: Rgb,
-    /// Text.
+    /// Usual text.
     pub text: Rgb,
     /// Explaining text.
     pub quiet: Rgb,

@@ -14,7 +14,7 @@ pub struct Record {
     /// The time.
     pub at: Time,
     /// The kind of record, with its details.
-    pub what: RecordKind,
+    pub kind: RecordKind,
 }
 
 /// Kind of a record, with its details.

@@ -56,7 +56,7 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
-/// Why the text of a file could not be read.
+/// Why a text file could not be loaded.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// There is no file at the path, and no built-in one of that name.

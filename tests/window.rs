@@ -67,7 +67,7 @@ fn window_shows_the_run_and_obeys_the_mouse() {
         .records()
         .iter()
         .filter_map(
-            |record| if let RecordKind::SpeedSet { node, speed } = record.what { Some((node, speed)) } else { None },
+            |record| if let RecordKind::SpeedSet { node, speed } = record.kind { Some((node, speed)) } else { None },
         )
         .collect();
     let last = speeds.last().copied();

@@ -45,7 +45,7 @@ pub(super) struct Report {
 
 impl Report {
     pub fn new(log: &RunLog, rays: RayCounts, wall: Duration, overhead: Option<f64>, tracer: &Tracer) -> Self {
-        let (header, tally) = (&log.header, Metrics::of(log));
+        let (header, metrics) = (&log.header, Metrics::of(log));
         let seconds = |time: Option<Duration>| time.unwrap_or_default().as_secs_f64();
         Self {
             scene: header.scene.clone(),
@@ -58,16 +58,16 @@ impl Report {
             speeds: header.speeds.clone(),
             pace: header.pace,
             wall_s: wall.as_secs_f64(),
-            makespan_s: seconds(tally.makespan()),
-            work_s: tally.work().as_secs_f64(),
-            ideal_s: seconds(tally.ideal()),
-            efficiency: tally.efficiency().unwrap_or_default(),
+            makespan_s: seconds(metrics.makespan()),
+            work_s: metrics.work().as_secs_f64(),
+            ideal_s: seconds(metrics.ideal()),
+            efficiency: metrics.efficiency().unwrap_or_default(),
             overhead,
-            finish_spread_s: tally.finish_spread().as_secs_f64(),
+            finish_spread_s: metrics.finish_spread().as_secs_f64(),
             rays,
             atoms: header.division.atoms(),
-            atoms_by_node: tally.atoms_by_node(),
-            messages: tally.messages(),
+            atoms_by_node: metrics.atoms_by_node(),
+            messages: metrics.messages(),
             compiled: tracer.scene_stats(),
             levels: Vec::new(),
         }

@@ -104,14 +104,14 @@ impl Endpoint {
     }
 
     /// Makes a record at the party's time. Returns its index, which is valid until the next flush.
-    pub fn record(&mut self, what: RecordKind) -> usize {
-        self.records.push(Record { at: self.time, what });
+    pub fn record(&mut self, kind: RecordKind) -> usize {
+        self.records.push(Record { at: self.time, kind });
         self.records.len() - 1
     }
 
     /// Returns a record that is not flushed yet.
     pub fn record_mut(&mut self, index: usize) -> &mut RecordKind {
-        &mut self.records[index].what
+        &mut self.records[index].kind
     }
 
     /// Sends a message at the party's time, with the pixels of its atoms.
@@ -163,7 +163,7 @@ impl Endpoint {
         Some(transition)
     }
 
-    /// Records that the messages from `from` to this party are delayed.
+    /// Adds a record that messages from `from` to this party arrive late from now on, and until when.
     pub fn record_delay(&mut self, from: Party) {
         let (to, soon) = (self.me, self.time + MIN_TRAVEL_TIME);
         let until = self.shared.failures.arrival(from, to, soon);

@@ -148,7 +148,7 @@ mod tests {
                 Update::Records(records) => records,
                 _ => Vec::new(),
             });
-            heard.extend(records.filter_map(|record| match record.what {
+            heard.extend(records.filter_map(|record| match record.kind {
                 RecordKind::Received { .. } => Some('R'),
                 RecordKind::Lost { .. } => Some('L'),
                 _ => None,

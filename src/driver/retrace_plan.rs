@@ -20,7 +20,7 @@ pub(super) fn plan(log: &RunLog, cancel: &CancelToken) -> Vec<Range<Atom>> {
     let mut in_flight = ResultsInFlight::default();
     let mut jobs: Vec<Range<Atom>> = Vec::new();
     for record in log.records() {
-        let received = in_flight.apply(&record.what);
+        let received = in_flight.apply(&record.kind);
         for range in received.into_iter().take_while(|_| !cancel.is_cancelled()) {
             for atom in range {
                 if planned.get_mut(atom as usize).is_none_or(|planned| mem::replace(planned, true)) {

@@ -182,7 +182,7 @@ mod tests {
         for record in
             updates.iter().flat_map(|update| if let Update::Records(records) = update { &records[..] } else { &[] })
         {
-            match record.what {
+            match record.kind {
                 RecordKind::AtomStarted { node, .. } => started[usize::from(node)] = record.at,
                 RecordKind::AtomDone { node, cost, .. } => {
                     let rate = header.speeds[usize::from(node)] * header.pace;
@@ -215,7 +215,7 @@ mod tests {
             .collect();
         let (mut since, mut hung, mut atoms) = (Time::ZERO, None, 0);
         for record in records.iter() {
-            match record.what {
+            match record.kind {
                 RecordKind::AtomStarted { .. } => since = record.at,
                 RecordKind::Condition { condition: Condition::Hung, .. } => hung = Some(record.at),
                 // The part of the hang that fell into this atom does not count.

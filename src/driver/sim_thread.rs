@@ -192,7 +192,7 @@ impl Updater<'_> {
     fn send(&mut self, records: Vec<Record>) {
         let mut atoms = Vec::new();
         for record in &records {
-            let received = self.in_flight.apply(&record.what);
+            let received = self.in_flight.apply(&record.kind);
             atoms.extend(received.into_iter().flat_map(|range| self.placed_once.take(range)));
         }
         if !records.is_empty() {

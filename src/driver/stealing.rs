@@ -163,7 +163,7 @@ impl PoolNode {
 struct StealingHandler {
     /// Number of messages received: the band is the first, the shutdown the second.
     received: u32,
-    /// Number of messages to wait for.
+    /// The worker waits while `received` is below this number.
     awaited: u32,
     /// Atoms that are traced and not sent.
     unsent: Vec<Range<Atom>>,

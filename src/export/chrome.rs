@@ -160,7 +160,7 @@ fn write_messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
     // By kind and track: the time until which it is taken.
     let mut taken: BTreeMap<u32, Vec<Time>> = BTreeMap::new();
     for record in log.records() {
-        let RecordKind::Sent { id, from, to, message, bytes, arrives } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to, message, bytes, arrives } = &record.kind else { continue };
         let (process, what) = match message {
             Message::Band(_) => (ATOMS, "band"),
             Message::Part(_) => (ATOMS, "part"),
@@ -205,7 +205,7 @@ fn write_offer_arrows(
     // By machine: the number of its last offer, and the slices of its hops.
     let mut out: BTreeMap<NodeId, (u64, Vec<TrackPoint>)> = BTreeMap::new();
     for record in log.records() {
-        let RecordKind::Sent { id, from, to, message, .. } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to, message, .. } = &record.kind else { continue };
         let Some(&place) = message_slices.get(id) else { continue };
         match (message, to) {
             (Message::Offer { who, .. }, _) => {
@@ -244,7 +244,7 @@ fn write_atom_arrows(
     traced.values().for_each(|(node, bar)| by_node.entry(*node).or_default().push(*bar));
     by_node.values_mut().for_each(|bars| bars.sort_by_key(|bar| (bar.from, bar.to)));
     for record in log.records() {
-        let RecordKind::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.what else { continue };
+        let RecordKind::Sent { id, from, to: Party::Node(to), message, arrives, .. } = &record.kind else { continue };
         if !matches!(message, Message::Band(_) | Message::Part(_) | Message::Transfer(_)) {
             continue;
         }
@@ -268,7 +268,7 @@ fn write_atom_arrows(
 /// Writes an instant for each change of a machine, and for the end.
 fn write_instants(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Result<()> {
     for record in log.records() {
-        let (node, what) = match &record.what {
+        let (node, what) = match &record.kind {
             RecordKind::Paused { node } => (Some(*node), "paused".into()),
             RecordKind::Resumed { node } => (Some(*node), "resumed".into()),
             RecordKind::Retired { node } => (Some(*node), "retired".into()),

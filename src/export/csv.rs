@@ -79,7 +79,7 @@ const COLUMNS: [&str; 14] = [
 
 fn row(record: &Record) -> RecordRow {
     let of = |what, node: NodeId| RecordRow { what, node: Some(party_name(Party::Node(node))), ..RecordRow::default() };
-    let row = match &record.what {
+    let row = match &record.kind {
         RecordKind::Sent { id, from, to, message, bytes, arrives } => RecordRow {
             from: Some(party_name(*from)),
             to: Some(party_name(*to)),
@@ -219,7 +219,7 @@ mod tests {
         log
     }
 
-    /// Reads the rows, by column name.
+    /// Writes the table of a run and reads it back: the rows, by column name.
     fn read(log: &RunLog) -> Vec<BTreeMap<String, String>> {
         let mut text = Vec::new();
         write_csv(&mut text, log).expect("writing to memory cannot fail");
@@ -232,17 +232,17 @@ mod tests {
             speeds in prop::collection::vec(0.1..1.0f64, 1..6), pixels in 1..60u32, strategy in prop::sample::select(&Sharing::ALL),
         ) {
             let log = log(speeds, pixels, strategy);
-            let (rows, tally) = (read(&log), Metrics::of(&log));
+            let (rows, metrics) = (read(&log), Metrics::of(&log));
             prop_assert_eq!(rows.len(), log.records().len());
             let rows_of = |what: &str| rows.iter().filter(|row| row["what"] == what).count() as u64;
-            let messages = tally.messages();
+            let messages = metrics.messages();
             let told = [rows_of("offer"), rows_of("hop"), rows_of("transfer"), rows_of("request"), rows_of("results")];
             let counted = [messages.offers, messages.hops, messages.transfers, messages.requests, messages.results];
             prop_assert_eq!(told, counted);
             let sum = |column: &str| rows.iter().filter_map(|row| row[column].parse::<f64>().ok()).sum::<f64>();
             prop_assert_eq!(sum("bytes") as u64, messages.bytes);
             let costs = rows.iter().filter(|row| row["what"] == "done").map(|row| row["cost_s"].parse::<f64>().expect("a number"));
-            prop_assert!((costs.sum::<f64>() - (tally.work() + tally.twice()).as_secs_f64()).abs() < 1e-9);
+            prop_assert!((costs.sum::<f64>() - (metrics.work() + metrics.twice()).as_secs_f64()).abs() < 1e-9);
             let times: Vec<f64> = rows.iter().map(|row| row["time_s"].parse().expect("a time")).collect();
             prop_assert!(times.is_sorted());
         }

@@ -130,7 +130,7 @@ impl<'a> FilmFrames<'a> {
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours, PRINT.ground);
         canvas.take(0..header.division.atoms(), frame.pixels());
-        let finished = log.records().iter().rfind(|record| record.what == crate::record::RecordKind::Finished);
+        let finished = log.records().iter().rfind(|record| record.kind == crate::record::RecordKind::Finished);
         let end = finished.map_or_else(|| log.end(), |finished| finished.at);
         Self {
             look: film.look,

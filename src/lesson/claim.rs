@@ -100,7 +100,7 @@ impl ClaimFigure {
 /// The number of atoms in the largest transfer; 0 without transfers.
 fn largest(log: &RunLog) -> f64 {
     let Some((records, _)) = Moment::BiggestTransfer.of(log) else { return 0.0 };
-    match &log.records()[records - 1].what {
+    match &log.records()[records - 1].kind {
         RecordKind::Sent { message, .. } => atoms_in(message.ranges()).into(),
         _ => 0.0,
     }

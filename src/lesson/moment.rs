@@ -14,9 +14,9 @@ use crate::view::Subject;
 pub enum Moment {
     /// Before anything has happened.
     Start,
-    /// This time after the beginning, in seconds.
+    /// A time after the beginning, in seconds.
     Seconds(f64),
-    /// This share of the atoms is traced, 0 to 1.
+    /// When a share of the atoms is traced, 0 to 1.
     Traced(f64),
     /// A machine offers help for the first time.
     FirstOffer,
@@ -47,7 +47,7 @@ impl Moment {
     /// have the moment.
     pub fn of(self, log: &RunLog) -> Option<(usize, Option<Subject>)> {
         let records = log.records();
-        let first = |is_it: &dyn Fn(&RecordKind) -> bool| records.iter().position(|record| is_it(&record.what));
+        let first = |is_it: &dyn Fn(&RecordKind) -> bool| records.iter().position(|record| is_it(&record.kind));
         let index = match self {
             Self::Start => return Some((0, None)),
             Self::End => return Some((records.len(), None)),
@@ -57,28 +57,28 @@ impl Moment {
             }
             Self::Traced(part) => {
                 let wanted = (part * f64::from(log.header.division.atoms())).ceil() as usize;
-                let mut done = (0..records.len()).filter(|&i| matches!(records[i].what, RecordKind::AtomDone { .. }));
+                let mut done = (0..records.len()).filter(|&i| matches!(records[i].kind, RecordKind::AtomDone { .. }));
                 return Some((done.nth(wanted.saturating_sub(1))? + 1, None));
             }
-            Self::FirstOffer => first(&|what| is_own_offer(what)),
-            Self::FirstTransfer => first(&|what| moved(what) > 0),
+            Self::FirstOffer => first(&|kind| is_own_offer(kind)),
+            Self::FirstTransfer => first(&|kind| moved(kind) > 0),
             Self::BiggestTransfer => {
                 transfers(records).max_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
             }
             Self::SmallestTransfer => {
                 transfers(records).min_by_key(|&(i, atoms)| (atoms, std::cmp::Reverse(i))).map(|(i, _)| i)
             }
-            Self::FirstRetired => first(&|what| matches!(what, RecordKind::Retired { .. })),
-            Self::FirstFailure => first(&|what| matches!(what, RecordKind::Condition { .. })),
+            Self::FirstRetired => first(&|kind| matches!(kind, RecordKind::Retired { .. })),
+            Self::FirstFailure => first(&|kind| matches!(kind, RecordKind::Condition { .. })),
             Self::FirstGone => records.iter().position(|record| {
                 // At time 0 the ring closes round the spare machines, which are off at first.
-                record.at > Time::ZERO && matches!(record.what, RecordKind::Sent { message: Message::Gone(_), .. })
+                record.at > Time::ZERO && matches!(record.kind, RecordKind::Sent { message: Message::Gone(_), .. })
             }),
-            Self::FirstAgain => first(&|what| matches!(what, RecordKind::Sent { message: Message::Again(_), .. })),
-            Self::FirstWake => first(&|what| matches!(what, RecordKind::Sent { message: Message::Wake, .. })),
+            Self::FirstAgain => first(&|kind| matches!(kind, RecordKind::Sent { message: Message::Again(_), .. })),
+            Self::FirstWake => first(&|kind| matches!(kind, RecordKind::Sent { message: Message::Wake, .. })),
             Self::LastAlone => alone(log),
         }?;
-        let about = match &records[index].what {
+        let about = match &records[index].kind {
             RecordKind::Sent { id, .. } => Some(Subject::Message(*id)),
             RecordKind::Retired { node } | RecordKind::Condition { node, .. } => Some(Subject::Node(*node)),
             _ => None,
@@ -87,13 +87,13 @@ impl Moment {
     }
 }
 
-fn is_own_offer(what: &RecordKind) -> bool {
-    matches!(what, RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
+fn is_own_offer(kind: &RecordKind) -> bool {
+    matches!(kind, RecordKind::Sent { from: Party::Node(from), message, .. } if message.own_offer(*from).is_some())
 }
 
 /// The number of atoms that the record sends from one machine to another.
-fn moved(what: &RecordKind) -> u32 {
-    match what {
+fn moved(kind: &RecordKind) -> u32 {
+    match kind {
         RecordKind::Sent { message: Message::Transfer(ranges), .. } => atoms_in(ranges),
         _ => 0,
     }
@@ -101,14 +101,14 @@ fn moved(what: &RecordKind) -> u32 {
 
 /// The transfers: index of the record, and number of atoms.
 fn transfers(records: &[Record]) -> impl Iterator<Item = (usize, u32)> {
-    records.iter().enumerate().map(|(i, record)| (i, moved(&record.what))).filter(|(_, atoms)| *atoms > 0)
+    records.iter().enumerate().map(|(i, record)| (i, moved(&record.kind))).filter(|(_, atoms)| *atoms > 0)
 }
 
 /// The index of the last atom's record of the last machine but one: from there on one machine traces alone.
 fn alone(log: &RunLog) -> Option<usize> {
     let mut ends = vec![None; log.header.speeds.len()];
     for (i, record) in log.records().iter().enumerate() {
-        if let RecordKind::AtomDone { node, .. } = record.what
+        if let RecordKind::AtomDone { node, .. } = record.kind
             && let Some(end) = ends.get_mut(usize::from(node))
         {
             *end = Some(i);

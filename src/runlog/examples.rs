@@ -17,8 +17,8 @@ pub fn header(speeds: &[f64]) -> Header {
 }
 
 /// Returns a record at `at` seconds.
-pub fn at(at: u64, what: RecordKind) -> Record {
-    Record { at: Time::ZERO + Duration::from_secs(at), what }
+pub fn at(at: u64, kind: RecordKind) -> Record {
+    Record { at: Time::ZERO + Duration::from_secs(at), kind }
 }
 
 /// Returns a record that `node` has traced `atom` at `at` seconds, at a cost of `cost` seconds.

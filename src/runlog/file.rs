@@ -240,7 +240,7 @@ mod tests {
         ) {
             let mut log = RunLog::new(header);
             for (at, what) in kinds {
-                log.add(vec![Record { at: Time(at), what }]);
+                log.add(vec![Record { at: Time(at), kind }]);
             }
             let directory = tempfile::tempdir().unwrap();
             let path = directory.path().join("run.jsonl");

@@ -40,7 +40,7 @@ impl RunLog {
     pub fn costs(&self) -> Vec<Option<Duration>> {
         let mut costs = vec![None; self.header.division.atoms() as usize];
         for record in &self.records {
-            if let RecordKind::AtomDone { atom, cost, .. } = record.what
+            if let RecordKind::AtomDone { atom, cost, .. } = record.kind
                 && let Some(known) = costs.get_mut(atom as usize)
             {
                 *known = Some(cost);
@@ -89,8 +89,8 @@ mod tests {
                         at += later;
                         // The id tells those made at the same time apart.
                         let id = (made[node].len() + records.len()) as u64;
-                        let what = RecordKind::Received { id, by: Party::Node(node as u16) };
-                        records.push(Record { at: Time(at), what });
+                        let kind = RecordKind::Received { id, by: Party::Node(node as u16) };
+                        records.push(Record { at: Time(at), kind });
                     }
                     made[node].extend(records.clone());
                     if together { several.extend(records) } else { _ = log.add(records) }
@@ -100,7 +100,7 @@ mod tests {
             prop_assert!(log.records().is_sorted_by_key(|record| record.at));
             for (node, made) in made.into_iter().enumerate() {
                 let by_node = |record: &&Record| {
-                    matches!(record.what, RecordKind::Received { by: Party::Node(by), .. } if usize::from(by) == node)
+                    matches!(record.kind, RecordKind::Received { by: Party::Node(by), .. } if usize::from(by) == node)
                 };
                 let of_node: Vec<_> = log.records().iter().filter(by_node).cloned().collect();
                 prop_assert_eq!(of_node, made);

@@ -66,7 +66,7 @@ impl Metrics {
     /// Takes in the next record.
     pub fn add(&mut self, record: &Record) {
         let at = record.at;
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from, message, bytes, .. } => {
                 if matches!(message, Message::Band(_)) {
                     self.start.get_or_insert(at);

@@ -145,7 +145,7 @@ impl<'a> Checker<'a> {
         let header = self.header;
         ensure(record.at >= self.last, InvalidRecord::NotInOrder)?;
         self.last = record.at;
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from, to, message, bytes, arrives, .. } => {
                 party(header, *from)?;
                 party(header, *to)?;

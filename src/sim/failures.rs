@@ -25,7 +25,7 @@ impl Sim {
         while let Some(next) = self.next() {
             let mut works = false;
             self.advance(next, &mut |record| {
-                works |= matches!(record.what, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. });
+                works |= matches!(record.kind, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. });
                 sink(record);
             });
             if works {
@@ -122,7 +122,7 @@ mod tests {
         let cut = vec![(at, Command::Link { one: from, other: to, cut: true })];
         for (script, is_cut) in [(held, false), (cut, true)] {
             let (mut sent, mut came, mut lost) = (Vec::new(), Vec::new(), 0);
-            Sim::new(&header, &script, |_| Duration::from_micros(1)).run(&mut |record| match record.what {
+            Sim::new(&header, &script, |_| Duration::from_micros(1)).run(&mut |record| match record.kind {
                 RecordKind::Sent { id, from: Party::Node(1), to: Party::Parent, arrives, .. } => {
                     assert!(
                         is_cut || record.at <= at || arrives >= until,

@@ -118,7 +118,7 @@ impl Sim {
         let costs: Option<Vec<Duration>> = measured.costs().into_iter().collect();
         let costs = costs.ok_or(MeasuredError::NotAllTraced)?;
         let mut sim = Self::new(header, &[], move |atom| costs[atom as usize]);
-        sim.sample = measured.records().iter().find_map(|record| match &record.what {
+        sim.sample = measured.records().iter().find_map(|record| match &record.kind {
             RecordKind::Estimated { costs } => Some(costs.clone()),
             _ => None,
         });
@@ -374,7 +374,7 @@ impl Sim {
         {
             party.in_hand = true;
             party.machine.begin(self.now, (self.cost)(atom));
-            sink(Record { at: self.now, what: RecordKind::AtomStarted { node, atom } });
+            sink(Record { at: self.now, kind: RecordKind::AtomStarted { node, atom } });
         }
         // Invalidates the due time that the atom in hand had before.
         party.due_version = party.due_version.wrapping_add(1);
@@ -386,7 +386,7 @@ impl Sim {
     }
 
     /// Makes a record of the present time.
-    pub(super) fn record(&self, what: RecordKind, sink: RecordSink<'_>) {
-        sink(Record { at: self.now, what });
+    pub(super) fn record(&self, kind: RecordKind, sink: RecordSink<'_>) {
+        sink(Record { at: self.now, kind });
     }
 }

@@ -45,7 +45,7 @@ pub enum Change {
 impl Trial {
     /// Creates the trial of a recorded run, with all commands that were executed in it.
     pub fn of(log: &RunLog) -> Self {
-        let command = |at: Time, what: &RecordKind| match *what {
+        let command = |at: Time, kind: &RecordKind| match *kind {
             RecordKind::SpeedSet { node, speed } => Some(Command::Speed { node, speed }),
             RecordKind::Paused { node } => Some(Command::Pause { node, paused: true }),
             RecordKind::Resumed { node } => Some(Command::Pause { node, paused: false }),
@@ -56,7 +56,7 @@ impl Trial {
             _ => None,
         };
         let script =
-            log.records().iter().filter_map(|record| Some((record.at, command(record.at, &record.what)?))).collect();
+            log.records().iter().filter_map(|record| Some((record.at, command(record.at, &record.kind)?))).collect();
         Self::new(log.header.clone(), script)
     }
 

@@ -57,7 +57,7 @@ impl Study {
         Self { name, rows: Vec::new(), summary: Map::new(), files: Vec::new() }
     }
 
-    /// Adds rows, as JSON and as the CSV file named after the study.
+    /// Adds rows to the study's results, as JSON and as the CSV file named after the study.
     fn add_rows(&mut self, rows: &[impl Serialize]) -> Result<(), StudyError> {
         for row in rows {
             self.rows.push(serde_json::to_value(row)?);

@@ -93,7 +93,7 @@ pub(super) fn run_rivals(fixture: &Fixture, progress: &mut Progress<'_>) -> Resu
     Ok([row(0), row(1), row(2)])
 }
 
-/// Measurement of one run.
+/// Measured times of one run.
 #[derive(Clone, Copy, Default)]
 struct RivalRun {
     wall: f64,
@@ -113,7 +113,7 @@ impl RivalRun {
     }
 }
 
-/// Returns how often the program's threads have left a core so far.
+/// Returns the number of context switches of the program's threads so far; `None` where the system does not count them.
 #[cfg(unix)]
 fn context_switches() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};

@@ -15,7 +15,7 @@ pub struct SceneStats {
     pub source: SourceCounts,
     /// Solids that rays are tested with. A split union counts as its operands.
     pub solids: usize,
-    /// Those of them with more than one primitive.
+    /// Solids of more than one primitive, among `solids`.
     pub compositions: usize,
     /// Solids without finite bounds, which every ray is tested with.
     pub unbounded: usize,

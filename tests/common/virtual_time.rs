@@ -34,7 +34,7 @@ fn check_atoms(log: &RunLog) {
     let (mut traced, mut placed) = (vec![0; atoms], vec![0; atoms]);
     let mut in_hand = BTreeSet::new();
     for record in log.records() {
-        match &record.what {
+        match &record.kind {
             RecordKind::AtomStarted { node, .. } => assert!(in_hand.insert(*node), "node {node} traces two atoms"),
             RecordKind::AtomDone { node, atom, .. } => {
                 assert!(in_hand.remove(node), "node {node} finishes an atom that it has not started");
@@ -63,7 +63,7 @@ fn check_offers(log: &RunLog) {
     }
     let mut under_way = vec![false; log.header.speeds.len()];
     for record in log.records() {
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from, message: Message::Offer { who, .. }, .. } if *from == Party::Node(*who) => {
                 let offers = std::mem::replace(&mut under_way[usize::from(*who)], true);
                 assert!(!offers, "node {who} has two offers under way");

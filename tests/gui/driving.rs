@@ -86,7 +86,7 @@ pub fn done(window: &Window) -> u32 {
 
 /// The values that `of` finds in the records.
 pub fn recorded<T>(window: &Window, of: impl Fn(&RecordKind) -> Option<T>) -> Vec<T> {
-    session(window).stage().log.records().iter().filter_map(|record| of(&record.what)).collect()
+    session(window).stage().log.records().iter().filter_map(|record| of(&record.kind)).collect()
 }
 
 pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {

@@ -97,7 +97,7 @@ fn farm_with_a_slow_parent_ends() {
         session(window).stage().state().line_length(session(window).now()) > 2
     });
     until(&mut window, "the end", has_ended);
-    let given = |what: &RecordKind| match what {
+    let given = |kind: &RecordKind| match kind {
         RecordKind::Sent { from: Party::Parent, message: Message::Part(part), .. } => Some(part.len()),
         _ => None,
     };

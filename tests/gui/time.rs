@@ -125,7 +125,7 @@ fn steps_move_from_event_to_event_and_back() {
     key(&mut window, Key::Home);
     let is_of_an_atom = |window: &Window| {
         let records = session(window).stage().records_shown();
-        matches!(session(window).stage().log.records()[records - 1].what, RecordKind::AtomDone { .. })
+        matches!(session(window).stage().log.records()[records - 1].kind, RecordKind::AtomDone { .. })
     };
     shift(&mut window, Key::ArrowRight);
     shift(&mut window, Key::ArrowRight);
@@ -135,7 +135,7 @@ fn steps_move_from_event_to_event_and_back() {
     ctrl(&mut window, Key::ArrowRight);
     let records = session(&window).stage().records_shown();
     let offer = session(&window).stage().log.records()[records - 1].clone();
-    let RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } = offer.what else {
+    let RecordKind::Sent { from: Party::Node(from), message: Message::Offer { who, .. }, .. } = offer.kind else {
         panic!("not an offer: {offer:?}");
     };
     assert_eq!(from, who);

@@ -109,19 +109,19 @@ fn without_remedies_the_adaptive_ring_is_the_articles_ring() {
     };
     let records = |strategy, latency| -> Vec<(Time, RecordKind)> {
         let log: RunLog = virtual_time::run(&header(strategy, latency), &[], |atom| f64::from(1 + atom % 7) * 1e-3);
-        let plain = |what: &RecordKind| match what.clone() {
+        let plain = |kind: &RecordKind| match kind.clone() {
             RecordKind::Sent { id, from, to, message: Message::Offer { who, done, .. }, arrives, .. } => {
                 RecordKind::Sent { id, from, to, message: Message::offer(who, done), bytes: 0, arrives }
             }
             other => other,
         };
-        log.records().iter().map(|record| (record.at, plain(&record.what))).collect()
+        log.records().iter().map(|record| (record.at, plain(&record.kind))).collect()
     };
     for latency in [Duration::ZERO, MS, 20 * MS] {
         let (adaptive, ring) = (records(Strategy::Adaptive, latency), records(Strategy::Ring, latency));
         let ring: Vec<_> = ring
             .into_iter()
-            .map(|(at, what)| match what {
+            .map(|(at, kind)| match kind {
                 RecordKind::Sent { id, from, to, message: message @ Message::Offer { .. }, arrives, .. } => {
                     (at, RecordKind::Sent { id, from, to, message, bytes: 0, arrives })
                 }

@@ -43,12 +43,12 @@ fn colour(pixel: u32) -> Colour {
     [pixel as f32, 1.0, 0.0]
 }
 
-fn count(records: &[Record], what: fn(&RecordKind) -> bool) -> usize {
-    records.iter().filter(|record| what(&record.what)).count()
+fn count(records: &[Record], kind: fn(&RecordKind) -> bool) -> usize {
+    records.iter().filter(|record| kind(&record.kind)).count()
 }
 
-fn has_failed(what: &RecordKind) -> bool {
-    matches!(what, RecordKind::AtomFailed { atom: 5, .. })
+fn has_failed(kind: &RecordKind) -> bool {
+    matches!(kind, RecordKind::AtomFailed { atom: 5, .. })
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn three_failures_end_the_run_and_name_the_atom() {
         let why = frame.expect_err("the run fails");
         assert_eq!(why, "no worker could trace atom 5, whose first pixel is at 50,4");
         assert!(count(&records, has_failed) >= 3);
-        assert_eq!(count(&records, |what| matches!(what, RecordKind::GivenUp { atom: 5 })), 1);
-        assert_eq!(count(&records, |what| matches!(what, RecordKind::Finished)), 0);
+        assert_eq!(count(&records, |kind| matches!(kind, RecordKind::GivenUp { atom: 5 })), 1);
+        assert_eq!(count(&records, |kind| matches!(kind, RecordKind::Finished)), 0);
     }
 }

@@ -162,7 +162,7 @@ fn r5_results_stream_while_the_node_works() {
 fn r5_node_offers_again_only_after_a_transfer() {
     let log = run_of_1000_atoms(&[1.0, 0.05, 0.3, 0.6], Duration::ZERO);
     for node in 0..4 {
-        let sequence = log.records().iter().filter_map(|record| match &record.what {
+        let sequence = log.records().iter().filter_map(|record| match &record.kind {
             RecordKind::Sent { from, message: Message::Offer { who, .. }, .. }
                 if *who == node && *from == Party::Node(node) =>
             {
@@ -277,14 +277,14 @@ fn r9_every_node_receives_the_shutdown() {
         let mut shutdowns: Vec<_> = log
             .records()
             .iter()
-            .filter_map(|record| match &record.what {
+            .filter_map(|record| match &record.kind {
                 RecordKind::Sent { id, message: Message::Shutdown, .. } => Some(*id),
                 _ => None,
             })
             .collect();
         assert_eq!(shutdowns.len(), nodes);
         for record in log.records() {
-            if let RecordKind::Received { id, .. } = record.what {
+            if let RecordKind::Received { id, .. } = record.kind {
                 shutdowns.retain(|shutdown| *shutdown != id);
             }
         }

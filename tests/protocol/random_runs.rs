@@ -195,7 +195,7 @@ fn stop_the_second(pace: f64, stop: fn(&Run, bool)) {
     let mut log = RunLog::new(header.clone());
     let mut placed = Vec::new();
     let retired =
-        |log: &RunLog| log.records().iter().filter(|record| matches!(record.what, RecordKind::Retired { .. })).count();
+        |log: &RunLog| log.records().iter().filter(|record| matches!(record.kind, RecordKind::Retired { .. })).count();
     // The offers of the others pass through the stopped machine and return.
     while retired(&log) < 2 {
         take(run.updates().recv().unwrap(), &mut log, &mut placed);
@@ -220,8 +220,8 @@ fn only_changes_of_pause_and_latency_are_recorded() {
     let pauses: Vec<_> = log
         .records()
         .iter()
-        .map(|record| &record.what)
-        .filter(|what| matches!(what, RecordKind::Paused { .. } | RecordKind::Resumed { .. }))
+        .map(|record| &record.kind)
+        .filter(|kind| matches!(kind, RecordKind::Paused { .. } | RecordKind::Resumed { .. }))
         .collect();
     assert_eq!(pauses, [&RecordKind::Paused { node: 1 }, &RecordKind::Resumed { node: 1 }]);
     assert_eq!(latencies(&log), [3 * MS, Duration::ZERO, MS]);
@@ -330,10 +330,10 @@ fn assert_stopped_machines_trace_nothing(log: &RunLog) {
     let mut paused = vec![false; speeds.len()];
     let mut changed = vec![Time::ZERO; speeds.len()];
     for record in log.records() {
-        if let RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } = record.what {
+        if let RecordKind::SpeedSet { node, .. } | RecordKind::Paused { node } = record.kind {
             changed[usize::from(node)] = record.at;
         }
-        match record.what {
+        match record.kind {
             RecordKind::AtomDone { node, .. } if changed[usize::from(node)] == record.at => {}
             RecordKind::SpeedSet { node, speed } => speeds[usize::from(node)] = speed,
             RecordKind::Paused { node } => assert!(!std::mem::replace(&mut paused[usize::from(node)], true)),
@@ -349,8 +349,8 @@ fn assert_stopped_machines_trace_nothing(log: &RunLog) {
 
 /// The latencies set during the run.
 fn latencies(log: &RunLog) -> Vec<Duration> {
-    let latency = |what: &RecordKind| if let RecordKind::LatencySet { latency } = what { Some(*latency) } else { None };
-    log.records().iter().filter_map(|record| latency(&record.what)).collect()
+    let latency = |kind: &RecordKind| if let RecordKind::LatencySet { latency } = kind { Some(*latency) } else { None };
+    log.records().iter().filter_map(|record| latency(&record.kind)).collect()
 }
 
 fn assert_each_once(ranges: impl Iterator<Item = Range<Atom>>, division: Division) {

@@ -63,9 +63,9 @@ impl Collected {
 fn received(log: &RunLog) -> Vec<Atom> {
     let mut atoms = Vec::new();
     for (index, record) in log.records().iter().enumerate() {
-        let RecordKind::Received { id: got, by: Party::Parent } = record.what else { continue };
+        let RecordKind::Received { id: got, by: Party::Parent } = record.kind else { continue };
         for earlier in &log.records()[..index] {
-            if let RecordKind::Sent { id, message: Message::Results(ranges), .. } = &earlier.what
+            if let RecordKind::Sent { id, message: Message::Results(ranges), .. } = &earlier.kind
                 && *id == got
             {
                 atoms.extend(ranges.iter().cloned().flatten());
@@ -108,7 +108,7 @@ fn one_by_one(step: Duration) -> RunLog {
         let sent =
             RecordKind::Sent { id, from: Party::Node(0), to: Party::Parent, message, bytes: 0, arrives: at + step };
         let received = RecordKind::Received { id, by: Party::Parent };
-        log.add(vec![Record { at, what: sent }, Record { at: at + step, what: received }]);
+        log.add(vec![Record { at, kind: sent }, Record { at: at + step, kind: received }]);
     }
     log
 }

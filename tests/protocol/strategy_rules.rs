@@ -185,9 +185,9 @@ fn estimate_helps_where_costs_are_uneven_and_its_time_counts() {
     let speeds = [1.0; 4];
     let (plain, estimated) = (run(Strategy::Static, &speeds), run(Strategy::StaticEstimate, &speeds));
     assert!(makespan(&estimated) < 0.6 * makespan(&plain));
-    let at = |what: fn(&RecordKind) -> bool| estimated.records().iter().find(|record| what(&record.what)).unwrap().at;
-    let begun = at(|what| *what == RecordKind::Estimating);
-    let bands = at(|what| matches!(what, RecordKind::Sent { message: Message::Band(_), .. }));
+    let at = |kind: fn(&RecordKind) -> bool| estimated.records().iter().find(|record| kind(&record.kind)).unwrap().at;
+    let begun = at(|kind| *kind == RecordKind::Estimating);
+    let bands = at(|kind| matches!(kind, RecordKind::Sent { message: Message::Band(_), .. }));
     let sampled = estimate::samples(estimated.header.division).flatten();
     let costs: f64 = sampled.map(|pixel| if pixel < 1000 { 0.004 } else { 0.001 }).sum();
     assert!((bands.since(begun).as_secs_f64() - costs).abs() < 1e-6);

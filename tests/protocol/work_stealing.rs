@@ -51,7 +51,7 @@ fn atom_takes_its_cost_over_speed_and_pace() {
     let log = log_of(&Run::start_with(trace, &header), &header);
     let mut started = [Time::ZERO; 3];
     for record in log.records() {
-        match record.what {
+        match record.kind {
             RecordKind::AtomStarted { node, .. } => {
                 assert!(record.at >= started[usize::from(node)]);
                 started[usize::from(node)] = record.at;
@@ -77,7 +77,7 @@ fn records_show_the_owner_of_each_atom() {
         let (mut in_flight, mut ids) = (BTreeMap::new(), BTreeSet::new());
         let (mut bands, mut shutdowns) = (0, 0);
         for record in log.records() {
-            match &record.what {
+            match &record.kind {
                 RecordKind::Sent { id, from, to, message, arrives, .. } => {
                     assert!(ids.insert(*id) && *arrives > record.at);
                     in_flight.insert(*id, (*from, *to, message.clone(), *arrives));

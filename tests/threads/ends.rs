@@ -82,8 +82,8 @@ fn retrace_and_stop(number: u32) -> Retrace {
     let (id, from, to) = (0, Party::Node(0), Party::Parent);
     let message = Message::Results(once(0..log.header.division.atoms()).collect());
     let at = Time(1);
-    log.add(vec![Record { at: Time::ZERO, what: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
-    log.add(vec![Record { at, what: RecordKind::Received { id, by: to } }]);
+    log.add(vec![Record { at: Time::ZERO, kind: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } }]);
+    log.add(vec![Record { at, kind: RecordKind::Received { id, by: to } }]);
     let retrace = Retrace::start_with(trace, Arc::new(log));
     std::thread::sleep(number % 5 * MS);
     retrace.stop();

@@ -124,7 +124,7 @@ fn random_command(rng: &mut Rng, nodes: NodeId) -> Command {
 fn count_failures(records: &[Record], nodes: NodeId, failures: &mut Failures) {
     let mut last_conditions = vec![Condition::Well; usize::from(nodes)];
     for record in records {
-        match &record.what {
+        match &record.kind {
             RecordKind::Condition { node, condition } => {
                 last_conditions[usize::from(*node)] = *condition;
                 match condition {

@@ -25,7 +25,7 @@ pub enum UserCommand {
     Beginning,
     /// Opens or closes the list of landmarks.
     Find,
-    /// Shows the moment after this many records and selects the subject.
+    /// Shows the run as it was after a number of records, and selects a machine, an atom or a message.
     Jump(usize, Subject),
     /// Switches between timeline and table of machines.
     Timeline,

@@ -33,11 +33,11 @@ struct Tile {
 
 /// Thumbnail of a tile.
 enum TileThumbnail {
-    /// It is being traced.
+    /// The picture is being traced.
     Pending,
-    /// It is traced.
+    /// The picture is traced.
     Ready(TextureHandle),
-    /// It cannot be traced, for this reason.
+    /// The scene cannot be traced, for this reason.
     Failed(String),
 }
 

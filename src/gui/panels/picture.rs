@@ -355,7 +355,7 @@ fn texture_of(ui: &Ui, preview: &CameraPreview) -> Option<TextureHandle> {
     (width.max(height) <= max_side).then(|| ui.ctx().load_texture("moved", image(), TextureOptions::LINEAR))
 }
 
-/// Returns column and row of the pixel at this position in the picture, which is in pixels.
+/// Returns column and row of the pixel at a position in the picture, in its pixels; the nearest one if it is outside.
 fn pixel_at(session: &Session, at: Vec2) -> [u32; 2] {
     let size = session.header().size;
     [(at.x.max(0.0) as u32).min(size.width() - 1), (at.y.max(0.0) as u32).min(size.height() - 1)]

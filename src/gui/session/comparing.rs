@@ -68,9 +68,9 @@ impl TracingProgress {
 
 /// Source of a comparison's picture.
 pub enum PictureSource {
-    /// The job traces it, and reports its progress here.
+    /// The job traces the picture, and reports its progress here.
     Untraced(Arc<TracingProgress>),
-    /// It is traced already.
+    /// The picture is traced already.
     Traced(Arc<TracedOnce>),
 }
 

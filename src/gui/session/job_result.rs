@@ -62,7 +62,7 @@ pub enum Purpose {
 pub enum FileChange {
     /// Its content has changed.
     Written,
-    /// It was deleted or moved.
+    /// The file was deleted or moved.
     Gone,
 }
 

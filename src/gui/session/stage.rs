@@ -53,11 +53,11 @@ pub struct Stage {
 pub enum Phase {
     /// There is no run yet.
     Preparing,
-    /// It runs or is paused.
+    /// The run goes on or is paused.
     Running,
-    /// It has ended.
+    /// The run has ended.
     Finished,
-    /// It failed; a sentence gives the reason.
+    /// The run failed; a sentence gives the reason.
     Failed(String),
 }
 

@@ -28,7 +28,7 @@ pub struct Look {
     pub raised: Color32,
     /// Thin lines between parts.
     pub hairline: Color32,
-    /// Text.
+    /// Usual text.
     pub text: Color32,
     /// Secondary text.
     pub quiet: Color32,

@@ -5,7 +5,7 @@ use crate::cancel::CancelToken;
 use crate::picture::Quality;
 use crate::scene::Scene;
 
-/// Number of limits of the error that are tried.
+/// Number of greatest errors for which a choice is checked.
 const LIMITS: usize = 8;
 
 /// Pattern of samples for the second measurement; neither the reference nor any other point has it.

@@ -24,7 +24,7 @@ pub(super) const LATENCIES_MS: [f64; 3] = [0.1, 1.0, 10.0];
 /// Sizes of atoms, in pixels.
 const ATOM_SIZES_PX: [u32; 10] = [5000, 2000, 1000, 500, 200, 100, 50, 20, 10, 5];
 
-/// Results for the ring.
+/// Runs of the ring from which the study reads how accurate its shares are.
 pub(super) struct RingAccuracy {
     pub size: Size,
     /// By scene: runs with atoms of 50 pixels, and their transfers.

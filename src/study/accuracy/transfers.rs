@@ -136,7 +136,7 @@ impl TransferObserver {
     }
 
     fn observe(&mut self, record: &Record) {
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { id, message: Message::Band(atoms), .. } => {
                 self.under_way.insert(*id, atoms.clone().collect());
             }

@@ -50,8 +50,8 @@ pub(super) struct RunTotals {
     pub records: u64,
     /// Atoms that the parent handed out again.
     pub again: u64,
-    /// Messages over the bound of [`Check::bound`].
-    pub over_bound: f64,
+    /// Number of messages divided by their bound, [`Check::bound`].
+    pub share_of_bound: f64,
 }
 
 /// Runs a plan in virtual time and checks every record.
@@ -117,10 +117,10 @@ impl<'a> Check<'a> {
     fn record(&mut self, record: &Record) {
         self.totals.records += 1;
         self.last = record.at;
-        for atom in self.results.apply(&record.what).into_iter().flatten() {
+        for atom in self.results.apply(&record.kind).into_iter().flatten() {
             self.placed[atom as usize] += 1;
         }
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from, message, .. } => self.sent(*from, message),
             RecordKind::AtomDone { node, atom, .. } => {
                 self.atoms_done += 1;
@@ -166,8 +166,8 @@ impl<'a> Check<'a> {
         if let Some(atom) = self.placed.iter().position(|&times| times == 0) {
             return Err(Violation::EndedWithoutAtom(atom));
         }
-        self.totals.over_bound = self.messages as f64 / self.bound();
-        if self.totals.over_bound > 1.0 {
+        self.totals.share_of_bound = self.messages as f64 / self.bound();
+        if self.totals.share_of_bound > 1.0 {
             return Err(Violation::TooManyMessages { messages: self.messages, bound: self.bound() });
         }
         Ok(self.totals)

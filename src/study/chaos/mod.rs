@@ -106,7 +106,7 @@ struct ChaosTotals {
     faultless: u64,
     records: u64,
     again: u64,
-    over_bound: f64,
+    share_of_bound: f64,
     /// Commands in all scripts: machines off, hung and cut off; links cut; messages delayed; speeds and latencies
     /// changed.
     commands: [u64; 7],
@@ -118,7 +118,7 @@ impl ChaosTotals {
         self.faultless += u64::from(plan.faultless);
         self.records += run.records;
         self.again += run.again;
-        self.over_bound = self.over_bound.max(run.over_bound);
+        self.share_of_bound = self.share_of_bound.max(run.share_of_bound);
         for (_, command) in &plan.script {
             let kind = match command {
                 Command::Condition { condition: Condition::Off, .. } => 0,
@@ -165,7 +165,7 @@ fn report(
          {speeds} changes of speed, {latencies} changes of latency"
     ));
     report.line(format!("- records: {}; atoms handed out again by the parent: {}", totals.records, totals.again));
-    report.line(format!("- most messages / bound: {:.2}\n", totals.over_bound));
+    report.line(format!("- most messages / bound: {:.2}\n", totals.share_of_bound));
     for (seed, why) in failures {
         report.line(format!("- seed {seed}: {why} (`anel study chaos --seed {seed}` runs it again and keeps its run)"));
     }

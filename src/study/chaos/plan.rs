@@ -29,7 +29,7 @@ pub(super) struct ChaosPlan {
 }
 
 impl ChaosPlan {
-    /// Makes the run of a seed, which is the same on every computer.
+    /// Creates the plan of a seed's run, which is the same on every computer.
     pub fn new(seed: u64) -> Self {
         let mut rng = Rng::with_seed(seed);
         let nodes = *pick(&mut rng, &[1, 2, 3, 4, 5, 6, 8, 12, 24]);

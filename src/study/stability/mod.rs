@@ -23,7 +23,7 @@ use super::{ProgressSink, Study, StudyError};
 use crate::language::Language;
 use crate::view::Scale;
 
-/// A test of growing difficulty for several methods.
+/// A numerical test of growing difficulty, and the methods that are put to it.
 pub(super) struct StabilityCase {
     /// Name in file names.
     name: &'static str,

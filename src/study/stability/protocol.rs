@@ -131,7 +131,7 @@ fn run(strategy: Strategy, nodes: usize, script: &Script, costs: &AtomCosts) -> 
     let (mut traced, mut placed) = (vec![0u32; costs.len()], vec![0u32; costs.len()]);
     let mut metrics = Metrics::new(&header);
     sim.run(&mut |record| {
-        match &record.what {
+        match &record.kind {
             RecordKind::AtomDone { atom, .. } => traced[*atom as usize] += 1,
             RecordKind::Sent { to: Party::Parent, message: Message::Results(ranges), .. } => {
                 ranges.iter().cloned().flatten().for_each(|atom| placed[atom as usize] += 1);

@@ -204,11 +204,11 @@ mod tests {
         let mut atoms = 0..;
         for (node, &(_, count, cost)) in (0..).zip(machines) {
             for atom in atoms.by_ref().take(count as usize) {
-                let what = RecordKind::AtomDone { node, atom, cost: Duration::from_millis(cost) };
-                state.apply(&Record { at: Time::from_secs(1.0), what });
+                let kind = RecordKind::AtomDone { node, atom, cost: Duration::from_millis(cost) };
+                state.apply(&Record { at: Time::from_secs(1.0), kind });
             }
         }
-        state.apply(&Record { at: Time::from_secs(20.44), what: RecordKind::Finished });
+        state.apply(&Record { at: Time::from_secs(20.44), kind: RecordKind::Finished });
         result_words(&state, &SUMMARY, language)
     }
 
@@ -279,13 +279,13 @@ mod tests {
     fn changed_speed_is_described_as_a_mean() {
         let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 3));
-        for (at, what) in [
+        for (at, kind) in [
             (0.0, RecordKind::SpeedSet { node: 1, speed: 0.0 }),
             (5.0, RecordKind::SpeedSet { node: 1, speed: 1.0 }),
             (6.0, RecordKind::AtomDone { node: 0, atom: 0, cost: Duration::ZERO }),
             (10.0, RecordKind::Finished),
         ] {
-            state.apply(&Record { at: Time::from_secs(at), what });
+            state.apply(&Record { at: Time::from_secs(at), kind });
         }
         let words = result_words(&state, &SUMMARY, language);
         assert!(words.ends_with("1 traced most: 1 atom at 100 %; 2 least: 0 at 50 % on average"), "{words}");
@@ -297,7 +297,7 @@ mod tests {
         let header = Header { spares: 1, ..sample_runs::header(&[1.0, 0.5, 1.0], 3) };
         let mut state = RunState::new(&header);
         for (node, atom) in [(0, 0), (0, 1), (1, 2)] {
-            state.apply(&Record { at: Time::ZERO, what: RecordKind::AtomDone { node, atom, cost: Duration::ZERO } });
+            state.apply(&Record { at: Time::ZERO, kind: RecordKind::AtomDone { node, atom, cost: Duration::ZERO } });
         }
         let words = uneven(&state, language).unwrap_or_default();
         assert!(words.contains("1 traced most: 2 atoms at 100 %; 2 least: 1 at 50 %"), "{words}");

@@ -102,7 +102,7 @@ impl TimeBudget {
     pub(crate) fn new(log: &RunLog, lanes: &Lanes) -> Option<Self> {
         let metrics = Metrics::of(log);
         let (makespan, ideal) = (metrics.makespan()?, metrics.ideal()?);
-        let end = log.records().iter().rfind(|record| record.what == RecordKind::Finished)?.at;
+        let end = log.records().iter().rfind(|record| record.kind == RecordKind::Finished)?.at;
         let mut spent = MachineSeconds::default();
         for lane in lanes.lanes().iter().map(|lane| MachineSeconds::of(lane, end)) {
             spent.tracing += lane.tracing;
@@ -151,7 +151,7 @@ impl LastMachine {
         let mut speed = *log.header.speeds.get(usize::from(node))?;
         let mut gave = 0;
         for record in log.records() {
-            match &record.what {
+            match &record.kind {
                 RecordKind::SpeedSet { node: set, speed: now } if *set == node => speed = *now,
                 RecordKind::Sent { from, message: Message::Transfer(ranges), .. } if *from == Party::Node(node) => {
                     gave += atoms_in(ranges);
@@ -169,7 +169,7 @@ fn waited_at_parent(log: &RunLog) -> Duration {
     let mut arrivals: Vec<Time> = log
         .records()
         .iter()
-        .filter_map(|record| match &record.what {
+        .filter_map(|record| match &record.kind {
             RecordKind::Sent { to: Party::Parent, arrives, .. } => Some(*arrives),
             _ => None,
         })
@@ -187,9 +187,9 @@ fn waited_at_parent(log: &RunLog) -> Duration {
 /// Returns the time from the beginning of the estimate to the first band sent.
 fn estimating(records: &[Record]) -> Duration {
     let at =
-        |wanted: fn(&RecordKind) -> bool| records.iter().find(|record| wanted(&record.what)).map(|record| record.at);
-    let begun = at(|what| matches!(what, RecordKind::Estimating));
-    let done = at(|what| matches!(what, RecordKind::Sent { message: Message::Band(_), .. }));
+        |wanted: fn(&RecordKind) -> bool| records.iter().find(|record| wanted(&record.kind)).map(|record| record.at);
+    let begun = at(|kind| matches!(kind, RecordKind::Estimating));
+    let done = at(|kind| matches!(kind, RecordKind::Sent { message: Message::Band(_), .. }));
     begun.zip(done).map_or(Duration::ZERO, |(begun, done)| done.since(begun))
 }
 
@@ -225,7 +225,7 @@ mod tests {
         ) {
             let log = log(Strategy::ALL[strategy].clone(), &speeds, handling);
             let budget = TimeBudget::of(&log).expect("it came to its end");
-            let end = log.records().iter().find(|record| record.what == RecordKind::Finished).expect("its end").at.secs();
+            let end = log.records().iter().find(|record| record.kind == RecordKind::Finished).expect("its end").at.secs();
             let (spent, parts) = (budget.spent, budget.spent.parts());
             prop_assert!((spent.sum() - end * speeds.len() as f64).abs() < 1e-6, "{spent:?}");
             prop_assert!(parts.iter().all(|part| *part >= 0.0), "{spent:?}");
@@ -249,13 +249,13 @@ mod tests {
         let plain = log(Strategy::Static, &[1.0, 1.0], 0);
         let mut records = plain.records().to_vec();
         let at = |second: f64| Time::from_secs(second);
-        for (at, what) in [
+        for (at, kind) in [
             (at(0.2), RecordKind::Paused { node: 1 }),
             (at(0.3), RecordKind::SpeedSet { node: 1, speed: 0.5 }),
             (at(0.4), RecordKind::Resumed { node: 1 }),
         ] {
             let place = records.partition_point(|record| record.at <= at);
-            records.insert(place, Record { at, what });
+            records.insert(place, Record { at, kind });
         }
         let mut paused = RunLog::new(plain.header.clone());
         paused.add(records);
@@ -280,7 +280,7 @@ mod tests {
         let mut records = plain.records().to_vec();
         let half = Time(records[records.len() - 1].at.0 / 2);
         let place = records.partition_point(|record| record.at <= half);
-        records.insert(place, Record { at: half, what: RecordKind::SpeedSet { node: 1, speed: 0.5 } });
+        records.insert(place, Record { at: half, kind: RecordKind::SpeedSet { node: 1, speed: 0.5 } });
         let mut slowed = RunLog::new(plain.header.clone());
         slowed.add(records);
         let slow = TimeBudget::of(&slowed).expect("it came to its end");

@@ -45,7 +45,7 @@ pub(crate) struct Tick {
 
 /// Most ticks of an axis.
 const MAX_TICKS: usize = 8;
-/// Most ticks of an axis of powers of two: 1 to 1024.
+/// Greatest number of ticks on an axis of powers of two; eleven reach from 1 to 1024.
 const MAX_LOG2_TICKS: usize = 11;
 /// Greatest number of an axis; its inverse is the least one that is not 0.
 const MAX_NUMBER: f64 = 1e30;

@@ -11,7 +11,7 @@ use crate::view::draw::display_list::{Hue, Mark, Point};
 /// A grouped bar chart. Bars begin at 0, or at the plot's lower edge on a logarithmic axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BarChart {
-    /// Title.
+    /// Title of the chart.
     pub title: String,
     /// A line below the title; may be empty.
     pub note: String,

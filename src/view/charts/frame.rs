@@ -7,7 +7,7 @@ use crate::view::draw::polyline::dashes;
 
 /// Texts above a plot, and the number of lines below it.
 pub(crate) struct ChartHeading<'a> {
-    /// Title.
+    /// Title of the chart.
     pub(crate) title: &'a str,
     /// A line below the title.
     pub(crate) note: &'a str,
@@ -206,7 +206,7 @@ pub(crate) fn width_of(text: &str) -> f32 {
     plain(LABEL_SIZE).width(text.chars().count())
 }
 
-/// Width of a name.
+/// Returns the width of a name in a chart's legend or axis, in the chart's units.
 pub(crate) fn width_of_name(text: &str) -> f32 {
     strong(LABEL_SIZE).width(text.chars().count())
 }

@@ -16,7 +16,7 @@ pub const MIN_CHART_HEIGHT: f32 = ChartFrame::MIN_SIZE[1];
 /// A line chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineChart {
-    /// Title.
+    /// Title of the chart.
     pub title: String,
     /// A line below the title; may be empty.
     pub note: String,
@@ -31,7 +31,7 @@ pub struct LineChart {
 /// A series of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name.
+    /// Name in the legend.
     pub name: String,
     /// Colour, from [`series_hue`].
     pub hue: Hue,

@@ -299,8 +299,8 @@ mod tests {
         for (id, node) in [(0, 0), (1, 1)] {
             let (from, to, message) = (Party::Parent, Party::Node(node), Message::Band(9 * id..9 * id + 9));
             let (at, id) = (Time::ZERO, u64::from(id));
-            state.apply(&Record { at, what: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } });
-            state.apply(&Record { at, what: RecordKind::Received { id, by: to } });
+            state.apply(&Record { at, kind: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } });
+            state.apply(&Record { at, kind: RecordKind::Received { id, by: to } });
         }
         state
     }

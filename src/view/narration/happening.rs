@@ -65,22 +65,22 @@ pub enum Happening {
 pub enum Retirement {
     /// The parent of a farm has no atoms left.
     NothingLeft,
-    /// It sleeps until another wakes it.
+    /// The node sleeps until another one wakes it.
     Sleeps,
-    /// Its own offer came back.
+    /// The node's own offer came back.
     OfferCameBack,
 }
 
 /// Why a node offers help.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OfferReason {
-    /// It has nearly finished.
+    /// The node has nearly finished its atoms.
     Early,
-    /// It never had an atom.
+    /// The node never had an atom.
     NothingToTrace,
-    /// It has traced its whole band itself.
+    /// The node has traced its whole band itself.
     BandDone,
-    /// Its atoms are traced or given away.
+    /// The node's atoms are traced or given away.
     NoAtomsLeft,
 }
 
@@ -102,21 +102,21 @@ pub enum Giver {
 pub enum SpeedEffect {
     /// No effect.
     None,
-    /// It has an effect only after the machine's pause.
+    /// The new speed has an effect only after the machine's pause.
     AfterPause,
-    /// Nobody takes over atoms of its band.
+    /// No other machine takes over atoms of the machine's band.
     NobodyHelps,
-    /// It finishes its band sooner.
+    /// The machine finishes its band sooner.
     BandSooner,
-    /// It asks the parent less often.
+    /// The machine asks the parent less often.
     AsksLess,
-    /// It asks the parent more often.
+    /// The machine asks the parent more often.
     AsksMore,
-    /// It keeps its atoms.
+    /// The machine keeps its atoms.
     KeepsPart,
-    /// The other machines take over its work.
+    /// The other machines take over the machine's work.
     OthersHelp,
-    /// It can take more work.
+    /// The machine can take more work.
     TakesMore,
 }
 
@@ -125,20 +125,20 @@ pub enum SpeedEffect {
 pub enum PauseEffect {
     /// No effect.
     None,
-    /// It keeps them: they are its part of a farm.
+    /// The machine keeps its atoms: they are its part of a farm.
     KeepsPart,
-    /// They wait: nobody takes over atoms of a band.
+    /// The atoms wait: no machine takes over atoms of a band.
     NobodyHelps,
-    /// They are in its pipe and stay there.
+    /// The atoms are in the machine's pipe and stay there.
     KeepsPipe,
-    /// The other machines take them over.
+    /// The other machines take the atoms over.
     OthersHelp,
 }
 
 impl Happening {
     /// Describes a record that needs no context; `None` for messages and atoms. `state` already knows the record.
     pub(crate) fn of(record: &Record, state: &RunState) -> Option<Self> {
-        Some(match &record.what {
+        Some(match &record.kind {
             RecordKind::Estimating => Self::Estimating,
             RecordKind::SpeedSet { node, speed } => {
                 let before = machine(state, *node).map_or(*speed, |node| node.previous_speed);

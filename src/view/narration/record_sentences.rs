@@ -14,7 +14,7 @@ pub fn record_words(record: &Record, state: &RunState, language: Language) -> St
     if let Some(happening) = Happening::of(record, state) {
         return happening.sentence(language);
     }
-    match &record.what {
+    match &record.kind {
         RecordKind::Sent { id, .. } => match state.flight(*id) {
             Some(flight) => sent_words(flight, state, language),
             None => word!(language, "A message is sent", "Uma mensagem é enviada").into(),
@@ -182,7 +182,7 @@ mod tests {
                 to: Party::Node(to),
                 message: Message::Transfer(ranges),
                 ..
-            } = &record.what
+            } = &record.kind
             {
                 let atoms: u32 = ranges.iter().map(|range| range.len() as u32).sum();
                 let [owner, offerer] = [*from, *to].map(|node| &state.nodes()[usize::from(node)]);

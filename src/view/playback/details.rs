@@ -52,10 +52,10 @@ impl Details {
             Subject::Node(_) => {}
             Subject::Atom(atom) => details.bar = lanes.bar_of(atom),
             Subject::Message(id) => {
-                let is_it = |what: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
-                let Some(index) = log.records().iter().rposition(|record| is_it(&record.what)) else { return details };
+                let is_it = |kind: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
+                let Some(index) = log.records().iter().rposition(|record| is_it(&record.kind)) else { return details };
                 let record = &log.records()[index];
-                let RecordKind::Sent { from, to, message, arrives, .. } = &record.what else { return details };
+                let RecordKind::Sent { from, to, message, arrives, .. } = &record.kind else { return details };
                 let flight = Flight::new(id, (*from, *to), message, record.at, *arrives);
                 if let (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) = (*from, *to, &flight.cargo) {
                     let mut snapshot = Snapshot::new(&log.header);

@@ -110,7 +110,7 @@ mod tests {
     fn second_line_has_rate_or_activity() {
         let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.1], 300));
-        let mut apply = |ms: u64, what| state.apply(&Record { at: Time(ms * 1_000_000), what });
+        let mut apply = |ms: u64, kind| state.apply(&Record { at: Time(ms * 1_000_000), kind });
         for (id, node) in [(0, 0), (1, 1)] {
             let (to, message) = (Party::Node(node), Message::Band(150 * id..150 * (id + 1)));
             let (from, id, arrives) = (Party::Parent, u64::from(id), Time::ZERO);
@@ -128,7 +128,7 @@ mod tests {
             lines(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
         assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5.0/s"]);
-        state.apply(&Record { at: Time::from_secs(1.0), what: RecordKind::Paused { node: 1 } });
+        state.apply(&Record { at: Time::from_secs(1.0), kind: RecordKind::Paused { node: 1 } });
         assert_eq!(said(&state, 1), "145 left, paused");
         state.nodes[0].left = 0;
         assert_eq!(said(&state, 0), "0 left, idle");

@@ -73,7 +73,7 @@ fn state_after(speeds: &[f64], part: f64) -> (RunState, Time) {
     let count = (records.len() as f64 * part) as usize;
     records[..count].iter().for_each(|record| state.apply(record));
     let now = state.head();
-    state.apply(&Record { at: now, what: RecordKind::Paused { node: 0 } });
+    state.apply(&Record { at: now, kind: RecordKind::Paused { node: 0 } });
     (state, now)
 }
 
@@ -178,7 +178,7 @@ fn pause_selection_and_pipe_are_drawn() {
     let paused = draw(&state, None);
     assert!(texts(&paused).contains(&"paused"));
     assert_eq!(draw(&state, Some(1)).len(), paused.len() + 1);
-    state.apply(&Record { at: now, what: RecordKind::Resumed { node: 0 } });
+    state.apply(&Record { at: now, kind: RecordKind::Resumed { node: 0 } });
     let going = draw(&state, None);
     assert!(!texts(&going).contains(&"paused"));
     assert_eq!([boxes(&paused, Ordering::Greater), boxes(&going, Ordering::Greater)], [2, 0], "bars");
@@ -204,10 +204,10 @@ fn retired_looks_unlike_idle() {
 fn every_state_of_a_machine_has_its_own_shape_and_word() {
     let mut header = sample_runs::header(&[1.0; 4], 60);
     header.rules.strategy = Strategy::Adaptive;
-    let draw = |spares, whats: &[RecordKind]| {
+    let draw = |spares, kinds: &[RecordKind]| {
         let mut state = RunState::new(&Header { spares, ..header.clone() });
         state.nodes[3].band_at = Some(Time::ZERO);
-        whats.iter().for_each(|what| state.apply(&Record { at: Time::ZERO, what: what.clone() }));
+        kinds.iter().for_each(|kind| state.apply(&Record { at: Time::ZERO, kind: kind.clone() }));
         drawn(&state, &RingOverlay::default(), Time::ZERO, [640.0, 490.0])
     };
     let becomes = |condition| vec![RecordKind::Condition { node: 3, condition }];

@@ -169,8 +169,8 @@ mod tests {
                 seen.insert((node, format!("{activity:?}")));
             }
         }
-        for what in ["NoBand", "Tracing", "Offering", "Receiving", "Done"] {
-            assert!(seen.contains(&(1, what.to_owned())), "{what} {seen:?}");
+        for kind in ["NoBand", "Tracing", "Offering", "Receiving", "Done"] {
+            assert!(seen.contains(&(1, kind.to_owned())), "{what} {seen:?}");
         }
         assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
         let idle: Vec<_> = state.nodes.iter().map(|node| node.idle(state.head())).collect();
@@ -188,7 +188,7 @@ mod tests {
         for record in sample_runs::records(&header) {
             state.apply(&record);
             if seen.is_empty() {
-                state.apply(&Record { at: record.at, what: RecordKind::Paused { node: 1 } });
+                state.apply(&Record { at: record.at, kind: RecordKind::Paused { node: 1 } });
             }
             let activity = state.activity(1, record.at);
             assert!(activity != Activity::Tracing, "{record:?}");
@@ -226,11 +226,11 @@ mod tests {
         assert!(state.moves(later));
         for node in 0..2 {
             assert!(state.moves(later));
-            state.apply(&Record { at: state.head(), what: RecordKind::SpeedSet { node, speed: 0.0 } });
+            state.apply(&Record { at: state.head(), kind: RecordKind::SpeedSet { node, speed: 0.0 } });
         }
         assert!(state.moves(state.head()), "something is still in flight");
         assert!(!state.moves(later));
-        state.apply(&Record { at: later, what: RecordKind::SpeedSet { node: 1, speed: 0.3 } });
+        state.apply(&Record { at: later, kind: RecordKind::SpeedSet { node: 1, speed: 0.3 } });
         assert!(state.moves(later));
 
         records.iter().skip(30).for_each(|record| state.apply(record));

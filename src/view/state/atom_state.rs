@@ -8,19 +8,19 @@ use crate::time::Time;
 /// State of an atom. It is small, since there are many atoms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AtomState {
-    /// It is still with the parent.
+    /// The atom is still with the parent.
     #[default]
     Nowhere,
-    /// It was lost with a machine, or with a message.
+    /// The atom was lost with a machine, or with a message.
     Lost,
-    /// It is in a node's queue or pipe, or on its way from this node to another one.
+    /// The atom is in a node's queue or pipe, or on its way from this node to another one.
     With {
         /// The node.
         node: NodeId,
         /// When the atom arrived there.
         since: Time,
     },
-    /// It is traced.
+    /// The atom is traced.
     Traced {
         /// The node that traced it.
         by: NodeId,

@@ -37,17 +37,17 @@ pub struct Traced {
 /// State of a machine apart from the atoms that it traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LanePhase {
-    /// It has no band yet.
+    /// The machine has no band yet.
     NoBand,
-    /// It has atoms.
+    /// The machine has atoms.
     HasAtoms,
-    /// Its offer, or its request, is on the way.
+    /// The machine's offer, or its request, is on the way.
     Offers,
-    /// Atoms for it are on the way.
+    /// Atoms for the machine are on the way.
     Receives,
-    /// It is not needed any more.
+    /// The machine is not needed any more.
     Retired,
-    /// It is not needed now, and can be woken.
+    /// The machine is not needed now, and can be woken.
     Asleep,
 }
 

@@ -51,7 +51,7 @@ pub enum Load {
     Atoms,
     /// Traced atoms.
     Results,
-    /// A message of the adaptive ring about the state of nodes.
+    /// A message of the adaptive ring that carries no work, for example that a node wakes or is lost.
     Notice,
     /// The end of the run.
     Shutdown,
@@ -81,7 +81,7 @@ impl Lanes {
     pub fn apply(&mut self, record: &Record) {
         self.version += 1;
         let at = record.at;
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { id, from, to, message, bytes, arrives } => {
                 self.sent(Flight::new(*id, (*from, *to), message, at, *arrives), *bytes);
             }
@@ -287,13 +287,13 @@ mod tests {
     fn paused_machine_at_speed_0_stays_stopped_when_resumed() {
         let header = sample_runs::header(&[1.0, 1.0], 9);
         let mut lanes = Lanes::new(&header);
-        let whats = [
+        let kinds = [
             RecordKind::Paused { node: 1 },
             RecordKind::SpeedSet { node: 1, speed: 0.0 },
             RecordKind::Resumed { node: 1 },
         ];
-        for (at, what) in (1..).zip(whats) {
-            lanes.apply(&Record { at: Time(at), what });
+        for (at, kind) in (1..).zip(kinds) {
+            lanes.apply(&Record { at: Time(at), kind });
         }
         assert_eq!(lanes.lanes()[1].stops(), [(Time(1), None)]);
     }

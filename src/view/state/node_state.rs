@@ -75,25 +75,25 @@ pub struct Parcels {
 /// What a node does, as it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
-    /// Its band has not arrived yet.
+    /// The node's band has not arrived yet.
     NoBand,
-    /// Its worker traces atoms.
+    /// The node's worker traces atoms.
     Tracing,
-    /// It has atoms, but its speed is 0.
+    /// The node has atoms, but its speed is 0.
     SpeedZero,
-    /// It has atoms, but it is paused.
+    /// The node has atoms, but is paused.
     Paused,
-    /// Its offer of help is on its way.
+    /// The node's offer of help is on its way.
     Offering,
-    /// Its request for atoms is on its way to the parent.
+    /// The node's request for atoms is on its way to the parent.
     Asking,
-    /// Its request has arrived, and waits at the parent.
+    /// The node's request has arrived, and waits at the parent.
     InLine,
-    /// Atoms are on their way to it.
+    /// Atoms are on their way to the node.
     Receiving,
-    /// It has nothing to do.
+    /// The node has nothing to do.
     Idle,
-    /// Its own offer came back: it is not needed any more.
+    /// The node's own offer came back: it is not needed any more.
     Retired,
     /// Its own offer came back in the adaptive ring: it can be woken.
     Asleep,

@@ -199,7 +199,7 @@ fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
         let (state, narrator, now) = (&snapshot.state, &snapshot.narrator, record.at);
         said.push((Room::Some, record_words(record, state, language)));
         said.push((Room::Heard, narrator.sentence(state, now, language)));
-        if !matches!(record.what, RecordKind::AtomStarted { .. }) {
+        if !matches!(record.kind, RecordKind::AtomStarted { .. }) {
             said.push((Room::Heard, status_sentence(state, language)));
             said.extend(narrator.events().last().map(|(_, event)| (Room::Same, event.sentence(language))));
         }

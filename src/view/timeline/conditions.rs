@@ -95,10 +95,10 @@ mod tests {
     /// How many quads and lines are added to three lanes if the second machine gets this condition at 1 s.
     fn marks_added(condition: Condition) -> (usize, usize) {
         let header = sample_runs::header(&[1.0; 3], 300);
-        let draw = |whats: &[RecordKind]| {
+        let draw = |kinds: &[RecordKind]| {
             let mut lanes = Lanes::new(&header);
             let at = Time::from_secs(1.0);
-            whats.iter().for_each(|what| lanes.apply(&Record { at, what: what.clone() }));
+            kinds.iter().for_each(|kind| lanes.apply(&Record { at, kind: kind.clone() }));
             let (mut window, end) = (TimeWindow::default(), Time::from_secs(2.0));
             window.fit(end);
             let drawn = timeline(&lanes, &window, &TimelineLayout::new(3, 800.0, 150.0), end);

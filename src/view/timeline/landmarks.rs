@@ -34,8 +34,8 @@ impl StepUnit {
     }
 
     /// Whether a step of this unit ends at a record of kind `what`.
-    fn matches(self, what: &RecordKind) -> bool {
-        match (self, what) {
+    fn matches(self, kind: &RecordKind) -> bool {
+        match (self, kind) {
             (Self::Atom, RecordKind::AtomDone { .. }) => true,
             (Self::Lap, RecordKind::Sent { from: Party::Node(from), message, .. }) => {
                 message.own_offer(*from).is_some()
@@ -54,7 +54,7 @@ impl StepUnit {
 /// Returns how many records lie before the end of a step that starts after the first `records` records of `log`; `None`
 /// if there is no step. A step back from the first event leads to the beginning.
 pub fn step(log: &RunLog, records: usize, by: StepUnit, forward: bool) -> Option<usize> {
-    let is_end = |record: &Record| by.matches(&record.what);
+    let is_end = |record: &Record| by.matches(&record.kind);
     let (before, after) = log.records().split_at(records.min(log.records().len()));
     if forward {
         return after.iter().position(is_end).map(|further| before.len() + further + 1);
@@ -94,7 +94,7 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
     let records = until_finished(log);
     for (index, record) in records.iter().enumerate() {
         let mark = |words: String, subject| Landmark { words, records: index + 1, at: record.at, subject };
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { id, from: Party::Node(from), message: Message::Offer { who, .. }, .. }
                 if from == who =>
             {
@@ -169,7 +169,7 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
 /// Returns the records until the picture is complete: the shown time ends there.
 fn until_finished(log: &RunLog) -> &[Record] {
     let records = log.records();
-    let end = records.iter().position(|record| record.what == RecordKind::Finished);
+    let end = records.iter().position(|record| record.kind == RecordKind::Finished);
     &records[..end.map_or(records.len(), |end| end + 1)]
 }
 
@@ -177,7 +177,7 @@ fn until_finished(log: &RunLog) -> &[Record] {
 fn slowest(records: &[Record], nodes: usize, language: Language) -> Option<Landmark> {
     let (mut started, mut busy, mut atoms) = (vec![None; nodes], vec![0.0; nodes], vec![0_u32; nodes]);
     for record in records {
-        match record.what {
+        match record.kind {
             RecordKind::AtomStarted { node, .. } if usize::from(node) < nodes => {
                 started[usize::from(node)] = Some(record.at);
             }
@@ -212,7 +212,7 @@ mod tests {
             for by in StepUnit::ALL {
                 let mut places = vec![0];
                 while let Some(next) = step(&log, places[places.len() - 1], by, true) {
-                    prop_assert!(by.matches(&log.records()[next - 1].what));
+                    prop_assert!(by.matches(&log.records()[next - 1].kind));
                     places.push(next);
                 }
                 let mut back = vec![places[places.len() - 1]];
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn every_atom_is_a_step() {
         let log = sample_runs::log(&[1.0, 0.3], 57);
-        let ends = |by: StepUnit| log.records().iter().filter(|record| by.matches(&record.what)).count();
+        let ends = |by: StepUnit| log.records().iter().filter(|record| by.matches(&record.kind)).count();
         assert_eq!(ends(StepUnit::Atom), 57);
         assert!(ends(StepUnit::Lap) >= 2 && ends(StepUnit::Event) > ends(StepUnit::Lap));
     }
@@ -238,7 +238,7 @@ mod tests {
         let language = Language::English;
         let mut log = sample_runs::log(&[1.0, 1.0, 1.0, 1.0, 0.02], 900);
         // Without these records nobody retires: the last atoms keep all machines busy.
-        let retires = |secs, node| Record { at: Time::from_secs(secs), what: RecordKind::Retired { node } };
+        let retires = |secs, node| Record { at: Time::from_secs(secs), kind: RecordKind::Retired { node } };
         log.add(vec![retires(0.001, 0)]);
         let end = log.end();
         log.add(vec![retires(9e3, 1)]);

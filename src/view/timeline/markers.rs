@@ -41,7 +41,7 @@ pub struct Markers(Vec<Marker>);
 impl Markers {
     /// Takes in a record; `state` already knows it. Records of different parties may come a little out of order.
     pub fn apply(&mut self, record: &Record, state: &RunState) {
-        let kind = match &record.what {
+        let kind = match &record.kind {
             RecordKind::SpeedSet { node, .. } => MarkerKind::Speed(*node),
             RecordKind::Paused { node } | RecordKind::Resumed { node } => MarkerKind::Pause(*node),
             RecordKind::Condition { node, condition } => MarkerKind::Condition(*node, *condition),
@@ -94,8 +94,8 @@ mod tests {
         let half = records.len() / 2;
         let at = records[half].at;
         for (i, speed) in [0.9, 0.6, 0.2].into_iter().enumerate() {
-            let what = RecordKind::SpeedSet { node: 1, speed };
-            records.insert(half + 1 + i, Record { at: Time(at.0 + i as u64), what });
+            let kind = RecordKind::SpeedSet { node: 1, speed };
+            records.insert(half + 1 + i, Record { at: Time(at.0 + i as u64), kind });
         }
         for record in &records {
             state.apply(record);

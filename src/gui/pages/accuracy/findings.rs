@@ -41,9 +41,9 @@ pub struct AccuracyFindings {
 pub enum Choice {
     /// The point at this index.
     Point(usize),
-    /// The fastest with at most this error.
+    /// The fastest point with at most this error.
     Error(f64),
-    /// The best with at most this time.
+    /// The point of the least error with at most this time.
     Time(f64),
 }
 

@@ -50,7 +50,7 @@ pub(super) enum EventKind {
     Latency,
     /// A machine or a link fails, or works again.
     Condition,
-    /// The parent closes the ring round machines, or opens it for them.
+    /// The parent takes machines out of the ring, or back into it.
     RingChanged,
     /// The parent hands out lost atoms again.
     HandedOutAgain { to: Vec<NodeId>, atoms: u32 },

@@ -21,7 +21,7 @@ impl EventLog {
     /// Takes in a record; `state` already knows it.
     pub(crate) fn apply(&mut self, record: &Record, state: &RunState) {
         let at = record.at;
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
                 if !self.has(&EventKind::Bands) {
                     self.add(at, EventKind::Bands, Happening::bands(state, band));

@@ -16,8 +16,8 @@ fn sentences(events: &EventLog) -> Vec<String> {
 /// The events of `records`, at their times in ms.
 fn events_of(nodes: usize, records: impl IntoIterator<Item = (u64, RecordKind)>) -> EventLog {
     let (mut state, mut events) = (RunState::new(&sample_runs::header(&vec![1.0; nodes], 900)), EventLog::default());
-    for (ms, what) in records {
-        let record = Record { at: Time(ms * 1_000_000), what };
+    for (ms, kind) in records {
+        let record = Record { at: Time(ms * 1_000_000), kind };
         state.apply(&record);
         events.apply(&record, &state);
     }

@@ -40,10 +40,10 @@ type Weight = (u8, u32);
 /// Weight of a change by the user: its sentence appears at once.
 const USER_CHANGE: Weight = (4, 0);
 
-/// Weight of missing machines: more than the change that made them fail.
+/// Importance of missing machines: more than the change that made them fail.
 const MISSED: Weight = (4, 1);
 
-/// Weight of the end of the run.
+/// Importance of the end of the run.
 const COMPLETE: Weight = (5, 0);
 
 /// How long the sentence of an event is shown at most.
@@ -57,7 +57,7 @@ impl Narrator {
     pub fn apply(&mut self, record: &Record, state: &RunState) {
         self.events.apply(record, state);
         let is_user_change = matches!(
-            record.what,
+            record.kind,
             RecordKind::SpeedSet { .. }
                 | RecordKind::Paused { .. }
                 | RecordKind::Resumed { .. }
@@ -133,7 +133,7 @@ const MAX_SKIPPED_EVENTS: usize = 64;
 
 /// Returns the event of a record and its weight; `None` if the record is not worth a sentence.
 fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
-    let event = match &record.what {
+    let event = match &record.kind {
         RecordKind::Sent {
             from: Party::Node(from), to: Party::Node(to), message: Message::Transfer(ranges), ..
         } => {

@@ -32,8 +32,8 @@ fn sentence_stays_until_read_or_outweighed() {
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
     let mut narrator = Narrator::default();
     let at = |ms: u64| Time(ms * 1_000_000);
-    let mut say = |ms, what| {
-        let record = Record { at: at(ms), what };
+    let mut say = |ms, kind| {
+        let record = Record { at: at(ms), kind };
         state.apply(&record);
         narrator.apply(&record, &state);
         narrator.sentence(&state, record.at, language)
@@ -57,7 +57,7 @@ fn slow_playback_shows_skipped_events() {
     let mut narrator = Narrator::default();
     let at = |ms: u64| Time(ms * 1_000_000);
     for (ms, node) in [(0, 0), (100, 1), (200, 2)] {
-        let record = Record { at: at(ms), what: RecordKind::Retired { node } };
+        let record = Record { at: at(ms), kind: RecordKind::Retired { node } };
         state.apply(&record);
         narrator.apply(&record, &state);
     }
@@ -79,8 +79,8 @@ fn transfer_of_twice_the_atoms_outweighs_another() {
     let mut say = |ms: u64, from, atoms| {
         let (from, to, at) = (Party::Node(from), Party::Node(0), Time(ms * 1_000_000));
         let message = Message::Transfer(std::iter::once(0..atoms).collect());
-        let what = RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
-        narrator.apply(&Record { at, what }, &state);
+        let kind = RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at };
+        narrator.apply(&Record { at, kind }, &state);
         narrator.sentence(&state, at, language)
     };
     assert!(say(0, 1, 20).ends_with("takes over 20 atoms from 2, which is still busy"));
@@ -95,7 +95,7 @@ fn sentence_on_a_speed_follows_the_slider() {
     let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0, 0.1], 9));
     let mut narrator = Narrator::default();
     let mut set = |ms: u64, node, speed| {
-        let record = Record { at: Time(ms * 1_000_000), what: RecordKind::SpeedSet { node, speed } };
+        let record = Record { at: Time(ms * 1_000_000), kind: RecordKind::SpeedSet { node, speed } };
         state.apply(&record);
         narrator.apply(&record, &state);
         narrator.sentence(&state, record.at, language)
@@ -197,7 +197,7 @@ fn thefts_are_told_of() {
     let mut say = |ms: u64, from, atoms| {
         let (from, to, at) = (Party::Node(from), Party::Node(2), Time(ms * 1_000_000));
         let message = Message::Transfer(std::iter::once(0..atoms).collect());
-        let record = Record { at, what: RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
+        let record = Record { at, kind: RecordKind::Sent { id: ms, from, to, message, bytes: 0, arrives: at } };
         state.apply(&record);
         narrator.apply(&record, &state);
         narrator.sentence(&state, at, language)

@@ -148,7 +148,7 @@ mod tests {
         let mut header = sample_runs::header(&vec![1.0; left.len()], 900);
         (header.rules.strategy, header.rules.remedies) = (Strategy::Adaptive, remedies);
         let mut state = RunState::new(&header);
-        let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
+        let mut apply = |kind| state.apply(&Record { at: Time::ZERO, kind });
         for ((id, node), &left) in (0..).zip(0..).zip(left) {
             let (to, message) = (Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
             apply(RecordKind::Sent { id, from: Party::Parent, to, message, bytes: 0, arrives: Time::ZERO });

@@ -41,7 +41,7 @@ mod tests {
         let header = sample_runs::header(&[1.0, 1.0, 1.0], 900);
         let mut state = RunState::new(&header);
         let records = sample_runs::records(&header);
-        let until = records.iter().rposition(|record| matches!(record.what, RecordKind::AtomDone { .. }));
+        let until = records.iter().rposition(|record| matches!(record.kind, RecordKind::AtomDone { .. }));
         records[..until.expect("atoms")].iter().for_each(|record| state.apply(record));
         assert_eq!(
             unfinished_words(&state, language),
@@ -49,7 +49,7 @@ mod tests {
             "somebody computes"
         );
         let at = Time::from_secs(9e3);
-        (0..3).for_each(|node| state.apply(&Record { at, what: RecordKind::Paused { node } }));
+        (0..3).for_each(|node| state.apply(&Record { at, kind: RecordKind::Paused { node } }));
         let words = unfinished_words(&state, language);
         assert!(words.ends_with(" is paused and keeps the atom in its pipe"), "{words}");
     }

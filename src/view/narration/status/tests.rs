@@ -19,7 +19,7 @@ const PAUSED: f64 = -1.0;
 /// A run in which machines have these atoms left, at these speeds.
 fn run(machines: &[Left], retired: &[NodeId]) -> RunState {
     let mut state = RunState::new(&sample_runs::header(&vec![1.0; machines.len()], 900));
-    let mut apply = |what| state.apply(&Record { at: Time::ZERO, what });
+    let mut apply = |kind| state.apply(&Record { at: Time::ZERO, kind });
     for ((id, node), &(left, speed)) in (0..).zip(0..).zip(machines) {
         let (to, message) = (Party::Node(node), Message::Band(100 * id as u32..100 * id as u32 + left));
         let (from, at) = (Party::Parent, Time::ZERO);

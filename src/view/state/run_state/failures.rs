@@ -46,7 +46,7 @@ impl RunState {
         }
     }
 
-    /// Takes over what a message of the adaptive ring says about a node's atoms, and about nodes that are gone.
+    /// Applies a message of the adaptive ring that says which atoms a node has, or which nodes have left the ring.
     pub(super) fn apply_status(&mut self, from: Party, message: &Message, at: Time) {
         match (from, message) {
             (Party::Parent, Message::Gone(gone)) => {
@@ -96,7 +96,7 @@ impl RunState {
         }
     }
 
-    /// Loses all atoms of a machine, but those in its messages.
+    /// Marks all atoms of a machine as lost, except those in messages that it has sent.
     fn lose_all(&mut self, node: NodeId) {
         let mut left: BTreeSet<Atom> = BTreeSet::new();
         for flight in self.pending.values().filter(|flight| flight.from == Party::Node(node)) {
@@ -163,7 +163,7 @@ mod tests {
             assert!(state.done() <= 900);
             let traced = state.atom_states().iter().filter(|place| place.owner().is_some()).count();
             assert_eq!(traced as u32, state.done(), "{record:?}");
-            if let RecordKind::Condition { condition: Condition::Off, .. } = record.what {
+            if let RecordKind::Condition { condition: Condition::Off, .. } = record.kind {
                 let node = &state.nodes()[1];
                 assert_eq!((node.left(), node.atom, node.retired), (0, None, false));
                 assert!(node.lost_atoms > 50, "{}", node.lost_atoms);
@@ -192,8 +192,8 @@ mod tests {
         let mut state = RunState::new(&header);
         records.iter().take(200).for_each(|record| state.apply(record));
         assert_eq!(state.nodes().iter().map(|node| node.spare).collect::<Vec<_>>(), [false, false, false, true]);
-        let what = RecordKind::Condition { node: 3, condition: Condition::Well };
-        state.apply(&Record { at: state.head(), what });
+        let kind = RecordKind::Condition { node: 3, condition: Condition::Well };
+        state.apply(&Record { at: state.head(), kind });
         assert!(!state.nodes()[3].spare && state.nodes()[3].condition == Condition::Well);
         assert_eq!(state.gone, [3], "until the parent hears of it");
     }

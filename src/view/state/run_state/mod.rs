@@ -106,7 +106,7 @@ impl RunState {
     pub fn apply(&mut self, record: &Record) {
         let at = record.at;
         self.head = self.head.max(at);
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { id, from, to, message, arrives, .. } => {
                 if *from == Party::Parent {
                     (self.parent_head, self.is_estimating) = (self.parent_head.max(at), false);
@@ -294,7 +294,7 @@ mod tests {
 
     /// Returns the party that wrote a record.
     fn party(record: &Record) -> Party {
-        match &record.what {
+        match &record.kind {
             RecordKind::Sent { from, .. } => *from,
             RecordKind::Received { by, .. } => *by,
             RecordKind::AtomStarted { node, .. }
@@ -364,8 +364,8 @@ mod tests {
     #[test]
     fn pause_and_latency_are_kept() {
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.5], 2));
-        let mut apply = |what| {
-            state.apply(&Record { at: Time::ZERO, what });
+        let mut apply = |kind| {
+            state.apply(&Record { at: Time::ZERO, kind });
             (state.nodes[1].paused, state.nodes[1].speed, state.latency())
         };
         let (before, after) = (Duration::from_millis(40), Duration::from_millis(200));
@@ -379,10 +379,10 @@ mod tests {
         let mut state = RunState::new(&sample_runs::header(&[1.0], 2));
         let offer = Message::offer(9, 0);
         let (from, to, at) = (Party::Node(9), Party::Node(8), Time::ZERO);
-        state.apply(&Record { at, what: RecordKind::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
-        state.apply(&Record { at, what: RecordKind::Received { id: 0, by: to } });
-        state.apply(&Record { at, what: RecordKind::AtomDone { node: 9, atom: 77, cost: Duration::ZERO } });
-        state.apply(&Record { at, what: RecordKind::Paused { node: 9 } });
+        state.apply(&Record { at, kind: RecordKind::Sent { id: 0, from, to, message: offer, bytes: 0, arrives: at } });
+        state.apply(&Record { at, kind: RecordKind::Received { id: 0, by: to } });
+        state.apply(&Record { at, kind: RecordKind::AtomDone { node: 9, atom: 77, cost: Duration::ZERO } });
+        state.apply(&Record { at, kind: RecordKind::Paused { node: 9 } });
         assert!(state.flights().is_empty());
         assert_eq!(state.done(), 0);
     }

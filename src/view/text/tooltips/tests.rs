@@ -33,7 +33,7 @@ fn paused_node_is_called_paused() {
     let state_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "state").to_owned();
     let pipe_of = |state: &RunState| value(&node_words(state, 0, state.head(), language), "in the pipe").to_owned();
     assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("tracing", "two atoms, one of which it traces"));
-    state.apply(&Record { at: state.head(), what: RecordKind::Paused { node: 0 } });
+    state.apply(&Record { at: state.head(), kind: RecordKind::Paused { node: 0 } });
     assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("paused", "two atoms, which wait"));
     state.nodes[0].left = 0;
     assert_eq!((&*state_of(&state), &*pipe_of(&state)), ("idle, paused", "nothing"));
@@ -50,7 +50,7 @@ fn parent_has_placed_every_pixel_at_the_end() {
     let words = parent_words(&state, Time::from_secs(2.0), language);
     assert_eq!(value(&words, "placed"), "2\u{a0}000 of 2\u{a0}000 pixels, 100 %");
     assert_eq!(value(&words, "a hop takes"), "40 ms");
-    let is_handled = |record: &&Record| matches!(record.what, RecordKind::Received { by: Party::Parent, .. });
+    let is_handled = |record: &&Record| matches!(record.kind, RecordKind::Received { by: Party::Parent, .. });
     let handled = records.iter().filter(is_handled).count();
     assert!(value(&words, "messages").starts_with(&format!("{handled} handled, ")), "{words:?}");
 }
@@ -86,9 +86,9 @@ fn begun_atom_has_the_reason_for_its_delay() {
     assert_eq!(atom_words(&state, 0, state.head(), language), "Atom 1: 1 traces it now");
     let later = state.head() + Duration::from_secs(3);
     assert_eq!(atom_words(&state, 8, later, language), "Atom 9: has been in the queue of 1 for 3.0 s");
-    state.apply(&Record { at: later, what: RecordKind::SpeedSet { node: 0, speed: 0.0 } });
+    state.apply(&Record { at: later, kind: RecordKind::SpeedSet { node: 0, speed: 0.0 } });
     assert_eq!(atom_words(&state, 0, later, language), "Atom 1: 1 has begun it, but its speed is 0 %");
-    state.apply(&Record { at: later, what: RecordKind::Paused { node: 0 } });
+    state.apply(&Record { at: later, kind: RecordKind::Paused { node: 0 } });
     assert_eq!(atom_words(&state, 0, later, language), "Atom 1: 1 has begun it, but is paused");
 }
 
