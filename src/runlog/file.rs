@@ -239,7 +239,7 @@ mod tests {
             kinds in prop::collection::vec((any::<u64>(), kinds()), 0..20),
         ) {
             let mut log = RunLog::new(header);
-            for (at, what) in kinds {
+            for (at, kind) in kinds {
                 log.add(vec![Record { at: Time(at), kind }]);
             }
             let directory = tempfile::tempdir().unwrap();

@@ -52,7 +52,7 @@ impl Details {
             Subject::Node(_) => {}
             Subject::Atom(atom) => details.bar = lanes.bar_of(atom),
             Subject::Message(id) => {
-                let is_it = |kind: &RecordKind| matches!(what, RecordKind::Sent { id: other, .. } if *other == id);
+                let is_it = |kind: &RecordKind| matches!(kind, RecordKind::Sent { id: other, .. } if *other == id);
                 let Some(index) = log.records().iter().rposition(|record| is_it(&record.kind)) else { return details };
                 let record = &log.records()[index];
                 let RecordKind::Sent { from, to, message, arrives, .. } = &record.kind else { return details };
