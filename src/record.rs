@@ -14,6 +14,7 @@ pub struct Record {
     /// The time.
     pub at: Time,
     /// The kind of record, with its details.
+    #[serde(rename = "what")]
     pub kind: RecordKind,
 }
 

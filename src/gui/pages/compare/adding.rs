@@ -32,8 +32,8 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: La
     menu(&opener, |ui| row(ui, "", changes, look, language))
 }
 
-/// Shows the menu of changes that can be made to a run. Returns the chosen one. If the run has not ended at the shown time `now`,
-/// the menu also offers new speeds from that time on; until then both runs are the same.
+/// Shows the menu of changes that can be made to a run. Returns the chosen one. If the run has not ended at the shown
+/// time `now`, the menu also offers new speeds from that time on; until then both runs are the same.
 pub fn changes(
     ui: &mut Ui,
     letter: char,
