@@ -7,7 +7,7 @@ use super::quadratic::Intervals;
 use super::span::{BOTTOM_CAP, CURVED, Spans};
 use super::torus;
 use super::{LeafIndex, MaterialTag, Primitive};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::{Aabb, PARALLEL_COSINE, Ray, approach};
 
 /// A face of a leaf of the compiled tree: what a ray hits, and where a secondary ray starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,17 @@ enum Shape {
         square: DMat3,
         half_linear: DVec3,
         constant: f64,
+        magnitudes: Magnitudes,
     },
+}
+
+/// Bounds of the terms that the coefficients of a quadric are sums of: rounding errors are relative to these.
+#[derive(Clone, Debug)]
+struct Magnitudes {
+    square: DMat3,
+    half_linear: DVec3,
+    /// Bound of the square term of any direction of length 1.
+    greatest: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -141,6 +151,7 @@ impl Leaf {
                     square: to_local.transpose() * square * to_local,
                     half_linear: to_local.transpose() * q.linear / 2.0,
                     constant: q.constant,
+                    magnitudes: Magnitudes::new(to_local, square, q.linear / 2.0),
                 };
                 (shape, Aabb::ALL)
             }
@@ -173,7 +184,7 @@ impl Leaf {
                 Spans::curved(inside)
             }
             Shape::HalfSpace { normal, offset } => {
-                let speed = normal.dot(ray.direction);
+                let speed = approach(*normal, ray.direction);
                 let height = if start.is_some() { 0.0 } else { normal.dot(ray.origin) - offset };
                 Spans::curved(match speed {
                     _ if speed > 0.0 => Intervals::Between(f64::NEG_INFINITY, -height / speed),
@@ -230,11 +241,14 @@ impl Leaf {
                 let (o, d) = frame.ray_to_local(ray);
                 torus::spans(*tube, o, d, start.is_some())
             }
-            Shape::Quadric { centre, square, half_linear, constant } => {
+            Shape::Quadric { centre, square, half_linear, constant, magnitudes } => {
                 let (o, d) = (ray.origin - *centre, ray.direction);
                 let along = *square * d;
-                let a = along.dot(d);
-                let half = |o: DVec3| along.dot(o) + half_linear.dot(d);
+                let a = magnitudes.square_term(along.dot(d), d);
+                let half = |o: DVec3| {
+                    let b = along.dot(o) + half_linear.dot(d);
+                    if a == 0.0 { magnitudes.linear_term(b, o, d) } else { b }
+                };
                 Spans::curved(if start.is_some() {
                     Intervals::from_surface(a, half(o))
                 } else {
@@ -296,6 +310,30 @@ impl Leaf {
                 (*square * (point - *centre) + *half_linear).normalize_or(DVec3::Y)
             }
         }
+    }
+}
+
+impl Magnitudes {
+    /// The magnitudes for coefficients that are transformed by `to_local`.
+    fn new(to_local: DMat3, square: DMat3, half_linear: DVec3) -> Self {
+        let to_scene = to_local.abs().transpose();
+        let square = to_scene * square.abs() * to_local.abs();
+        let greatest = square.to_cols_array().iter().sum();
+        Self { square, half_linear: to_scene * half_linear.abs(), greatest }
+    }
+
+    /// The square term `a` along `d`; exactly 0 if it is 0 but for rounding (see [`approach`]).
+    #[inline(always)]
+    fn square_term(&self, a: f64, d: DVec3) -> f64 {
+        let may_be_0 = a.abs() <= PARALLEL_COSINE * self.greatest;
+        if may_be_0 && a.abs() <= PARALLEL_COSINE * (self.square * d.abs()).dot(d.abs()) { 0.0 } else { a }
+    }
+
+    /// Half the linear term `b` along `d` at `o`; exactly 0 if it is 0 but for rounding.
+    #[cold]
+    fn linear_term(&self, b: f64, o: DVec3, d: DVec3) -> f64 {
+        let terms = (self.square * d.abs()).dot(o.abs()) + self.half_linear.dot(d.abs());
+        if b.abs() <= PARALLEL_COSINE * terms { 0.0 } else { b }
     }
 }
 

@@ -1,10 +1,12 @@
 //! Rays, boxes and affine maps, in f64.
 
+mod parallel;
 mod split;
 
+pub use parallel::{PARALLEL_COSINE, approach};
 pub use split::{MAX_SAH_DEPTH, split};
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 /// A half-line, with the values that every intersection test needs.
 #[derive(Clone, Copy, Debug)]
@@ -145,9 +147,27 @@ pub fn fast_max(a: f64, b: f64) -> f64 {
 
 /// Rotation by `degrees` about x, then about y, then about z (right-handed).
 pub fn rotation(degrees: DVec3) -> DMat3 {
-    let [x, y, z] = degrees.to_array().map(f64::to_radians);
-    let about = |axis, angle| DMat3::from_quat(DQuat::from_axis_angle(axis, angle));
-    about(DVec3::Z, z) * about(DVec3::Y, y) * about(DVec3::X, x)
+    let [x, y, z] = degrees.to_array().map(sin_cos_degrees);
+    let about_x = DMat3::from_cols(DVec3::X, DVec3::new(0.0, x.1, x.0), DVec3::new(0.0, -x.0, x.1));
+    let about_y = DMat3::from_cols(DVec3::new(y.1, 0.0, -y.0), DVec3::Y, DVec3::new(y.0, 0.0, y.1));
+    let about_z = DMat3::from_cols(DVec3::new(z.1, z.0, 0.0), DVec3::new(-z.0, z.1, 0.0), DVec3::Z);
+    about_z * about_y * about_x
+}
+
+/// Sine and cosine of an angle in degrees; exactly 0 and ±1 at multiples of 90°, so that what is turned by right angles
+/// stays parallel to what is not.
+fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    // Both remainders are exact.
+    let within_turn = degrees % 360.0;
+    let quarters = (within_turn / 90.0).round();
+    let (sine, cosine) = (within_turn - 90.0 * quarters).to_radians().sin_cos();
+    // A sum with 0 makes −0 a plain 0.
+    match quarters.rem_euclid(4.0) as u8 {
+        0 => (sine, cosine),
+        1 => (cosine, 0.0 - sine),
+        2 => (0.0 - sine, 0.0 - cosine),
+        _ => (0.0 - cosine, sine),
+    }
 }
 
 /// A rotation that maps the y axis to `axis`, which has length 1.
@@ -158,6 +178,8 @@ pub fn turn_y_to(axis: DVec3) -> DMat3 {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
@@ -175,6 +197,33 @@ mod tests {
         let turned = rotation(DVec3::new(90.0, 90.0, 0.0)) * DVec3::Y;
         // About x, y goes to z; about y, z goes to x.
         assert!((turned - DVec3::X).length() < 1e-15, "{turned}");
+    }
+
+    #[test]
+    fn rotation_by_right_angles_is_exact() {
+        for quarter in -9..=9 {
+            for axis in 0..3 {
+                let mut degrees = DVec3::ZERO;
+                degrees[axis] = 90.0 * f64::from(quarter);
+                let turned = rotation(degrees);
+                assert!(turned.to_cols_array().iter().all(|entry| [-1.0, 0.0, 1.0].contains(entry)), "{turned}");
+                assert_eq!(turned.determinant(), 1.0);
+                degrees[axis] += 360.0;
+                assert_eq!(turned, rotation(degrees));
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn rotation_is_orthogonal_and_adds_up(angle in -800.0..800.0f64, more in -800.0..800.0f64) {
+            let about_y = |degrees| rotation(DVec3::new(0.0, degrees, 0.0));
+            let turned = about_y(angle);
+            prop_assert!((turned.transpose() * turned).abs_diff_eq(DMat3::IDENTITY, 1e-15));
+            prop_assert!((about_y(more) * turned).abs_diff_eq(about_y(angle + more), 1e-13));
+            let expected = DMat3::from_rotation_y(angle.to_radians());
+            prop_assert!(turned.abs_diff_eq(expected, 1e-13));
+        }
     }
 
     #[test]
