@@ -77,13 +77,15 @@ fn ray_json(ray: &ExplainedRay, scene: &Scene) -> Value {
     };
     let lights = ray.lights.iter().map(|lit| {
         let (diffuse, specular) = (lit.diffuse().to_array(), lit.specular().to_array());
-        json!({ "light": lit.light, "arriving": lit.arriving, "diffuse": diffuse, "specular": specular })
+        json!({ "light": lit.light, "arriving": lit.arriving.max_element(), "arriving_rgb": lit.arriving.to_array(),
+            "diffuse": diffuse, "specular": specular })
     });
     json!({
         "kind": kind,
         "level": ray.path.level,
         "from": ray.path.from,
         "weight": ray.path.weight,
+        "factor": ray.path.factor.to_array(),
         "origin": ray.path.ray.origin.to_array(),
         "direction": ray.path.ray.direction.to_array(),
         "to": ray.path.to,

@@ -26,6 +26,7 @@ use crate::output::{as_file_name, check_writable, is_same_file};
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
+use crate::view::note_on_media;
 use args::{Args, CliCommand};
 
 /// Why a command failed, in one sentence.
@@ -153,8 +154,13 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 
+/// Opens a scene, and says on stderr what its author may not have meant.
 fn open(argument: &str) -> Result<Opened, Failure> {
-    Opened::new(argument).map_err(|error| Failure::Refused(error.to_string()))
+    let opened = Opened::new(argument).map_err(|error| Failure::Refused(error.to_string()))?;
+    if let Some(note) = note_on_media(&opened.scene, Language::English) {
+        eprintln!("note: {note}");
+    }
+    Ok(opened)
 }
 
 /// `name`.png in the current directory, or the first of `name`-2.png, `name`-3.png … that does not exist yet.

@@ -1,6 +1,7 @@
 //! Constructive solid geometry (the article, §2): primitives, the tree of boolean operations, and a ray's spans in it.
 //! A hit carries the tag of a surface; this module knows no materials and no lights.
 
+mod boundary;
 mod build;
 mod coincidence;
 mod id;
@@ -16,6 +17,7 @@ mod torus;
 mod traverse;
 mod tree;
 
+pub use boundary::Rank;
 pub use id::{LeafIndex, MaterialTag, RootId};
 pub use merge::{Crossing, Operation};
 pub use passes::{Pass, Passes};
@@ -23,5 +25,5 @@ pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
 pub use span_diagram::{SolidKind, SpanDiagram};
-pub use traverse::{Hit, RayStart, Stack, tie_break};
+pub use traverse::{Hit, RayStart, Stack};
 pub use tree::{DroppedCounts, Tree};

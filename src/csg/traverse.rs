@@ -1,5 +1,6 @@
 //! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
 
+use super::boundary::visit_crossings;
 use super::coincidence::{coincide, without_slivers};
 use super::id::NodeIndex;
 use super::merge::{Operation, merge};
@@ -26,34 +27,13 @@ pub struct RayStart {
     pub root: RootId,
     /// The face that it hit.
     pub surface: Surface,
-    /// The first part of the [`tie_break`]: whether the solid is left there, as seen along the incoming ray.
-    pub exits: bool,
-    /// Whether this ray stays on the incoming ray's side of the face, as reflected rays and shadow rays do.
-    pub reversed: bool,
-}
-
-/// Tie-break for coincident boundaries: entries before exits, then scene order.
-///
-/// The boundaries of solids that touch lie at one point, and rounding puts them in any order along a ray. A ray that
-/// took them in that order would cross some twice and some never. A ray that goes back (`reversed`) crosses them in the
-/// opposite order.
-pub fn tie_break(root: RootId, enters: bool, reversed: bool) -> (bool, RootId) {
-    (enters == reversed, root)
-}
-
-impl RayStart {
-    /// Whether the ray has yet to cross the boundary of another solid at the point where it starts.
-    fn is_before(&self, root: RootId, enters: bool) -> bool {
-        let (here, other) = ((self.exits, self.root), tie_break(root, enters, self.reversed));
-        if self.reversed { other < here } else { other > here }
-    }
 }
 
 /// Scratch memory for the crossings of one ray, two for each span.
 pub type Stack = Vec<Crossing>;
 
 impl Tree {
-    /// Finds the first crossing of the boundary of the solid `root` before `t_max`.
+    /// Finds the first crossing of the boundary of the solid `root` before `t_max`; see [`Tree::crossings`].
     #[inline]
     pub fn nearest(
         &self,
@@ -61,10 +41,11 @@ impl Tree {
         ray: &Ray,
         start: Option<RayStart>,
         t_max: f64,
+        is_inside: impl FnOnce() -> bool,
         stack: &mut Stack,
     ) -> Option<Hit> {
         let mut found = None;
-        self.crossings(root, ray, start, t_max, stack, |hit| {
+        self.crossings(root, ray, start, t_max, is_inside, stack, |hit| {
             found = Some(hit);
             false
         });
@@ -72,7 +53,8 @@ impl Tree {
     }
 
     /// Visits the crossings of the boundary of the solid `root` between the ray's start and `t_max`, in order, until
-    /// `visit` returns false.
+    /// `visit` returns false. `is_inside` returns whether the ray is in the solid at first.
+    #[expect(clippy::too_many_arguments, reason = "the ray, its range and its state, and scratch memory")]
     #[inline]
     pub fn crossings(
         &self,
@@ -80,57 +62,30 @@ impl Tree {
         ray: &Ray,
         start: Option<RayStart>,
         t_max: f64,
+        is_inside: impl FnOnce() -> bool,
         stack: &mut Stack,
-        mut visit: impl FnMut(Hit) -> bool,
+        visit: impl FnMut(Hit) -> bool,
     ) {
-        let slack = ray.tolerance(0.0);
-        // A ray that starts on this solid does not cross it there again. On another solid it may: of the boundaries
-        // that coincide with its start it crosses at 0 those that come later in the tie-break, on whichever side of 0
-        // rounding puts them.
-        let on_this = start.is_some_and(|start| start.root == root);
-        let is_crossed_at_0 = |enters: bool| start.map_or(enters, |start| !on_this && start.is_before(root, enters));
-        let is_on_ray = |t: f64, enters: bool| t < t_max && (t > slack || (t > -slack && is_crossed_at_0(enters)));
-        let start = start.filter(|_| on_this).map(|start| start.surface);
-        let mut report = |crossing: Crossing, enters: bool| {
-            !is_on_ray(crossing.t, enters) || visit(Hit { t: crossing.t.max(0.0), surface: crossing.surface, enters })
-        };
+        let start = start.filter(|start| start.root == root).map(|start| start.surface);
         // At edges and coincident faces rounding alone may leave a sliver, inside or outside the solid; it is dropped.
         // A ray that starts on this solid starts exactly on the face, and may be inside for any short distance.
         let is_sliver =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root.node().index()].kind {
             NodeKind::Leaf(leaf) => {
-                let [first, second] = self.leaf_spans(*leaf, ray, start);
-                let mut go_on = true;
-                if let Some([enter, leave]) = first {
-                    go_on = report(enter, true) && report(leave, false);
-                }
-                if let Some([enter, leave]) = second.filter(|_| go_on)
-                    && report(enter, true)
-                {
-                    report(leave, false);
-                }
+                let spans = self.leaf_spans(*leaf, ray, start);
+                visit_crossings(spans.into_iter().flatten().flatten(), ray, start, t_max, is_inside, visit);
             }
             NodeKind::Convex(leaves) => {
-                if let Some([enter, leave]) = self.convex_span(leaves, ray, start)
-                    && !is_sliver(enter, leave)
-                    && report(enter, true)
-                {
-                    report(leave, false);
-                }
+                let span = self.convex_span(leaves, ray, start).filter(|[enter, leave]| !is_sliver(*enter, *leave));
+                visit_crossings(span.into_iter().flatten(), ray, start, t_max, is_inside, visit);
             }
             NodeKind::Composition { operation, children } => {
                 stack.clear();
-                let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
+                let window = [-2.0 * ray.tolerance(0.0), t_max + ray.tolerance(t_max)];
                 // The caller has tested the bounds.
                 self.push_composition_crossings(*operation, children, ray, start, window, stack);
-                let mut enters = true;
-                for crossing in without_slivers(stack, is_sliver) {
-                    if !report(crossing, enters) {
-                        return;
-                    }
-                    enters = !enters;
-                }
+                visit_crossings(without_slivers(stack, is_sliver), ray, start, t_max, is_inside, visit);
             }
         }
     }

@@ -56,6 +56,7 @@ pub fn to_pov(scene: &Scene, size: Size, quality: &Quality) -> String {
 
 fn put_material(text: &mut String, tag: usize, material: &Material, ambient: DVec3) {
     let Material { colour, ka, kd, ks, kt, n, ior } = *material;
+    let kt = kt.max_element();
     // At 1 no pigment would be left to compensate for.
     let kt = if ka + kd > 0.0 { kt.min(1.0 - 1e-6) } else { kt };
     let kept = (1.0 - kt).max(1e-6);

@@ -1,12 +1,14 @@
 //! The scene: solids, materials, lights and a camera, read from a scene file.
 
 mod file;
+mod media;
 mod resolve;
 mod syntax;
 mod validate;
 mod viewpoint;
 
 pub use file::Opened;
+pub use media::{ior, media_of, objects_of_several_media};
 
 use glam::DVec3;
 use serde::Deserialize;
@@ -41,7 +43,7 @@ pub struct Camera {
     pub eye: DVec3,
     /// The point at the centre of the picture.
     pub look_at: DVec3,
-    /// The direction that is up in the picture; not along the line of sight.
+    /// The direction that is up in the picture, see [`Camera::right`].
     pub up: DVec3,
     /// The vertical field of view in degrees, above 0 and below 180.
     pub field_of_view: f64,
@@ -87,9 +89,9 @@ pub struct Material {
     /// Specular reflection of lights (Phong) and of other solids, 0 to 1.
     #[serde(deserialize_with = "validate::fraction")]
     pub ks: f64,
-    /// Transmission, 0 to 1.
-    #[serde(deserialize_with = "validate::fraction")]
-    pub kt: f64,
+    /// Transmission, 0 to 1: one number, or red, green and blue for coloured glass.
+    #[serde(deserialize_with = "validate::fractions")]
+    pub kt: DVec3,
     /// Phong's exponent: the larger it is, the smaller is the highlight.
     #[serde(deserialize_with = "validate::exponent")]
     pub n: f64,
@@ -101,7 +103,14 @@ pub struct Material {
 impl Default for Material {
     /// Matt white.
     fn default() -> Self {
-        Self { colour: DVec3::ONE, ka: 1.0, kd: 0.8, ks: 0.0, kt: 0.0, n: 50.0, ior: 1.0 }
+        Self { colour: DVec3::ONE, ka: 1.0, kd: 0.8, ks: 0.0, kt: DVec3::ZERO, n: 50.0, ior: 1.0 }
+    }
+}
+
+impl Material {
+    /// Whether light passes its surface.
+    pub fn transmits(&self) -> bool {
+        self.kt.max_element() > 0.0
     }
 }
 

@@ -169,13 +169,11 @@ pub(super) struct CameraFields {
     field_of_view: f64,
 }
 
-/// Why a camera has no line of sight or no upward direction.
+/// Why a camera has no line of sight.
 #[derive(Debug, Error)]
 pub(super) enum CameraError {
     #[error("eye and look_at must be different points")]
     NoDirection,
-    #[error("up must not lie along the line from eye to look_at")]
-    NoUp,
 }
 
 impl TryFrom<CameraFields> for Camera {
@@ -186,9 +184,6 @@ impl TryFrom<CameraFields> for Camera {
         let sight = (look_at - eye).normalize_or_zero();
         if sight == DVec3::ZERO {
             return Err(CameraError::NoDirection);
-        }
-        if sight.cross(up).length() < 1e-9 {
-            return Err(CameraError::NoUp);
         }
         Ok(Self { eye, look_at, up, field_of_view })
     }

@@ -1,7 +1,9 @@
 //! Range checks of numbers while they are read, so that an error can give the position.
 
+use std::fmt;
+
 use glam::DVec3;
-use serde::de::{Deserialize, Deserializer, Error};
+use serde::de::{self, Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
 /// The greatest absolute coordinate. Squares and products of a few coordinates stay finite.
 const MAX_COORDINATE: f64 = 1e12;
@@ -16,6 +18,40 @@ pub(super) fn positive<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Err
 
 pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     check(f64::deserialize(from)?, |x| (0.0..=1.0).contains(&x), "between 0 and 1")
+}
+
+/// Reads one number for red, green and blue, or three.
+pub(super) fn fractions<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Error> {
+    struct OneOrThree;
+    impl<'de> Visitor<'de> for OneOrThree {
+        type Value = DVec3;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("a number between 0 and 1, or three for red, green and blue")
+        }
+
+        fn visit_f64<E: Error>(self, number: f64) -> Result<DVec3, E> {
+            Ok(DVec3::splat(number))
+        }
+
+        fn visit_u64<E: Error>(self, number: u64) -> Result<DVec3, E> {
+            Ok(DVec3::splat(number as f64))
+        }
+
+        fn visit_i64<E: Error>(self, number: i64) -> Result<DVec3, E> {
+            Ok(DVec3::splat(number as f64))
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<DVec3, A::Error> {
+            <(f64, f64, f64)>::deserialize(de::value::SeqAccessDeserializer::new(numbers)).map(DVec3::from)
+        }
+    }
+    let fractions = from.deserialize_any(OneOrThree)?;
+    let is_valid = |x: f64| (0.0..=1.0).contains(&x);
+    if fractions.to_array().iter().all(|&x| x == fractions.x) {
+        return check(fractions.x, is_valid, "between 0 and 1").map(DVec3::splat);
+    }
+    check_each(fractions, is_valid, "three numbers between 0 and 1")
 }
 
 pub(super) fn exponent<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
@@ -57,11 +93,14 @@ pub(super) fn factors<'de, D: Deserializer<'de>>(from: D) -> Result<DVec3, D::Er
 }
 
 fn each<'de, D: Deserializer<'de>>(from: D, valid: impl Fn(f64) -> bool, what: &str) -> Result<DVec3, D::Error> {
-    let vector = DVec3::from(<(f64, f64, f64)>::deserialize(from)?);
+    check_each(DVec3::from(<(f64, f64, f64)>::deserialize(from)?), valid, what)
+}
+
+fn check_each<E: Error>(vector: DVec3, valid: impl Fn(f64) -> bool, what: &str) -> Result<DVec3, E> {
     if vector.to_array().into_iter().all(valid) {
         Ok(vector)
     } else {
-        Err(D::Error::custom(format_args!("must be {what}, not ({})", vector.to_array().map(shown).join(", "))))
+        Err(E::custom(format_args!("must be {what}, not ({})", vector.to_array().map(shown).join(", "))))
     }
 }
 

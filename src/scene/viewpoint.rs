@@ -5,20 +5,40 @@ use glam::{DQuat, DVec3};
 use super::{Camera, Opened};
 use crate::ron_file::comment_or_string_length;
 
-/// The smallest angle between the line of sight and straight up or straight down, where the picture would flip over.
-const MIN_POLE_ANGLE_DEGREES: f64 = 4.0;
+/// The smallest angle between the line of sight and straight up or straight down. It cannot be seen; it keeps the
+/// direction from which the camera came, which is the top of the picture.
+const MIN_POLE_ANGLE_DEGREES: f64 = 1e-4;
 
 impl Camera {
+    /// The direction to the right in the picture, of length 1: square to the line of sight and to `up`.
+    ///
+    /// A camera that looks along `up` or against it has the top of its picture where it would be if it had looked along
+    /// −z and had then been tilted: −z looking down, z looking up (if z is up, it had looked along y).
+    pub fn right(&self) -> DVec3 {
+        const MIN_SINE: f64 = 1e-9;
+        let (sight, up) = ((self.look_at - self.eye).normalize(), self.up.normalize());
+        let right = sight.cross(up);
+        if right.length() >= MIN_SINE {
+            return right.normalize();
+        }
+        let ahead = if up.z.abs() < 0.9 { DVec3::NEG_Z } else { DVec3::Y };
+        ahead.cross(up).normalize()
+    }
+
+    /// The largest coordinate of the eye and the point that it looks at. Rounding errors near the eye are relative to
+    /// it, even if the eye lies at the origin.
+    pub fn scale(&self) -> f64 {
+        self.eye.abs().max(self.look_at.abs()).max_element()
+    }
+
     /// Rotates the camera around the point that it looks at, by angles in degrees: to the right, and up.
     pub fn orbit(&self, right: f64, up: f64) -> Self {
         let axis = self.up.normalize();
         let away = self.eye - self.look_at;
         let height = axis.angle_between(away).to_degrees();
         // Upwards the angle to the pole decreases.
-        let new_height =
-            (height - up).clamp(MIN_POLE_ANGLE_DEGREES.min(height), (180.0 - MIN_POLE_ANGLE_DEGREES).max(height));
-        let side = axis.cross(away).normalize();
-        let turned = DQuat::from_axis_angle(side, (new_height - height).to_radians()) * away;
+        let new_height = (height - up).clamp(MIN_POLE_ANGLE_DEGREES, 180.0 - MIN_POLE_ANGLE_DEGREES);
+        let turned = DQuat::from_axis_angle(self.right(), (new_height - height).to_radians()) * away;
         let turned = DQuat::from_axis_angle(axis, right.to_radians()) * turned;
         Self { eye: self.look_at + turned, ..*self }
     }
@@ -27,7 +47,7 @@ impl Camera {
     /// of the point that it looks at.
     pub fn pan(&self, right: f64, up: f64) -> Self {
         let sight = self.look_at - self.eye;
-        let right_direction = sight.cross(self.up).normalize();
+        let right_direction = self.right();
         let upwards = right_direction.cross(sight).normalize();
         let height = 2.0 * sight.length() * (self.field_of_view.to_radians() / 2.0).tan();
         let by = (right_direction * right + upwards * up) * height;

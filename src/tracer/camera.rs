@@ -14,12 +14,14 @@ pub(super) struct RayCamera {
     /// From one pixel to the next on the right, and to the next below.
     right: DVec3,
     down: DVec3,
+    /// The largest number that the eye's place in the scene is computed from.
+    scale: f64,
 }
 
 impl RayCamera {
     pub fn new(camera: &scene::Camera, size: Size) -> Self {
         let forward = (camera.look_at - camera.eye).normalize();
-        let right = forward.cross(camera.up).normalize();
+        let right = camera.right();
         let up = right.cross(forward);
         let (width, height) = (f64::from(size.width()), f64::from(size.height()));
         // The image plane is at distance 1.
@@ -30,12 +32,15 @@ impl RayCamera {
             corner: forward - right * (pixel * width / 2.0) + up * (plane_height / 2.0),
             right: right * pixel,
             down: -up * pixel,
+            scale: camera.scale(),
         }
     }
 
     /// The ray through a point of a pixel: `[0, 0]` is the pixel's upper left corner, `[1, 1]` its lower right one.
     pub fn ray(&self, x: u32, y: u32, [u, v]: [f64; 2]) -> Ray {
         let (across, along) = (self.right * (f64::from(x) + u), self.down * (f64::from(y) + v));
-        Ray::new(self.eye, (self.corner + across + along).normalize())
+        let mut ray = Ray::new(self.eye, (self.corner + across + along).normalize());
+        ray.scale = self.scale;
+        ray
     }
 }

@@ -5,8 +5,9 @@ use glam::DVec3;
 use super::bvh::Bvh;
 use super::media::Medium;
 use super::scene_stats::SourceCounts;
-use crate::csg::{Pass, Passes, RootId, Solid, Surface, Tree};
-use crate::scene::{Light, Material, Scene};
+use crate::csg::{Pass, Passes, RayStart, RootId, Solid, Surface, Tree};
+use crate::geometry::Ray;
+use crate::scene::{Light, Material, Scene, ior, media_of};
 
 #[derive(Debug)]
 pub(super) struct CompiledScene {
@@ -17,8 +18,12 @@ pub(super) struct CompiledScene {
     pub unbounded: Vec<RootId>,
     pub background: DVec3,
     pub lights: Vec<Light>,
-    /// The transmitting solids that contain the eye.
+    /// The transmitting solids that the eye is in.
     pub eye_media: Vec<Medium>,
+    /// The other solids that the eye is in, and with it every ray: none crosses the boundary of such a solid.
+    eye_solids: Vec<RootId>,
+    /// The index of refraction of each transmitting root, by the number of its node.
+    iors: Vec<f64>,
     pub shadings: Vec<Shading>,
     /// Counts of what the scene file states.
     pub source: SourceCounts,
@@ -34,9 +39,11 @@ pub(super) struct Shading {
     /// Kd times the colour.
     pub diffuse: DVec3,
     pub ks: f64,
-    pub kt: f64,
+    /// The part that is transmitted: red, green and blue.
+    pub kt: DVec3,
+    /// Whether any of `kt` is above 0.
+    pub transmits: bool,
     pub exponent: Exponent,
-    pub ior: f64,
 }
 
 /// Phong's exponent. Whole exponents, the usual case, need no logarithm.
@@ -59,12 +66,14 @@ impl CompiledScene {
     pub fn new(scene: &Scene, passes: Passes) -> Self {
         let mut tree = Tree::new(passes);
         let (mut bounded, mut unbounded, mut dropped) = (Vec::new(), Vec::new(), 0);
-        let (mut solids, mut eye_media) = (Vec::new(), Vec::new());
-        for solid in &scene.solids {
+        let mut transmitting = Vec::new();
+        let media: Vec<_> = scene.solids.iter().flat_map(|solid| media_of(solid, scene)).collect();
+        let mut solids = Vec::new();
+        for solid in &media {
             if passes.has(Pass::SplitUnions) {
                 split_unions(solid, scene, &mut solids);
             } else {
-                solids.push(solid);
+                solids.push(&**solid);
             }
         }
         for solid in solids {
@@ -77,13 +86,22 @@ impl CompiledScene {
             } else {
                 unbounded.push(root);
             }
-            let materials = tree.leaves_of(root).into_iter().map(|leaf| &scene.materials[leaf.tag.index()]);
-            let transmitting = materials.into_iter().find(|material| material.kt > 0.0);
-            if let Some(material) = transmitting.filter(|_| solid.contains(scene.camera.eye)) {
-                eye_media.push(Medium { root, ior: material.ior });
-            }
+            transmitting.push((root, ior(solid, scene), solid.contains(scene.camera.eye)));
         }
         tree.finish();
+        let mut iors = Vec::new();
+        let (mut eye_media, mut eye_solids) = (Vec::new(), Vec::new());
+        for (root, ior, may_contain_eye) in transmitting {
+            let is_in = may_contain_eye && tree.contains(root, scene.camera.eye, scene.camera.scale());
+            match ior {
+                Some(ior) => {
+                    iors.resize(root.0 as usize + 1, f64::NAN);
+                    iors[root.0 as usize] = ior;
+                    eye_media.extend(is_in.then_some(Medium { root, ior }));
+                }
+                None => eye_solids.extend(is_in.then_some(root)),
+            }
+        }
         Self {
             tree,
             bounded: if passes.has(Pass::Bvh) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
@@ -91,6 +109,8 @@ impl CompiledScene {
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
+            eye_solids,
+            iors,
             shadings: scene.materials.iter().map(|material| Shading::new(material, scene.ambient, passes)).collect(),
             source: SourceCounts::of(&scene.solids),
             dropped,
@@ -102,6 +122,23 @@ impl CompiledScene {
         self.unbounded.iter().copied().chain(self.bounded.roots())
     }
 
+    /// Whether a ray in `media` is in the solid `root`.
+    #[inline(always)]
+    pub fn is_inside(&self, root: RootId, media: &[Medium]) -> bool {
+        media.iter().any(|medium| medium.root == root) || self.eye_solids.contains(&root)
+    }
+
+    /// Whether a ray is not where its history has it: in a solid that it has not entered, or not in one that it has not
+    /// left.
+    pub fn is_lost(&self, ray: &Ray, start: Option<RayStart>, media: &[Medium]) -> bool {
+        self.roots().any(|root| self.tree.contradicts(root, ray, start, self.is_inside(root, media)))
+    }
+
+    /// The transmitting solid `root` as a medium.
+    pub fn medium(&self, root: RootId) -> Medium {
+        Medium { root, ior: self.iors[root.0 as usize] }
+    }
+
     pub fn shading(&self, surface: Surface) -> &Shading {
         &self.shadings[self.tree.leaf(surface).tag.index()]
     }
@@ -111,36 +148,27 @@ impl CompiledScene {
 /// closer bounds.
 fn split_unions<'a>(solid: &'a Solid, scene: &Scene, parts: &mut Vec<&'a Solid>) {
     match solid {
-        Solid::Union(solids) if is_opaque(solid, scene) && !solid.contains(scene.camera.eye) => {
+        Solid::Union(solids) if ior(solid, scene).is_none() && !solid.contains(scene.camera.eye) => {
             solids.iter().for_each(|solid| split_unions(solid, scene, parts));
         }
         _ => parts.push(solid),
     }
 }
 
-fn is_opaque(solid: &Solid, scene: &Scene) -> bool {
-    match solid {
-        Solid::Placed { tag, .. } => scene.materials[tag.index()].kt == 0.0,
-        Solid::Union(solids) | Solid::Intersection(solids) | Solid::Difference(solids) => {
-            solids.iter().all(|solid| is_opaque(solid, scene))
-        }
-    }
-}
-
 impl Shading {
     fn new(material: &Material, ambient: DVec3, passes: Passes) -> Self {
-        let Material { colour, ka, kd, ks, kt, n, ior } = *material;
+        let Material { colour, ka, kd, ks, kt, n, .. } = *material;
         Self {
             ambient: colour * ambient * ka,
             diffuse: colour * kd,
             ks,
             kt,
+            transmits: material.transmits(),
             exponent: if n.fract() == 0.0 && passes.has(Pass::IntegerPowers) {
                 Exponent::Whole(n as i32)
             } else {
                 Exponent::Real(n)
             },
-            ior,
         }
     }
 }

@@ -50,7 +50,7 @@ impl ExplainedRay {
 impl ExplainedSample {
     /// The sample's colour: the sum over its rays of colour times weight.
     pub fn colour(&self) -> DVec3 {
-        self.rays.iter().fold(DVec3::ZERO, |sum, ray| sum + ray.colour() * ray.path.weight)
+        self.rays.iter().fold(DVec3::ZERO, |sum, ray| sum + ray.colour() * ray.path.factor)
     }
 
     /// The colour of the pixel that has these samples.
@@ -68,7 +68,7 @@ impl ExplainedSample {
     /// The part of the sample's colour that comes from a ray, given by its number, and from all rays that follow from
     /// it.
     pub fn contribution_of(&self, number: usize) -> DVec3 {
-        let mut sums: Vec<DVec3> = self.rays.iter().map(|ray| ray.colour() * ray.path.weight).collect();
+        let mut sums: Vec<DVec3> = self.rays.iter().map(|ray| ray.colour() * ray.path.factor).collect();
         // A ray comes after its parent.
         for place in (number + 1..self.rays.len()).rev() {
             if let Some(from) = self.rays[place].path.from {
@@ -94,7 +94,7 @@ impl Tracer {
         let diagrams = self.scene.roots().map(|root| (root, self.scene.tree.span_diagram(root, ray, start)));
         let mut passed: Vec<(f64, RootId, SpanDiagram)> = diagrams
             .map(|(root, diagram)| (first_entry(&diagram), root, diagram))
-            .filter(|(enter, ..)| *enter <= to)
+            .filter(|(enter, ..)| *enter <= to + ray.tolerance(to))
             .collect();
         passed.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         passed.into_iter().map(|(_, root, diagram)| (root, diagram)).collect()

@@ -16,6 +16,7 @@ mod shade;
 
 pub use explain::{ExplainedRay, ExplainedSample};
 pub use observer::{Intersection, LightTerm, Path, RayKind};
+pub use paths::LostRays;
 pub use preview::Preview;
 pub use scene_stats::SceneStats;
 pub use shade::Scratch;

@@ -16,8 +16,10 @@ pub struct Path {
     /// The number of the parent, the ray at whose end this one starts; none for a primary ray. A sample's rays except
     /// shadow rays are numbered in the order of tracing, from 0.
     pub from: Option<u64>,
-    /// The factor of the ray's colour in the sample's colour; for a shadow ray, its parent's.
+    /// The greatest part of `factor`: how much the ray can matter.
     pub weight: f64,
+    /// The factor of the ray's colour in the sample's colour, for red, green and blue; for a shadow ray, its parent's.
+    pub factor: DVec3,
     /// The ray's origin and direction.
     pub ray: Ray,
     /// The surface that it starts on; none for a primary ray.
@@ -58,8 +60,8 @@ pub struct Intersection {
 pub struct LightTerm {
     /// The light's index in the scene.
     pub light: usize,
-    /// The part of its intensity that arrives, 0 to 1.
-    pub arriving: f64,
+    /// The part of its intensity that arrives, 0 to 1, for red, green and blue.
+    pub arriving: DVec3,
     /// Il, the intensity that arrives.
     pub coming: DVec3,
     /// Kd (N·L) times the surface's colour.
@@ -100,6 +102,10 @@ impl LightTerm {
 pub(super) trait Observer {
     /// Is told of a traced ray. `path` may be costly to compute.
     fn ray_traced(&mut self, path: impl FnOnce() -> Path);
+
+    /// Is told of a ray that will be traced now. `is_lost` says whether the ray is not where its history of boundaries
+    /// has it; it is costly.
+    fn ray_starts(&mut self, _is_lost: impl FnOnce() -> bool) {}
 
     /// Is told of the ray that was traced last, shadow rays not counted.
     fn note(&mut self, _: impl FnOnce() -> Note) {}

@@ -3,6 +3,8 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use glam::DVec3;
+
 use super::media::Media;
 use super::observer::RayKind;
 use crate::csg::RayStart;
@@ -12,8 +14,8 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct QueuedRay {
     pub kind: RayKind,
-    /// The factor of the ray's colour in the sample's colour.
-    pub weight: f64,
+    /// The factor of the ray's colour in the sample's colour, for red, green and blue.
+    pub weight: DVec3,
     /// Its level in the tree of rays; 1 for a primary ray.
     pub level: u32,
     /// Its number among the sample's rays, in the order of tracing.
@@ -24,6 +26,14 @@ pub(super) struct QueuedRay {
     pub start: Option<RayStart>,
     /// The media that it starts in.
     pub media: Media,
+}
+
+impl QueuedRay {
+    /// The greatest part of its weight: the ray's place in the order, and what it counts for the cutoff.
+    #[inline(always)]
+    fn greatest_weight(&self) -> f64 {
+        self.weight.max_element()
+    }
 }
 
 /// The greatest number of rays that wait in the order of their weights. Further rays are traced first, so that a sample
@@ -91,7 +101,7 @@ impl RayQueue {
 
     #[inline(always)]
     pub fn add(&mut self, ray: QueuedRay) {
-        self.weight += ray.weight;
+        self.weight += ray.greatest_weight();
         if self.waiting.len() == MAX_WAITING_RAYS {
             self.overflow.push(ray);
             return;
@@ -101,7 +111,7 @@ impl RayQueue {
             Some(free) => *free = ray,
             None => self.slots.push(ray),
         }
-        self.waiting.push(Waiting(ray.weight, Reverse(ray.from.unwrap_or(0)), slot));
+        self.waiting.push(Waiting(ray.greatest_weight(), Reverse(ray.from.unwrap_or(0)), slot));
     }
 
     /// The next ray to be traced; none if the remaining weight is at most `cutoff`.
@@ -115,7 +125,7 @@ impl RayQueue {
             self.free_slots.push(slot);
             Some(self.slots[slot as usize])
         })?;
-        self.weight -= next.weight;
+        self.weight -= next.greatest_weight();
         let number = self.traced;
         self.traced += 1;
         Some(QueuedRay { number, ..next })
@@ -134,10 +144,11 @@ impl RayQueue {
     #[inline(always)]
     fn next_overflow(&mut self, cutoff: f64) -> Option<QueuedRay> {
         while let Some(next) = self.overflow.pop() {
-            if next.weight > NEGLIGIBLE_PART * (cutoff / 2.0 - self.left_out) {
+            let weight = next.greatest_weight();
+            if weight > NEGLIGIBLE_PART * (cutoff / 2.0 - self.left_out) {
                 return Some(next);
             }
-            self.left_out += next.weight;
+            self.left_out += weight;
             self.rays_left_out += 1;
         }
         None
@@ -146,7 +157,6 @@ impl RayQueue {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
     use proptest::prelude::*;
 
     use super::*;
@@ -154,7 +164,16 @@ mod tests {
     fn ray_of(weight: f64) -> QueuedRay {
         let ray = Ray::new(DVec3::ZERO, DVec3::Y);
         let (kind, level, number) = (RayKind::Reflected, 2, 0);
-        QueuedRay { kind, weight, level, number, from: Some(0), ray, start: None, media: Media::default() }
+        QueuedRay {
+            kind,
+            weight: DVec3::splat(weight),
+            level,
+            number,
+            from: Some(0),
+            ray,
+            start: None,
+            media: Media::default(),
+        }
     }
 
     proptest! {
@@ -165,7 +184,7 @@ mod tests {
             let mut queue = RayQueue::default();
             queue.restart();
             weights.iter().for_each(|&weight| queue.add(ray_of(weight)));
-            let traced: Vec<f64> = std::iter::from_fn(|| queue.next(cutoff)).map(|ray| ray.weight).collect();
+            let traced: Vec<f64> = std::iter::from_fn(|| queue.next(cutoff)).map(|ray| ray.weight.x).collect();
             prop_assert!(traced.is_sorted_by(|a, b| a >= b));
             let mut left = weights;
             left.sort_by(|a, b| b.total_cmp(a));
@@ -183,9 +202,9 @@ mod tests {
         queue.add(ray_of(1.0));
         for _ in 0..1_000_000 {
             let next = queue.next(0.0).expect("more of them");
-            queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight * 0.6) });
+            queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight.x * 0.6) });
             if next.level < 60 {
-                queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight * 0.4) });
+                queue.add(QueuedRay { level: next.level + 1, ..ray_of(next.weight.x * 0.4) });
             }
         }
         assert!(queue.slots.len() <= MAX_WAITING_RAYS && queue.overflow.len() < 100);

@@ -85,7 +85,7 @@ impl Tracer {
             parts_dropped: scene.tree.dropped(),
             lights: scene.lights.len(),
             reflects: shadings().any(|shading| shading.ks > 0.0),
-            transmits: shadings().any(|shading| shading.kt > 0.0),
+            transmits: shadings().any(|shading| shading.transmits),
         }
     }
 

@@ -5,13 +5,13 @@
 use glam::DVec3;
 
 use super::compiled_scene::Shading;
-use super::intersect::{HitScratch, is_reversed_at};
+use super::intersect::HitScratch;
 use super::media::{Media, MediaSets, Medium};
 use super::observer::{Intersection, LightTerm, Note, Observer, Path, RayKind};
 use super::ray_queue::{QueuedRay, RayQueue};
 use super::{RayCounts, Tracer};
-use crate::csg::{Hit, RayStart, RootId, tie_break};
-use crate::geometry::Ray;
+use crate::csg::{Hit, RayStart, RootId};
+use crate::geometry::{Ray, approach};
 use crate::scene::Light;
 
 /// Scratch memory of a thread, kept from pixel to pixel so that nothing is allocated, and the thread's ray counts.
@@ -38,18 +38,6 @@ struct ShadingPoint<'a> {
     surrounding: Option<Medium>,
 }
 
-impl ShadingPoint<'_> {
-    /// The solid as a medium.
-    fn medium(&self) -> Medium {
-        Medium { root: self.start.root, ior: self.shading.ior }
-    }
-
-    /// The start of rays that stay on the incoming ray's side: shadow rays and reflected rays.
-    fn reversed(&self) -> RayStart {
-        RayStart { reversed: !self.start.reversed, ..self.start }
-    }
-}
-
 impl Tracer {
     /// The colour of a sample, given its primary ray, in linear light.
     pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
@@ -58,7 +46,7 @@ impl Tracer {
         scratch.queue.restart();
         let primary = QueuedRay {
             kind: RayKind::Primary,
-            weight: 1.0,
+            weight: DVec3::ONE,
             level: 1,
             number: 0,
             from: None,
@@ -79,11 +67,12 @@ impl Tracer {
     #[inline(always)]
     fn colour(&self, queued: &QueuedRay, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
         let QueuedRay { ray, start, media, .. } = queued;
-        let nearest = self.scene.nearest(ray, *start, &mut scratch.hits);
+        let Scratch { hits, media: sets, .. } = scratch;
+        observer.ray_starts(|| self.scene.is_lost(ray, *start, sets.get(*media)));
+        let nearest = self.scene.nearest(ray, *start, sets.get(*media), hits);
         let surrounding = self.surrounding(nearest, *media, scratch);
         if let Some((root, hit)) = nearest.filter(|(root, _)| is_hidden(*root, surrounding)) {
-            let reversed = is_reversed_at(*start, ray, hit.t);
-            let point = self.shading_point(ray, root, &hit, reversed, *media, surrounding);
+            let point = self.shading_point(ray, root, &hit, *media, surrounding);
             return self.colour_behind(queued, point, scratch, observer);
         }
         observer.ray_traced(|| path(queued, nearest.map_or(f64::INFINITY, |(_, hit)| hit.t)));
@@ -91,7 +80,7 @@ impl Tracer {
             observer.note(|| Note::Background(self.scene.background));
             return self.scene.background;
         };
-        let point = self.shading_point(ray, root, &hit, is_reversed_at(*start, ray, hit.t), *media, surrounding);
+        let point = self.shading_point(ray, root, &hit, *media, surrounding);
         self.shade(ray, &point, queued, scratch, observer)
     }
 
@@ -107,14 +96,15 @@ impl Tracer {
     ) -> DVec3 {
         let (mut ray, mut passed) = (queued.ray, 0.0);
         loop {
-            let media = scratch.media.after_crossing(point.media, point.medium(), point.enters);
+            let media = self.media_behind(&point, scratch);
             ray = ray.onward(point.t, ray.direction);
             passed += point.t;
-            let start = Some(point.start);
-            let nearest = self.scene.nearest(&ray, start, &mut scratch.hits);
+            let Scratch { hits, media: sets, .. } = scratch;
+            observer.ray_starts(|| self.scene.is_lost(&ray, Some(point.start), sets.get(media)));
+            let nearest = self.scene.nearest(&ray, Some(point.start), sets.get(media), hits);
             let surrounding = self.surrounding(nearest, media, scratch);
             if let Some((root, hit)) = nearest {
-                point = self.shading_point(&ray, root, &hit, is_reversed_at(start, &ray, hit.t), media, surrounding);
+                point = self.shading_point(&ray, root, &hit, media, surrounding);
                 if is_hidden(root, surrounding) {
                     continue;
                 }
@@ -130,10 +120,16 @@ impl Tracer {
         }
     }
 
+    /// The media of a ray that goes on behind a surface.
+    #[inline(always)]
+    fn media_behind(&self, point: &ShadingPoint<'_>, scratch: &mut Scratch) -> Media {
+        scratch.media.after_crossing(point.media, self.scene.medium(point.start.root), point.enters)
+    }
+
     /// The medium around the solid that was hit, if the solid transmits; none is air.
     #[inline(always)]
     fn surrounding(&self, nearest: Option<(RootId, Hit)>, media: Media, scratch: &Scratch) -> Option<Medium> {
-        let (root, _) = nearest.filter(|(_, hit)| self.scene.shading(hit.surface).kt > 0.0)?;
+        let (root, _) = nearest.filter(|(_, hit)| self.scene.shading(hit.surface).transmits)?;
         scratch.media.surrounding(media, root)
     }
 
@@ -156,17 +152,19 @@ impl Tracer {
         for index in 0..self.scene.lights.len() {
             colour += self.light(index, ray, point, queued, scratch, observer);
         }
-        if shading.ks == 0.0 && shading.kt == 0.0 {
+        if shading.ks == 0.0 && !shading.transmits {
             return colour;
         }
         if queued.level == self.quality.max_depth {
-            observer.note(|| Note::TooDeep(queued.weight * (shading.ks + shading.kt)));
+            observer.note(|| Note::TooDeep((queued.weight * (shading.kt + shading.ks)).max_element()));
             return colour;
         }
-        let refracted = (shading.kt > 0.0).then(|| refract(ray.direction, point)).flatten();
+        let refracted =
+            shading.transmits.then(|| refract(ray.direction, point, self.scene.medium(point.start.root).ior)).flatten();
         // Under total internal reflection the transmitted light It comes from the reflected direction.
-        let reflection = shading.ks + if refracted.is_none() { shading.kt } else { 0.0 };
-        let mut follow = |kind, coefficient: f64, direction, start, media| {
+        let reflection = if refracted.is_none() { shading.kt + shading.ks } else { DVec3::splat(shading.ks) };
+        let behind = refracted.map(|direction| (direction, self.media_behind(point, scratch)));
+        let mut follow = |kind, coefficient: DVec3, direction, media| {
             scratch.queue.add(QueuedRay {
                 kind,
                 weight: queued.weight * coefficient,
@@ -174,16 +172,15 @@ impl Tracer {
                 number: 0,
                 from: Some(queued.number),
                 ray: ray.onward(point.t, direction),
-                start: Some(start),
+                start: Some(point.start),
                 media,
             });
         };
-        if reflection > 0.0 {
-            follow(RayKind::Reflected, reflection, reflect(ray.direction, point.normal), point.reversed(), point.media);
+        if reflection.max_element() > 0.0 {
+            follow(RayKind::Reflected, reflection, reflect(ray.direction, point.normal), point.media);
         }
-        if let Some(direction) = refracted {
-            let media = scratch.media.after_crossing(point.media, point.medium(), point.enters);
-            follow(RayKind::Refracted, shading.kt, direction, point.start, media);
+        if let Some((direction, media)) = behind {
+            follow(RayKind::Refracted, shading.kt, direction, media);
         }
         colour
     }
@@ -194,14 +191,13 @@ impl Tracer {
         ray: &Ray,
         root: RootId,
         hit: &Hit,
-        reversed: bool,
         media: Media,
         surrounding: Option<Medium>,
     ) -> ShadingPoint<'_> {
         let outward = self.scene.tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
         ShadingPoint {
-            start: RayStart { root, surface: hit.surface, exits: tie_break(root, hit.enters, reversed).0, reversed },
+            start: RayStart { root, surface: hit.surface },
             enters: hit.enters,
             t: hit.t,
             normal,
@@ -232,26 +228,28 @@ impl Tracer {
             }
             Light::Directional { direction, colour } => (-direction, f64::INFINITY, colour),
         };
-        let cosine = point.normal.dot(direction);
+        let cosine = approach(point.normal, direction);
         // NaN if the light lies exactly at the point.
         if cosine <= 0.0 || cosine.is_nan() {
             return DVec3::ZERO;
         }
         scratch.rays.count(RayKind::Shadow);
         let Scratch { hits, media, .. } = scratch;
+        let media = media.get(point.media);
         let onward = ray.onward(point.t, direction);
+        observer.ray_starts(|| self.scene.is_lost(&onward, Some(point.start), media));
         observer.ray_traced(|| Path {
             kind: RayKind::Shadow,
             level: queued.level,
             from: Some(queued.number),
-            weight: queued.weight,
+            weight: queued.weight.max_element(),
+            factor: queued.weight,
             ray: onward,
-            start: Some(point.reversed()),
-            to: self.scene.shadow_ray_end(&onward, point.reversed(), distance, hits),
+            start: Some(point.start),
+            to: self.scene.shadow_ray_end(&onward, point.start, media, distance, hits),
         });
-        let arriving =
-            self.scene.light_transmittance(&onward, point.reversed(), media.get(point.media), distance, hits);
-        if arriving == 0.0 {
+        let arriving = self.scene.light_transmittance(&onward, point.start, media, distance, hits);
+        if arriving == DVec3::ZERO {
             observer.note(|| {
                 Note::LightTerm(LightTerm {
                     light: index,
@@ -287,7 +285,8 @@ fn path(queued: &QueuedRay, to: f64) -> Path {
         kind: queued.kind,
         level: queued.level,
         from: queued.from,
-        weight: queued.weight,
+        weight: queued.weight.max_element(),
+        factor: queued.weight,
         ray: queued.ray,
         start: queued.start,
         to,
@@ -300,8 +299,8 @@ fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
 }
 
 /// Snell's law at the boundary between the solid and its surrounding; nothing under total internal reflection.
-fn refract(direction: DVec3, point: &ShadingPoint<'_>) -> Option<DVec3> {
-    let (inside, outside) = (point.shading.ior, point.surrounding.map_or(1.0, |medium| medium.ior));
+fn refract(direction: DVec3, point: &ShadingPoint<'_>, ior: f64) -> Option<DVec3> {
+    let (inside, outside) = (ior, point.surrounding.map_or(1.0, |medium| medium.ior));
     let ratio = if point.enters { outside / inside } else { inside / outside };
     let cosine = -direction.dot(point.normal);
     let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);

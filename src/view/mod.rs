@@ -81,6 +81,7 @@ pub use text::format::{
     activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words, seconds_words,
     time_words, two_digits,
 };
+pub use text::media::note_on_media;
 pub use text::quality::{measured_lines, quality_lines, quality_words, times_words};
 pub use text::remedies::{remedies_words, remedy_hint, remedy_name, without};
 pub use text::scene_stats::{needs_lines, needs_warnings};

@@ -49,16 +49,17 @@ proptest! {
         let target = map.transform_point3(aim);
         let ray = Ray::new(target - from.normalize() * 5.0, from.normalize());
         let stack = &mut Stack::new();
-        let hit = tree.nearest(root, &ray, None, f64::INFINITY, stack);
+        let hit = tree.nearest(root, &ray, None, f64::INFINITY, || false, stack);
         let Some(hit) = hit.filter(|hit| hit.enters) else { return Ok(()) };
         let normal = tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let along = normal.cross(aside.normalize());
         prop_assume!(along.length() > 0.1);
         let (sine, cosine) = 10f64.powf(-power).sin_cos();
-        let start = RayStart { root, surface: hit.surface, exits: false, reversed: false };
+        let start = RayStart { root, surface: hit.surface };
         let mut next = |side: f64| {
             let direction = along.normalize() * cosine + normal * (side * sine);
-            tree.nearest(root, &ray.onward(hit.t, direction.normalize()), Some(start), f64::INFINITY, stack)
+            let onward = ray.onward(hit.t, direction.normalize());
+            tree.nearest(root, &onward, Some(start), f64::INFINITY, || side < 0.0, stack)
         };
         let (outwards, is_convex) = (next(1.0), !matches!(primitive, Primitive::Torus { .. }));
         prop_assert!(outwards.is_none_or(|hit| !is_convex && hit.enters), "outwards at 1e-{power}: {outwards:?}");

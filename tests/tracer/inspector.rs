@@ -65,9 +65,9 @@ fn tree_has_all_rays_with_the_weights_of_the_equation() {
                 let material = &scene.materials[from.met.expect("it starts on a surface").tag.index()];
                 let part = ray.path.weight / from.path.weight;
                 let possible = match ray.path.kind {
-                    RayKind::Refracted => vec![material.kt],
+                    RayKind::Refracted => vec![material.kt.x],
                     // Ks + Kt under total internal reflection.
-                    _ => vec![material.ks, material.ks + material.kt],
+                    _ => vec![material.ks, material.ks + material.kt.x],
                 };
                 assert!(possible.iter().any(|expected| (part - expected).abs() < 1e-12), "{name}: {part}");
             }

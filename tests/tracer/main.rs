@@ -1,5 +1,6 @@
 //! The tracer: boolean operations on rays, the article's equation, the built-in scenes, and POV-Ray as a judge.
 
+mod complaints;
 mod csg;
 mod csg_oracle;
 mod equation;
@@ -7,6 +8,7 @@ mod faces;
 mod inspector;
 mod media;
 mod metamorphic;
+mod plain;
 mod povray;
 mod quality;
 mod scenes;

@@ -54,7 +54,7 @@ fn scene_of_the_article_has_ten_objects_and_two_lights() {
     let (name, text) = BUILT_IN[0];
     let scene = parse(name, text);
     assert_eq!((scene.solids.len(), scene.lights.len()), (10, 2));
-    assert!(scene.materials.iter().any(|material| material.kt > 0.5), "a glass");
+    assert!(scene.materials.iter().any(|material| material.kt.max_element() > 0.5), "a glass");
     assert!(scene.materials.iter().any(|material| material.ks > 0.5), "a mirror");
 }
 
@@ -86,7 +86,7 @@ fn transmitting_solids_do_not_overlap() {
         let scene = parse(name, text);
         let transmits = |solid: &&Solid| {
             let mut found = false;
-            tags(solid, &mut |tag| found |= scene.materials[tag.index()].kt > 0.0);
+            tags(solid, &mut |tag| found |= scene.materials[tag.index()].transmits());
             found
         };
         let glasses: Vec<&Solid> = scene.solids.iter().filter(transmits).collect();

@@ -16,7 +16,7 @@ use crate::output::is_same_file;
 use crate::runlog::RunLog;
 use crate::scene::Opened;
 use crate::sentence::shown;
-use crate::view::{Layer, RunView, picture_pixels};
+use crate::view::{Layer, RunView, note_on_media, picture_pixels};
 
 impl Session {
     /// Shows a scene, run or lesson that is already read.
@@ -170,6 +170,10 @@ impl Session {
         self.prepared = Some(prepared);
         self.recorded = None;
         self.restart();
+        let opened = self.opened().filter(|opened| opened.path.is_some());
+        if let Some(note) = opened.and_then(|opened| note_on_media(&opened.scene, language)) {
+            self.note(note);
+        }
     }
 
     /// Shows the error of a file that could not be opened. At the start of the program a built-in scene opens instead.

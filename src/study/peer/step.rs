@@ -89,8 +89,8 @@ impl Step {
             }
             Self::Large => enlarge(scene, (LARGE_DISTANCE / distance).log2().round().exp2()),
             Self::Lossless => {
-                for material in scene.materials.iter_mut().filter(|material| material.kt > 0.0) {
-                    material.ks = 1.0 - material.kt;
+                for material in scene.materials.iter_mut().filter(|material| material.transmits()) {
+                    material.ks = 1.0 - material.kt.max_element();
                 }
             }
             Self::NoCutoff => quality.cutoff = 0.0,

@@ -6,6 +6,7 @@ mod coincident;
 mod exact;
 mod far;
 mod graze;
+mod lost;
 mod normals;
 mod placed_primitive;
 mod protocol;
@@ -107,7 +108,12 @@ pub fn stability(tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     for (case, rows) in &found {
         study.add_chart(case.name, &report::chart(case, rows).marks(crate::view::CHART_SIZE, Language::English));
     }
-    study.add_report(report::report(&found));
+    let lost = lost::rows()?;
+    study.add_table("lost", &lost)?;
+    let mut report = report::report(&found);
+    lost::report(&mut report, &lost);
+    report.line("\nAll numbers are in `stability.csv` and `stability-lost.csv`.");
+    study.add_report(report);
     Ok(study)
 }
 

@@ -56,24 +56,32 @@ impl PlacedPrimitive {
         }
     }
 
-    /// Returns the crossings of the boundary as this program finds them.
-    pub fn crossings(&self, ray: &Ray, start: Option<RayStart>) -> Vec<Hit> {
+    /// Returns the crossings of the boundary as this program finds them, by a ray that is inside at first or not.
+    pub fn crossings(&self, ray: &Ray, start: Option<RayStart>, is_inside: bool) -> Vec<Hit> {
         let mut hits = Vec::new();
-        self.tree.crossings(self.root, ray, start, f64::INFINITY, &mut Stack::new(), |hit| {
-            hits.push(hit);
-            true
-        });
+        self.tree.crossings(
+            self.root,
+            ray,
+            start,
+            f64::INFINITY,
+            || is_inside,
+            &mut Stack::new(),
+            |hit| {
+                hits.push(hit);
+                true
+            },
+        );
         hits
     }
 
     /// Returns the distances of the crossings of a ray from outside.
     pub fn ours(&self, ray: &Ray) -> Vec<f64> {
-        self.crossings(ray, None).iter().map(|hit| hit.t).collect()
+        self.crossings(ray, None, false).iter().map(|hit| hit.t).collect()
     }
 
     /// Returns the start of a ray that continues from a hit of this solid.
     pub fn start(&self, hit: &Hit) -> RayStart {
-        RayStart { root: self.root, surface: hit.surface, exits: !hit.enters, reversed: false }
+        RayStart { root: self.root, surface: hit.surface }
     }
 
     /// Returns this program's normal at a point of a face.

@@ -72,7 +72,7 @@ pub(super) fn cases() -> [StabilityCase; 3] {
 
 /// Returns a scene of glass (tag 0) and water (tag 1) with an eye in it and without lights.
 fn scene_of(solids: Vec<Solid>, eye: DVec3, direction: DVec3) -> Scene {
-    let clear = |ior: f64| Material { ka: 0.0, kd: 0.0, kt: 1.0, ior, ..Material::default() };
+    let clear = |ior: f64| Material { ka: 0.0, kd: 0.0, kt: DVec3::ONE, ior, ..Material::default() };
     let up = direction.any_orthonormal_vector();
     let camera = Camera { eye, look_at: eye + direction, up, field_of_view: 10.0 };
     Scene {

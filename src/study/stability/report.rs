@@ -21,7 +21,6 @@ pub(super) fn report(found: &[CaseRows<'_>]) -> Report {
         table(&mut report, case, rows);
         report.line(format!("\n![](stability-{}.svg)", case.name));
     }
-    report.line("\nAll numbers are in `stability.csv`.");
     report
 }
 

@@ -49,14 +49,14 @@ fn attempt(angle: f64, tries: u32, rng: &mut Rng) -> Vec<MethodResult> {
         let towards = unit_vector(rng);
         let target = solid.scene_from_local.translation + unit_vector(rng) * uniform(rng, 0.0, 0.5);
         let first = Ray::new(target - towards * 5.0, towards);
-        let Some(hit) = solid.crossings(&first, None).into_iter().next() else { continue };
+        let Some(hit) = solid.crossings(&first, None, false).into_iter().next() else { continue };
         let normal = solid.normal(hit.surface, first.at(hit.t));
         let (sine, cosine) = (angle.sin() * random_sign(rng), angle.cos());
         let ray = first.onward(hit.t, (perpendicular(rng, normal) * cosine + normal * sine).normalize());
         let face = hit.surface.face;
         let slope = if face == 0 { solid.truth(&ray).b } else { solid.outwards_of_cap(&ray, face == 2) };
         let leaves = !slope.is_negative();
-        let ours = solid.crossings(&ray, Some(solid.start(&hit)));
+        let ours = solid.crossings(&ray, Some(solid.start(&hit)), !leaves);
         let is_right =
             if leaves { ours.is_empty() } else { matches!(ours[..], [exit] if !exit.enters && exit.t > 0.0) };
         let textbook = solid.textbook(&ray);

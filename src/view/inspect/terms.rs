@@ -38,7 +38,7 @@ impl Inspected {
         let (sample, ray) = (self.sample(), self.ray());
         let whole = brightness(self.colour());
         let term = |formula, meaning, colour: DVec3| {
-            let counts = brightness(colour) * ray.path.weight * sample.share(&self.samples);
+            let counts = brightness(colour * ray.path.factor) * sample.share(&self.samples);
             Term { formula, meaning, colour, part: (whole > 0.0).then(|| counts / whole) }
         };
         if ray.met.is_none() {
@@ -50,7 +50,9 @@ impl Inspected {
                 path.kind == kind && path.from == Some(self.chosen.ray as u64)
             };
             let brings = (0..sample.rays.len()).filter(own).map(|place| sample.contribution_of(place));
-            brings.sum::<DVec3>() / ray.path.weight
+            let factor = ray.path.factor;
+            // What does not reach the eye at all brings nothing.
+            DVec3::select(factor.cmpgt(DVec3::ZERO), brings.sum::<DVec3>() / factor, DVec3::ZERO)
         };
         let diffuse = ray.lights.iter().map(|lit| lit.diffuse()).sum();
         let specular = ray.lights.iter().map(|lit| lit.specular()).sum();

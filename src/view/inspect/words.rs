@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use glam::DVec3;
+
 use super::phrases::{kind_word, passes_nothing};
 use super::{Inspected, shown};
 use crate::language::{Language, decimal, say, word};
@@ -117,11 +119,19 @@ impl Inspected {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
-            Some(0.0) => say!(language, "{name} is hidden", "{name} está encoberta"),
-            Some(1.0) => say!(language, "{name} arrives", "{name} chega"),
-            Some(part) => {
-                let part = fine_fraction(part, language);
+            Some(DVec3::ZERO) => say!(language, "{name} is hidden", "{name} está encoberta"),
+            Some(DVec3::ONE) => say!(language, "{name} arrives", "{name} chega"),
+            Some(part) if part == DVec3::splat(part.x) => {
+                let part = fine_fraction(part.x, language);
                 say!(language, "{part} of {name} arrives", "de {name} chega {part}")
+            }
+            Some(part) => {
+                let [red, green, blue] = part.to_array().map(|part| fine_fraction(part, language));
+                say!(
+                    language,
+                    "{red} of the red, {green} of the green and {blue} of the blue of {name} arrive",
+                    "de {name} chegam {red} do vermelho, {green} do verde e {blue} do azul"
+                )
             }
         }
     }

@@ -176,15 +176,25 @@ impl Tally {
                     continue;
                 }
             };
+            let inside = passage.of(&scene.solid);
+            let before = passage.places.iter().filter(|place| seen.distance(place.near) < 0.0).count();
+            let is_inside = inside >> before & 1 == 1;
             hits.clear();
             if let Some(root) = root {
-                tree.crossings(root, &seen.ray, None, seen.t_max, &mut stack, |hit| {
-                    hits.push(hit);
-                    true
-                });
+                tree.crossings(
+                    root,
+                    &seen.ray,
+                    None,
+                    seen.t_max,
+                    || is_inside,
+                    &mut stack,
+                    |hit| {
+                        hits.push(hit);
+                        true
+                    },
+                );
             }
             drop_touches(&mut hits, &seen.ray);
-            let inside = passage.of(&scene.solid);
             let Some(agrees) = agrees(&passage, inside, &seen, &tree, &hits) else { continue };
             // If only one leaf is left, nothing but the tolerance decides about its edges.
             let is_leaf = root.is_some_and(|root| tree.leaves_of(root).len() == 1);
