@@ -13,7 +13,7 @@ use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
-use crate::picture::{Frame, Quality, Size, write_png};
+use crate::picture::{Frame, Quality, Size, write_png, write_png_with_alpha};
 use crate::runlog::{RunLog, is_run_file};
 use crate::scene::Scene;
 use crate::time::Time;
@@ -42,16 +42,22 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     for (path, drawing, is_png) in drawings {
         write(path, |file| drawing.write(file, &log, is_png))?;
     }
-    if args.png.is_none() && args.gif.is_none() {
+    if args.png.is_none() && args.gif.is_none() && args.layers.outputs().next().is_none() {
         return Ok(());
     }
     let scene = Scene::parse(&log.header.scene_text)
         .map_err(|error| Failure::Refused(format!("the scene in the run file cannot be read: {error}")))?;
     if let Some(path) = &args.png {
-        picture(path, &scene, args.size.unwrap_or(log.header.size), log.header.quality)?;
+        let tracer = Tracer::new(&scene, args.size.unwrap_or(log.header.size), log.header.quality);
+        picture(path, tracer, args.transparent)?;
     }
+    if args.gif.is_none() && args.layers.outputs().next().is_none() {
+        return Ok(());
+    }
+    let frame = frame(&scene, &log)?;
+    args.layers.write(&log, &frame)?;
     if let Some(path) = &args.gif {
-        film(path, &scene, &log, Film { width: args.width, length: args.seconds, ..Film::default() })?;
+        film(path, &log, &frame, Film { width: args.width, length: args.seconds, ..Film::default() })?;
     }
     Ok(())
 }
@@ -80,8 +86,9 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
 
 /// The files to write.
 fn outputs(args: &ExportArgs) -> Vec<&Path> {
-    let ExportArgs { pov, csv, trace, gif, ring, timeline, png, .. } = args;
-    [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path).collect()
+    let ExportArgs { pov, csv, trace, gif, ring, timeline, png, layers, .. } = args;
+    let files = [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path);
+    files.chain(layers.outputs()).collect()
 }
 
 /// The drawings to make: path, drawing, and whether as PNG.
@@ -105,18 +112,20 @@ fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
 }
 
 /// Traces the scene at any size and writes the picture.
-fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
-    let tracer = Arc::new(Tracer::new(scene, size, quality));
+fn picture(path: &Path, tracer: Tracer, transparent: bool) -> Result<(), Failure> {
+    let (size, tracer) = (tracer.size(), Arc::new(tracer));
     let bar = parts("tracing");
-    let rgb = trace_strips(&tracer, &|part| show(&bar, part), &CancelToken::default())
-        .map_err(|error| Failure::Failed(error.to_string()))?;
+    let bytes = trace_strips(&tracer, transparent, &|part| show(&bar, part), &CancelToken::default())
+        .map_err(|error| Failure::Failed(error.to_string()))?
+        // It is `None` only if cancelled, which nothing does here.
+        .unwrap_or_default();
     bar.finish_and_clear();
-    // It is `None` only if cancelled, which nothing does here.
-    write_png(path, size, &rgb.unwrap_or_default()).map_err(|error| Failure::Failed(error.to_string()))
+    let write = if transparent { write_png_with_alpha } else { write_png };
+    write(path, size, &bytes).map_err(|error| Failure::Failed(error.to_string()))
 }
 
-/// Traces the picture of the run and writes the animation.
-fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Failure> {
+/// Traces the picture of the run again.
+fn frame(scene: &Scene, log: &RunLog) -> Result<Frame, Failure> {
     let header = &log.header;
     let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
     let bar = parts("tracing");
@@ -125,10 +134,14 @@ fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Fail
         bar.inc(atoms.into());
     });
     bar.finish_and_clear();
-    let frame = Frame::of(header.size, &whole.map_err(|error| Failure::Failed(error.to_string()))?.pixels);
+    Ok(Frame::of(header.size, &whole.map_err(|error| Failure::Failed(error.to_string()))?.pixels))
+}
+
+/// Writes the animation.
+fn film(path: &Path, log: &RunLog, frame: &Frame, film: Film) -> Result<(), Failure> {
     let bar = parts("drawing");
     let written = write(path, |file| {
-        film.write(file, log, &frame, &mut |part| {
+        film.write(file, log, frame, &mut |part| {
             show(&bar, part);
             true
         })

@@ -7,6 +7,7 @@ mod faces;
 mod inspector;
 mod media;
 mod metamorphic;
+mod parts;
 mod povray;
 mod quality;
 mod scenes;
