@@ -108,7 +108,8 @@ pub(super) struct ExportArgs {
     /// Trace the picture again and save it
     #[arg(long, value_name = "FILE.png")]
     pub png: Option<PathBuf>,
-    /// The size for --png [default: that of the run], or the aspect ratio for --pov [default: 640x480]
+    /// The size for --png [default: that of the run], or the one that the comment in --pov names [default: 640x480];
+    /// POV-Ray takes the size from its own options +W and +H, and any is right
     #[arg(long, value_name = "WIDTHxHEIGHT")]
     pub size: Option<Size>,
     /// Leave out the background in --png: the picture is transparent where no solid is

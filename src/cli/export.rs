@@ -8,16 +8,19 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, open, progress};
+use super::{Failure, check_outputs, open, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
-use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
+use crate::export::{Drawing, Film, PovScene, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
 use crate::picture::{Frame, Quality, Size, write_png, write_png_with_alpha};
 use crate::runlog::{RunLog, is_run_file};
 use crate::scene::Scene;
 use crate::time::Time;
 use crate::tracer::Tracer;
+
+/// The most causes of differences from POV-Ray's picture that are told; the file has them all.
+const MAX_TOLD_LIMITS: usize = 8;
 
 pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     let source = Path::new(&args.source);
@@ -70,8 +73,14 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
         (Some(pov), _) if others.len() == 1 => {
             let default_size = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
             let size = args.size.map_or_else(default_size, Ok)?;
-            let text = to_pov(&opened.scene, size, &Quality::default());
-            write(pov, |file| file.write_all(text.as_bytes()))
+            let PovScene { text, limits } = to_pov(&opened.scene, size, &Quality::default());
+            write(pov, |file| file.write_all(text.as_bytes()))?;
+            limits.iter().take(MAX_TOLD_LIMITS).for_each(|limit| tell(&format!("POV-Ray's picture differs: {limit}")));
+            if limits.len() > MAX_TOLD_LIMITS {
+                let (more, pov) = (limits.len() - MAX_TOLD_LIMITS, pov.display());
+                tell(&format!("POV-Ray's picture differs for {more} more causes; the comments in {pov} name them"));
+            }
+            Ok(())
         }
         (pov, other) => {
             let other = others.iter().find(|other| pov.as_deref() != Some(**other)).or(other);

@@ -9,6 +9,7 @@ mod media;
 mod metamorphic;
 mod parts;
 mod povray;
+mod povray_scenes;
 mod quality;
 mod scenes;
 mod space;

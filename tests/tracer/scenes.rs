@@ -1,5 +1,6 @@
 //! The built-in scenes, and the effect of compiling on them.
 
+use super::povray_scenes::{Case, cases, enlarge};
 use anel::csg::{MaterialTag, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
@@ -129,13 +130,30 @@ fn split_union_looks_the_same() {
 fn exported_scene_has_every_primitive_and_every_light() {
     for (name, text) in BUILT_IN {
         let scene = parse(name, text);
-        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default());
+        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default()).text;
         let count = |word: &str| pov.matches(word).count();
         assert_eq!(count("light_source {"), scene.lights.len(), "{name}");
         let mut primitives = 0;
         scene.solids.iter().for_each(|solid| leaves(solid, &mut |_| primitives += 1));
-        assert_eq!(count("matrix <") + count("plane {"), primitives, "{name}");
+        let written = ["matrix <", "plane {", "sphere { <", "quadric {"].map(count);
+        assert_eq!(written.into_iter().sum::<usize>(), primitives, "{name}");
         assert_eq!(count("{"), count("}"), "{name}");
+    }
+}
+
+#[test]
+fn export_of_a_scene_at_another_scale_differs_only_in_the_unit() {
+    for Case { name, scene, .. } in cases() {
+        let text = |exponent: i32| {
+            let mut scene = scene.clone();
+            enlarge(&mut scene, f64::from(exponent).exp2());
+            let text = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default()).text;
+            let (units, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.contains(" times 2^"));
+            assert_eq!(units.len(), 1, "{name}");
+            rest.join("\n")
+        };
+        let own = text(0);
+        assert!([-20, 3, 23].into_iter().all(|exponent| text(exponent) == own), "{name}");
     }
 }
 
