@@ -158,6 +158,26 @@ fn export_of_a_scene_at_another_scale_differs_only_in_the_unit() {
 }
 
 #[test]
+fn union_of_several_media_is_exported_as_these_media() {
+    let exported = |objects: &str| {
+        let text = format!(
+            r#"Scene(camera: (eye: (0, 0, 9), look_at: (0, 0, 0)), materials: {{"glass": (ka: 0, kd: 0, ks: 0.1, kt: 0.9, ior: 1.5),
+            "water": (ka: 0, kd: 0, ks: 0.1, kt: 0.9, ior: 1.3), "red": (colour: (1, 0, 0))}}, objects: [{objects}])"#
+        );
+        let exported = to_pov(&parse("union", &text), Size::new(640, 480).expect("small"), &Quality::default());
+        assert!(exported.limits.is_empty(), "{:?}", exported.limits);
+        exported.text
+    };
+    let [ball, core, block] = [
+        r#"Sphere(radius: 1, material: "glass")"#,
+        r#"Sphere(radius: 0.5, material: "red")"#,
+        r#"Box(min: (1.1, -1, -1), max: (2, 1, 1), material: "water")"#,
+    ];
+    let union = exported(&format!("Union(of: [{ball}, Union(of: [{core}]), {block}])"));
+    assert_eq!(union, exported(&format!("{ball}, {core}, {block}")));
+}
+
+#[test]
 fn scenes_in_the_documents_are_valid() {
     let documents =
         [("README.md", include_str!("../../README.md")), ("docs/scenes.md", include_str!("../../docs/scenes.md"))];
