@@ -5,9 +5,10 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Parser, Subcommand};
 
+use super::layers::LayerArgs;
 use crate::balance::{Remedy, Scheduler};
 use crate::export::Film;
-use crate::picture::{Quality, Size};
+use crate::picture::{Quality, Region, Size};
 use crate::runlog::Driver;
 use crate::time::Time;
 
@@ -70,7 +71,7 @@ pub(super) enum CliCommand {
 /// The source and the files to write; at least one file, and several at once are possible.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true, group = ArgGroup::new("files").required(true).multiple(true)
-    .args(["pov", "csv", "trace", "gif", "ring", "timeline", "png"]))]
+    .args(["pov", "csv", "trace", "gif", "ring", "timeline", "png", "owners_png", "costs_png"]))]
 pub(super) struct ExportArgs {
     /// A recorded run; for --pov a scene file or a built-in scene
     #[arg(value_name = "RUN")]
@@ -107,9 +108,15 @@ pub(super) struct ExportArgs {
     /// Trace the picture again and save it
     #[arg(long, value_name = "FILE.png")]
     pub png: Option<PathBuf>,
-    /// The size for --png [default: that of the run], or the aspect ratio for --pov [default: 640x480]
+    /// The size for --png [default: that of the run], or the one that the comment in --pov names [default: 640x480];
+    /// POV-Ray takes the size from its own options +W and +H, and any is right
     #[arg(long, value_name = "WIDTHxHEIGHT")]
     pub size: Option<Size>,
+    /// Leave out the background in --png: the picture is transparent where no solid is
+    #[arg(long, requires = "png")]
+    pub transparent: bool,
+    #[command(flatten)]
+    pub layers: LayerArgs,
 }
 
 /// The studies; `--help` shows their descriptions.
@@ -146,6 +153,14 @@ pub(super) struct RenderArgs {
     /// The width and the height of the picture in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "640x480", allow_hyphen_values = true)]
     pub size: Size,
+    /// Trace and save only a part of the picture: the column and the row of its first pixel, its width and its height
+    #[arg(long, value_name = "X,Y,WIDTH,HEIGHT", allow_hyphen_values = true)]
+    pub region: Option<Region>,
+    /// Leave out the background: the picture is transparent where no solid is
+    #[arg(long)]
+    pub transparent: bool,
+    #[command(flatten)]
+    pub layers: LayerArgs,
     #[command(flatten)]
     pub quality: QualityArgs,
     /// The number of nodes [default: one for each speed, else 4; 1 for serial]

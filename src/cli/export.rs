@@ -8,16 +8,19 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, open, progress};
+use super::{Failure, check_outputs, open, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
-use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
+use crate::export::{Drawing, Film, PovScene, to_pov, write_chrome, write_csv};
 use crate::output::write_whole;
-use crate::picture::{Frame, Quality, Size, write_png};
+use crate::picture::{Frame, Quality, Size, write_png, write_png_with_alpha};
 use crate::runlog::{RunLog, is_run_file};
 use crate::scene::Scene;
 use crate::time::Time;
 use crate::tracer::Tracer;
+
+/// The most causes of differences from POV-Ray's picture that are told; the file has them all.
+const MAX_TOLD_LIMITS: usize = 8;
 
 pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     let source = Path::new(&args.source);
@@ -42,16 +45,22 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
     for (path, drawing, is_png) in drawings {
         write(path, |file| drawing.write(file, &log, is_png))?;
     }
-    if args.png.is_none() && args.gif.is_none() {
+    if args.png.is_none() && args.gif.is_none() && args.layers.outputs().next().is_none() {
         return Ok(());
     }
     let scene = Scene::parse(&log.header.scene_text)
         .map_err(|error| Failure::Refused(format!("the scene in the run file cannot be read: {error}")))?;
     if let Some(path) = &args.png {
-        picture(path, &scene, args.size.unwrap_or(log.header.size), log.header.quality)?;
+        let tracer = Tracer::new(&scene, args.size.unwrap_or(log.header.size), log.header.quality);
+        picture(path, tracer, args.transparent)?;
     }
+    if args.gif.is_none() && args.layers.outputs().next().is_none() {
+        return Ok(());
+    }
+    let frame = frame(&scene, &log)?;
+    args.layers.write(&log, &frame)?;
     if let Some(path) = &args.gif {
-        film(path, &scene, &log, Film { width: args.width, length: args.seconds, ..Film::default() })?;
+        film(path, &log, &frame, Film { width: args.width, length: args.seconds, ..Film::default() })?;
     }
     Ok(())
 }
@@ -64,8 +73,14 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
         (Some(pov), _) if others.len() == 1 => {
             let default_size = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
             let size = args.size.map_or_else(default_size, Ok)?;
-            let text = to_pov(&opened.scene, size, &Quality::default());
-            write(pov, |file| file.write_all(text.as_bytes()))
+            let PovScene { text, limits } = to_pov(&opened.scene, size, &Quality::default());
+            write(pov, |file| file.write_all(text.as_bytes()))?;
+            limits.iter().take(MAX_TOLD_LIMITS).for_each(|limit| tell(&format!("POV-Ray's picture differs: {limit}")));
+            if limits.len() > MAX_TOLD_LIMITS {
+                let (more, pov) = (limits.len() - MAX_TOLD_LIMITS, pov.display());
+                tell(&format!("POV-Ray's picture differs for {more} more causes; the comments in {pov} name them"));
+            }
+            Ok(())
         }
         (pov, other) => {
             let other = others.iter().find(|other| pov.as_deref() != Some(**other)).or(other);
@@ -80,8 +95,9 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
 
 /// The files to write.
 fn outputs(args: &ExportArgs) -> Vec<&Path> {
-    let ExportArgs { pov, csv, trace, gif, ring, timeline, png, .. } = args;
-    [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path).collect()
+    let ExportArgs { pov, csv, trace, gif, ring, timeline, png, layers, .. } = args;
+    let files = [pov, csv, trace, gif, ring, timeline, png].into_iter().flatten().map(|path| &**path);
+    files.chain(layers.outputs()).collect()
 }
 
 /// The drawings to make: path, drawing, and whether as PNG.
@@ -105,18 +121,20 @@ fn drawings(args: &ExportArgs) -> Result<Vec<(&Path, Drawing, bool)>, Failure> {
 }
 
 /// Traces the scene at any size and writes the picture.
-fn picture(path: &Path, scene: &Scene, size: Size, quality: Quality) -> Result<(), Failure> {
-    let tracer = Arc::new(Tracer::new(scene, size, quality));
+fn picture(path: &Path, tracer: Tracer, transparent: bool) -> Result<(), Failure> {
+    let (size, tracer) = (tracer.size(), Arc::new(tracer));
     let bar = parts("tracing");
-    let rgb = trace_strips(&tracer, &|part| show(&bar, part), &CancelToken::default())
-        .map_err(|error| Failure::Failed(error.to_string()))?;
+    let bytes = trace_strips(&tracer, transparent, &|part| show(&bar, part), &CancelToken::default())
+        .map_err(|error| Failure::Failed(error.to_string()))?
+        // It is `None` only if cancelled, which nothing does here.
+        .unwrap_or_default();
     bar.finish_and_clear();
-    // It is `None` only if cancelled, which nothing does here.
-    write_png(path, size, &rgb.unwrap_or_default()).map_err(|error| Failure::Failed(error.to_string()))
+    let write = if transparent { write_png_with_alpha } else { write_png };
+    write(path, size, &bytes).map_err(|error| Failure::Failed(error.to_string()))
 }
 
-/// Traces the picture of the run and writes the animation.
-fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Failure> {
+/// Traces the picture of the run again.
+fn frame(scene: &Scene, log: &RunLog) -> Result<Frame, Failure> {
     let header = &log.header;
     let tracer = Arc::new(Tracer::new(scene, header.size, header.quality));
     let bar = parts("tracing");
@@ -125,10 +143,14 @@ fn film(path: &Path, scene: &Scene, log: &RunLog, film: Film) -> Result<(), Fail
         bar.inc(atoms.into());
     });
     bar.finish_and_clear();
-    let frame = Frame::of(header.size, &whole.map_err(|error| Failure::Failed(error.to_string()))?.pixels);
+    Ok(Frame::of(header.size, &whole.map_err(|error| Failure::Failed(error.to_string()))?.pixels))
+}
+
+/// Writes the animation.
+fn film(path: &Path, log: &RunLog, frame: &Frame, film: Film) -> Result<(), Failure> {
     let bar = parts("drawing");
     let written = write(path, |file| {
-        film.write(file, log, &frame, &mut |part| {
+        film.write(file, log, frame, &mut |part| {
             show(&bar, part);
             true
         })

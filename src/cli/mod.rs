@@ -3,6 +3,7 @@
 mod args;
 mod export;
 mod inspect;
+mod layers;
 mod lesson;
 mod render;
 mod report;
@@ -151,7 +152,7 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     let out = free_name(&as_file_name(&header.scene));
     check_outputs("", &[&out])?;
     let tracer = Arc::new(Tracer::new(&scene, header.size, header.quality));
-    render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
+    render::run_and_save(&tracer, &header, None, &render::Outputs::of_run(&out, log.as_deref()))
 }
 
 /// Opens a scene, and says on stderr what its author may not have meant.

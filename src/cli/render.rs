@@ -1,32 +1,49 @@
 //! `anel render`: a run without a window.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 
 use super::args::RenderArgs;
+use super::layers::LayerArgs;
 use super::report::Report;
 use super::run_header;
 use super::{Failure, check_outputs, open, print, progress};
+use crate::cancel::CancelToken;
 use crate::driver::{Run, RunError, TracedPicture, Update, probe};
-use crate::picture::{Frame, write_png};
+use crate::picture::{Colour, Coverage, Frame, Region, Size, write_png, write_png_with_alpha};
 use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
-use crate::tracer::{RayCounts, Tracer};
+use crate::tracer::{RayCounts, Scratch, Tracer};
 
-/// The destinations of a run's results.
+/// The destinations of a run's results, and the form of its picture.
 pub(super) struct Outputs<'a> {
     pub out: &'a Path,
     pub log: Option<&'a Path>,
+    pub layers: LayerArgs,
+    /// The scene's background, if the picture is to be transparent where it is seen.
+    pub transparent_on: Option<Colour>,
+    /// The whole picture's size and the region, if only a region is traced.
+    pub region: Option<(Size, Region)>,
     pub json: bool,
+}
+
+impl<'a> Outputs<'a> {
+    /// The whole picture, and the records if `log` is given.
+    pub fn of_run(out: &'a Path, log: Option<&'a Path>) -> Self {
+        Self { out, log, layers: LayerArgs::default(), transparent_on: None, region: None, json: false }
+    }
 }
 
 /// The results of a run.
 struct RenderResult {
     frame: Frame,
+    /// The pixels' coverage, if the picture has no background; its colours are then premultiplied.
+    coverage: Option<Arc<Coverage>>,
     log: RunLog,
     rays: RayCounts,
     wall: Duration,
@@ -35,12 +52,24 @@ struct RenderResult {
 pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let opened = open(&args.scene)?;
     let header = run_header::header(args, &opened).map_err(Failure::Refused)?;
-    let outputs: Vec<&Path> =
-        [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+    let mut outputs: Vec<&Path> = vec![&args.out];
+    outputs.extend(args.log.as_deref());
+    outputs.extend(args.layers.outputs());
     check_outputs(&args.scene, &outputs)?;
     let measured = args.costs.as_deref().map(|path| measured(path, &header)).transpose()?;
-    let tracer = Arc::new(Tracer::new(&opened.scene, header.size, header.quality));
-    run_and_save(&tracer, &header, measured, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })
+    let tracer = Tracer::new(&opened.scene, args.size, header.quality);
+    let tracer = Arc::new(match args.region {
+        Some(region) => tracer.of_region(region),
+        None => tracer,
+    });
+    let to = Outputs {
+        layers: args.layers.clone(),
+        transparent_on: args.transparent.then(|| opened.scene.background.as_vec3().to_array()),
+        region: args.region.map(|region| (args.size, region)),
+        json: args.json,
+        ..Outputs::of_run(&args.out, args.log.as_deref())
+    };
+    run_and_save(&tracer, &header, measured, &to)
 }
 
 /// Does the run that `header` describes, saves its results, and prints its report. In virtual time it uses `measured`,
@@ -51,14 +80,17 @@ pub(super) fn run_and_save(
     measured: Option<Sim>,
     to: &Outputs<'_>,
 ) -> Result<(), Failure> {
-    let outcome = if header.driver == Driver::Sim { simulate(tracer, header, measured)? } else { run(tracer, header)? };
-    write_png(to.out, header.size, &outcome.frame.to_srgb8()).map_err(|error| Failure::Failed(error.to_string()))?;
-    if let Some(log) = to.log {
-        outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
-    }
+    let coverage = to.transparent_on.map(|_| Arc::new(Coverage::new(header.size.pixels())));
+    let outcome = if header.driver == Driver::Sim {
+        simulate(tracer, header, measured, coverage)?
+    } else {
+        run(tracer, header, coverage)?
+    };
+    save(&outcome, to)?;
     // In virtual time threads do not compete for cores and caches.
     let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
     let mut report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
+    report.set_region(to.region);
     if to.json {
         report.levels = tracer.levels();
         return print(&report.json());
@@ -68,10 +100,40 @@ pub(super) fn run_and_save(
     print(&to.out.display().to_string())
 }
 
+/// Saves the picture, its layers and the records.
+fn save(outcome: &RenderResult, to: &Outputs<'_>) -> Result<(), Failure> {
+    let failed = |error: &dyn std::error::Error| Failure::Failed(error.to_string());
+    let RenderResult { frame, coverage, log, .. } = outcome;
+    match (coverage, to.transparent_on) {
+        (Some(coverage), Some(background)) => {
+            let rgba = coverage.to_srgba8(frame.pixels());
+            write_png_with_alpha(to.out, frame.size(), &rgba).map_err(|error| failed(&error))?;
+            to.layers.write(log, &coverage.over(frame, background))?;
+        }
+        _ => {
+            write_png(to.out, frame.size(), &frame.to_srgb8()).map_err(|error| failed(&error))?;
+            to.layers.write(log, frame)?;
+        }
+    }
+    to.log.map_or(Ok(()), |path| log.save(path).map_err(|error| failed(&error)))
+}
+
+/// The function that traces pixels: without the background, if there is a `coverage` to fill.
+fn tracing(
+    tracer: &Arc<Tracer>,
+    coverage: &Option<Arc<Coverage>>,
+) -> impl Fn(Range<u32>, &mut Scratch, &mut Vec<Colour>) + Send + Sync + 'static {
+    let (tracer, coverage) = (Arc::clone(tracer), coverage.clone());
+    move |pixels, scratch, out| match &coverage {
+        Some(coverage) => tracer.trace_transparent(pixels, scratch, out, |pixel, share| coverage.set(pixel, share)),
+        None => tracer.trace(pixels, scratch, out),
+    }
+}
+
 #[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
-fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
+fn run(tracer: &Arc<Tracer>, header: &Header, coverage: Option<Arc<Coverage>>) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
-    let run = Run::start(Arc::clone(tracer), header);
+    let run = Run::start_with(tracing(tracer, &coverage), header);
     let bar = atoms_bar(header);
     let mut frame = Frame::new(header.size);
     // The log gets all records at once; otherwise it would sort its end for the batch of each party.
@@ -99,18 +161,26 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
         None => {
             let mut log = RunLog::new(header.clone());
             log.add(all_records);
-            Ok(RenderResult { frame, log, rays, wall })
+            Ok(RenderResult { frame, coverage, log, rays, wall })
         }
     }
 }
 
 /// Traces the picture, then executes the run in virtual time, as fast as this computer can.
 #[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
-fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<RenderResult, Failure> {
+fn simulate(
+    tracer: &Arc<Tracer>,
+    header: &Header,
+    measured: Option<Sim>,
+    coverage: Option<Arc<Coverage>>,
+) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
-    let whole = TracedPicture::of(tracer, header.division, &|atoms| bar.inc(atoms.into()))
-        .map_err(|error| Failure::Failed(error.to_string()))?;
+    let (trace, done) = (tracing(tracer, &coverage), |atoms: u32| bar.inc(atoms.into()));
+    let whole = TracedPicture::trace(header.division, &trace, &done, &CancelToken::default())
+        .map_err(|error| Failure::Failed(error.to_string()))?
+        // It is `None` only if cancelled, which nothing does here.
+        .unwrap_or_default();
     bar.finish_and_clear();
     let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {
@@ -121,7 +191,7 @@ fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Res
     sim.run(&mut |record| records.push(record));
     let mut log = RunLog::new(header.clone());
     log.add(records);
-    Ok(RenderResult { frame, log, rays: whole.counts, wall: begun.elapsed() })
+    Ok(RenderResult { frame, coverage, log, rays: whole.counts, wall: begun.elapsed() })
 }
 
 /// Prepares a run in virtual time with the costs of a recorded run of the same picture.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::picture::Quality;
+use crate::picture::{Quality, Region, Size};
 use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::tracer::{RayCounts, SceneStats, Tracer};
 
@@ -13,8 +13,11 @@ use crate::tracer::{RayCounts, SceneStats, Tracer};
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     scene: String,
+    /// Of the whole picture, in pixels.
     width: u32,
     height: u32,
+    /// The part of the picture that was traced: X, Y, width and height; null if it was the whole picture.
+    region: Option<[u32; 4]>,
     #[serde(flatten)]
     quality: Quality,
     strategy: &'static str,
@@ -51,6 +54,7 @@ impl Report {
             scene: header.scene.clone(),
             width: header.size.width(),
             height: header.size.height(),
+            region: None,
             quality: header.quality,
             strategy: header.scheduler().name(),
             driver: header.driver.name(),
@@ -73,6 +77,14 @@ impl Report {
         }
     }
 
+    /// Says that only a region of a picture of this size was traced, if there is one.
+    pub fn set_region(&mut self, region: Option<(Size, Region)>) {
+        if let Some((whole, Region { x, y, size })) = region {
+            (self.width, self.height) = (whole.width(), whole.height());
+            self.region = Some([x, y, size.width(), size.height()]);
+        }
+    }
+
     /// Formats the report as one JSON object on one line.
     pub fn json(&self) -> String {
         serde_json::to_string(self).expect("numbers, texts and lists have a JSON form")
@@ -83,7 +95,8 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { scene, width, height, strategy, nodes, .. } = self;
         let plural = |count: u64, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-        writeln!(f, "{scene}, {width}x{height}, {strategy}, {}", plural(*nodes as u64, "node"))?;
+        let region = self.region.map_or(String::new(), |[x, y, w, h]| format!(", region {x},{y},{w},{h}"));
+        writeln!(f, "{scene}, {width}x{height}{region}, {strategy}, {}", plural(*nodes as u64, "node"))?;
         writeln!(
             f,
             "  makespan {:.3} s, ideal {:.3} s: efficiency {:.3}; the nodes ended within {:.3} s",

@@ -4,7 +4,7 @@ use super::args::{PaceArg, RenderArgs};
 use crate::balance::{Rules, Scheduler, Strategy};
 use crate::driver::{auto_pace, cores};
 use crate::gui::SpeedPreset;
-use crate::picture::Division;
+use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings, Metadata};
 use crate::scene::Opened;
 
@@ -14,7 +14,8 @@ use crate::scene::Opened;
 /// A sentence that names the invalid argument and says what to do.
 pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, String> {
     let speeds = node_speeds(args)?;
-    let division = Division::new(args.size.pixels(), args.atom);
+    let size = traced_size(args)?;
+    let division = Division::new(size.pixels(), args.atom);
     if division.atoms() > Division::MAX_ATOMS {
         return Err(format!(
             "{} atoms of {} pixels are too many; at most {} are possible, so make them larger with --atom",
@@ -59,7 +60,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
     let header = Header {
         scene: opened.name.clone(),
         scene_text: opened.text.clone(),
-        size: args.size,
+        size,
         quality: args.quality.quality(),
         division,
         driver,
@@ -102,4 +103,20 @@ fn node_speeds(args: &RenderArgs) -> Result<Vec<f64>, String> {
         _ if nodes > 1024 => Err(format!("{nodes} nodes are too many; at most 1024 are possible")),
         _ => Ok(args.speeds.clone()),
     }
+}
+
+/// Returns the size of the picture that is traced: that of the region, if there is one.
+///
+/// # Errors
+/// A sentence, if the region is not inside the picture, or if another option needs the whole picture.
+fn traced_size(args: &RenderArgs) -> Result<Size, String> {
+    let Some(region) = args.region else { return Ok(args.size) };
+    region.check_inside(args.size)?;
+    if args.log.is_some() {
+        return Err("a run file keeps a whole picture; leave out --log or --region".into());
+    }
+    if args.costs.is_some() {
+        return Err("the costs of a recorded run are those of a whole picture; leave out --costs or --region".into());
+    }
+    Ok(region.size)
 }

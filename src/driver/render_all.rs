@@ -87,7 +87,7 @@ impl TracedPicture {
     ///
     /// # Errors
     /// As [`TracedPicture::of`].
-    pub(super) fn trace(
+    pub fn trace(
         division: Division,
         trace: &TracePixels,
         done: &(dyn Fn(u32) + Sync),

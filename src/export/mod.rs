@@ -19,7 +19,7 @@ pub use csv::write_csv;
 pub use drawing::Drawing;
 pub use error::ExportError;
 pub use film::Film;
-pub use pov::to_pov;
+pub use pov::{PovLimit, PovScene, to_pov};
 pub use raster::Raster;
 pub use svg::{to_hatched_svg, to_svg};
 

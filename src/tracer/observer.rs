@@ -119,6 +119,28 @@ impl Observer for NoObserver {
     fn ray_traced(&mut self, _: impl FnOnce() -> Path) {}
 }
 
+/// Notes whether a sample's primary ray hits a solid.
+#[derive(Default)]
+pub(super) struct PrimaryHit(Option<bool>);
+
+impl PrimaryHit {
+    /// Whether it hits one.
+    pub fn is_hit(&self) -> bool {
+        self.0 == Some(true)
+    }
+}
+
+impl Observer for PrimaryHit {
+    #[inline(always)]
+    fn ray_traced(&mut self, _: impl FnOnce() -> Path) {}
+
+    #[inline(always)]
+    fn note(&mut self, note: impl FnOnce() -> Note) {
+        // The first note of a sample is about its primary ray.
+        self.0.get_or_insert_with(|| !matches!(note(), Note::Background(_)));
+    }
+}
+
 impl<F: FnMut(Path)> Observer for F {
     fn ray_traced(&mut self, path: impl FnOnce() -> Path) {
         self(path());

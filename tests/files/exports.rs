@@ -181,9 +181,35 @@ fn impossible_export_is_refused_in_one_sentence() {
 }
 
 #[test]
-fn scene_is_exported_for_povray() {
+fn scene_is_exported_for_povray_at_any_size() {
     let directory = tempfile::tempdir().expect("a temporary directory");
-    assert_success(&anel(directory.path(), &["export", "ten-objects", "--pov", "scene.pov"]));
-    let text = fs::read_to_string(directory.path().join("scene.pov")).expect("a scene");
-    assert!(text.contains("right -x*1.3333"), "{}", &text[..400]);
+    let exported = |size: &[&str]| {
+        let output = anel(directory.path(), &[&["export", "ten-objects", "--pov", "scene.pov"], size].concat());
+        assert_success(&output);
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(directory.path().join("scene.pov")).expect("a scene")
+    };
+    let usual = exported(&[]);
+    assert!(usual.contains("right -x*image_width/image_height") && usual.contains("+W640 +H480"), "{}", &usual[..400]);
+    // Only the example in the comment changes.
+    assert_eq!(exported(&["--size", "300x900"]).replace("+W300 +H900", "+W640 +H480"), usual);
+}
+
+#[test]
+fn export_says_what_povray_shows_in_another_way() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let scene = r#"Scene(camera: (eye: (0, 0, 9), look_at: (0, 0, 0)), materials: {
+        "glass": (ka: 0, kd: 0, ks: 0.1, kt: 0.9, ior: 1.5), "lossy": (ka: 0, kd: 0, ks: 0.1, kt: 0.7, ior: 1.5)},
+        objects: [Sphere(radius: 1, material: "glass"), Sphere(radius: 1, centre: (1, 0, 0), material: "lossy")])"#;
+    fs::write(directory.path().join("two.ron"), scene).expect("a scene");
+    let output = anel(directory.path(), &["export", "two.ron", "--pov", "two.pov"]);
+    assert_success(&output);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let text = fs::read_to_string(directory.path().join("two.pov")).expect("a scene");
+    let comments: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("// ")).collect();
+    assert_eq!(said.lines().count(), 2, "{said}");
+    for (line, part) in said.lines().zip(["objects 1 and 2 transmit light", "`lossy` reflects Ks + Kt = 0.7"]) {
+        let line = line.strip_prefix("anel: ").expect("the program's name");
+        assert!(line.contains(part) && comments.contains(&format!("{line}.").as_str()), "{line}");
+    }
 }

@@ -8,3 +8,4 @@ mod chrome_trace;
 mod exports;
 mod fuzz;
 mod old_runs;
+mod pictures;

@@ -224,6 +224,36 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
 }
 
 #[test]
+fn region_is_saved_without_its_background() {
+    const REGION: &str = "Region: column, row, width, height; empty for the whole picture";
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    press(&mut window, "Save…");
+    choose_kind(&mut window, "any size");
+    press(&mut window, "Own size");
+    press(&mut window, "Transparent");
+    let type_region = |window: &mut Window, region: &str| {
+        window.get_by_label(REGION).click();
+        window.run_steps(2);
+        type_path(window, REGION, region.as_ref());
+        window.get_by_label(FIELD).click();
+        window.run_steps(2);
+    };
+    type_region(&mut window, "600,0,64,48");
+    assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-region-transparent.png");
+    let path = directory.path().join("part.png");
+    type_path(&mut window, FIELD, &path);
+    press(&mut window, "Save");
+    window.get_by_label_contains("not inside the picture of 640x480");
+    type_region(&mut window, "100,60,64,48");
+    press(&mut window, "Save");
+    until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
+    let part = image::open(&path).expect("a PNG");
+    assert_eq!((part.width(), part.height(), part.color()), (64, 48, image::ColorType::Rgba8));
+}
+
+#[test]
 fn first_typed_letters_replace_the_file_name() {
     let mut window = open(SIZE);
     key(&mut window, Key::S);

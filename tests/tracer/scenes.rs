@@ -1,5 +1,6 @@
 //! The built-in scenes, and the effect of compiling on them.
 
+use super::povray_scenes::{Case, cases, enlarge};
 use anel::csg::{MaterialTag, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
@@ -129,14 +130,51 @@ fn split_union_looks_the_same() {
 fn exported_scene_has_every_primitive_and_every_light() {
     for (name, text) in BUILT_IN {
         let scene = parse(name, text);
-        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default());
+        let pov = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default()).text;
         let count = |word: &str| pov.matches(word).count();
         assert_eq!(count("light_source {"), scene.lights.len(), "{name}");
         let mut primitives = 0;
         scene.solids.iter().for_each(|solid| leaves(solid, &mut |_| primitives += 1));
-        assert_eq!(count("matrix <") + count("plane {"), primitives, "{name}");
+        let written = ["matrix <", "plane {", "sphere { <", "quadric {"].map(count);
+        assert_eq!(written.into_iter().sum::<usize>(), primitives, "{name}");
         assert_eq!(count("{"), count("}"), "{name}");
     }
+}
+
+#[test]
+fn export_of_a_scene_at_another_scale_differs_only_in_the_unit() {
+    for Case { name, scene, .. } in cases() {
+        let text = |exponent: i32| {
+            let mut scene = scene.clone();
+            enlarge(&mut scene, f64::from(exponent).exp2());
+            let text = to_pov(&scene, Size::new(640, 480).expect("small"), &Quality::default()).text;
+            let (units, rest): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.contains(" times 2^"));
+            assert_eq!(units.len(), 1, "{name}");
+            rest.join("\n")
+        };
+        let own = text(0);
+        assert!([-20, 3, 23].into_iter().all(|exponent| text(exponent) == own), "{name}");
+    }
+}
+
+#[test]
+fn union_of_several_media_is_exported_as_these_media() {
+    let exported = |objects: &str| {
+        let text = format!(
+            r#"Scene(camera: (eye: (0, 0, 9), look_at: (0, 0, 0)), materials: {{"glass": (ka: 0, kd: 0, ks: 0.1, kt: 0.9, ior: 1.5),
+            "water": (ka: 0, kd: 0, ks: 0.1, kt: 0.9, ior: 1.3), "red": (colour: (1, 0, 0))}}, objects: [{objects}])"#
+        );
+        let exported = to_pov(&parse("union", &text), Size::new(640, 480).expect("small"), &Quality::default());
+        assert!(exported.limits.is_empty(), "{:?}", exported.limits);
+        exported.text
+    };
+    let [ball, core, block] = [
+        r#"Sphere(radius: 1, material: "glass")"#,
+        r#"Sphere(radius: 0.5, material: "red")"#,
+        r#"Box(min: (1.1, -1, -1), max: (2, 1, 1), material: "water")"#,
+    ];
+    let union = exported(&format!("Union(of: [{ball}, Union(of: [{core}]), {block}])"));
+    assert_eq!(union, exported(&format!("{ball}, {core}, {block}")));
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
 use crate::language::say;
 use crate::output::write_whole;
-use crate::picture::{Frame, Quality, Size, write_png};
+use crate::picture::{Frame, Quality, Region, Size, write_png, write_png_with_alpha};
 use crate::runlog::RunLog;
 use crate::scene::Scene;
 use crate::tracer::Tracer;
@@ -22,8 +22,8 @@ use crate::tracer::Tracer;
 /// A file to make from the run on the stage or from compared runs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Export {
-    /// The picture, traced again at this size and quality.
-    Picture(Size, Quality),
+    /// The picture, traced again.
+    Picture(PictureExport),
     /// The ring or the timeline: PNG if the file name says so, else SVG.
     Drawing(Drawing),
     /// The run as an animation.
@@ -36,6 +36,19 @@ pub enum Export {
     Bars(Comparison),
     /// Compared runs as CSV.
     Rows(Comparison),
+}
+
+/// A picture that is traced again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureExport {
+    /// The size of the whole picture.
+    pub size: Size,
+    /// Its quality.
+    pub quality: Quality,
+    /// The part of it that is traced and saved; `None` is the whole picture.
+    pub region: Option<Region>,
+    /// Whether it is transparent where no solid is.
+    pub transparent: bool,
 }
 
 /// The export in progress.
@@ -144,10 +157,15 @@ impl ExportSource {
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
         let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
         let written = match export {
-            Export::Picture(size, quality) => {
+            Export::Picture(PictureExport { size, quality, region, transparent }) => {
                 let tracer = self.tracer(size, quality)?;
-                let rgb = trace_strips(&tracer, progress, cancel).map_err(|error| error.to_string())?;
-                write_png(path, size, &rgb.ok_or(CANCELLED)?)
+                let tracer = Arc::new(match region {
+                    Some(region) => tracer.of_region(region),
+                    None => tracer,
+                });
+                let bytes = trace_strips(&tracer, transparent, progress, cancel).map_err(|error| error.to_string())?;
+                let write = if transparent { write_png_with_alpha } else { write_png };
+                write(path, tracer.size(), &bytes.ok_or(CANCELLED)?)
             }
             Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
             Export::Bars(comparison) => write(&|file| comparison.write_bars(file, is_png)),
@@ -170,15 +188,15 @@ impl ExportSource {
         written.map_err(|error| error.to_string())
     }
 
-    fn tracer(&self, size: Size, quality: Quality) -> Result<Arc<Tracer>, String> {
+    fn tracer(&self, size: Size, quality: Quality) -> Result<Tracer, String> {
         // The header's scene text has the camera of the shown picture.
         let scene = Scene::parse(&self.log.header.scene_text).map_err(|error| error.to_string())?;
-        Ok(Arc::new(Tracer::new(&scene, size, quality)))
+        Ok(Tracer::new(&scene, size, quality))
     }
 
     fn trace(&self, cancel: &CancelToken) -> Result<Frame, String> {
         let header = &self.log.header;
-        let tracer = self.tracer(header.size, header.quality)?;
+        let tracer = Arc::new(self.tracer(header.size, header.quality)?);
         let traced = TracedPicture::unless_cancelled(&tracer, header.division, &|_| {}, cancel);
         let picture = traced.map_err(|error| error.to_string())?.ok_or(CANCELLED)?;
         Ok(Frame::of(header.size, &picture.pixels))

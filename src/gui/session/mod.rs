@@ -36,8 +36,8 @@ use crate::time::Time;
 use opening::Opening;
 
 pub use comparing::{ComparisonSubject, PictureSource, TracingProgress};
-pub use exporting::Export;
 use exporting::ExportJob;
+pub use exporting::{Export, PictureExport};
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{

@@ -75,7 +75,7 @@ impl PovRay {
     /// A [`PovRayError`], if the scene cannot be written or the program does not start.
     pub fn start(&self, scene: &Scene, size: Size, quality: &Quality) -> Result<Rendering, PovRayError> {
         let directory = tempfile::tempdir().map_err(PovRayError::NoInput)?;
-        std::fs::write(directory.path().join("scene.pov"), to_pov(scene, size, quality))
+        std::fs::write(directory.path().join("scene.pov"), to_pov(scene, size, quality).text)
             .map_err(PovRayError::NoInput)?;
         let program = Command::new("povray")
             // Its configuration always lets it read and write in its working directory.

@@ -36,9 +36,10 @@ fn head(report: &mut Report, povray: &PovRay, size: Size) {
     report.line(
         "The causes are found by removing them. From column to column each scene is changed for both programs alike; \
          pixels that agree after a change had differed for its cause. *Faces apart*: every primitive moves by a \
-         hundred-thousandth of the scene, so that faces no longer coincide. *Large*: the scene is so large that \
-         absolute tolerances are negligible. *Lossless*: for transparent materials Ks + Kt = 1. *No cutoff*: no \
-         cutoff ends a branch of the tree of rays. Differences in the last column are not explained.\n",
+         hundred-thousandth of the scene, so that faces no longer coincide. *Lossless*: for transparent materials \
+         Ks + Kt = 1. *No cutoff*: no cutoff ends a branch of the tree of rays. Differences in the last column are not \
+         explained. POV-Ray ignores hits nearer than 10⁻⁴ to the start of a ray, whatever the scene's unit; `anel \
+         export` makes every scene so large that this is negligible.\n",
     );
 }
 

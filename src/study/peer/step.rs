@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::csg::Solid;
 use crate::picture::Quality;
-use crate::scene::{Light, Scene};
+use crate::scene::Scene;
 
 /// The steps, in the order in which they are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,8 +14,6 @@ pub(super) enum Step {
     AsItIs,
     /// Coincident faces are moved apart.
     Apart,
-    /// The scene is so large that POV-Ray's absolute tolerances are negligible.
-    Large,
     /// Ks + Kt = 1 for transparent materials, so that total reflection is total in both programs.
     Lossless,
     /// Every ray is followed down to the limit of the tree, whatever it contributes.
@@ -25,17 +23,13 @@ pub(super) enum Step {
 /// Greatest move of a primitive, as a fraction of the distance from the eye to the point it looks at.
 const MAX_MOVE: f64 = 1e-5;
 
-/// Distance from the eye to the point it looks at in the large scene, about. Beyond it POV-Ray's tori become inexact.
-const LARGE_DISTANCE: f64 = 4096.0;
-
 impl Step {
-    pub const ALL: [Self; 5] = [Self::AsItIs, Self::Apart, Self::Large, Self::Lossless, Self::NoCutoff];
+    pub const ALL: [Self; 4] = [Self::AsItIs, Self::Apart, Self::Lossless, Self::NoCutoff];
 
     pub fn name(self) -> &'static str {
         match self {
             Self::AsItIs => "as it is",
             Self::Apart => "faces apart",
-            Self::Large => "large",
             Self::Lossless => "lossless",
             Self::NoCutoff => "no cutoff",
         }
@@ -52,13 +46,6 @@ impl Step {
                  solid leave skins behind. anel treats crossings within 10⁻¹² of each other as one, and shows the \
                  face that comes first in the scene. *anel is right*: a solid that ends where its cutter ends is cut, \
                  and a face has one colour.",
-            ],
-            Self::Large => [
-                "absolute tolerances",
-                "POV-Ray ignores crossings nearer than 10⁻⁴ to the start of a ray, and 10⁻³ for a ray to a light, \
-                 whatever the scene's unit. anel knows on which face a ray starts and ignores nothing; its picture of \
-                 a scene scaled by 2ⁿ is the same to the bit. *anel is right*: the larger the scene, the more POV-Ray \
-                 agrees with anel's first picture.",
             ],
             Self::Lossless => [
                 "total internal reflection",
@@ -87,7 +74,6 @@ impl Step {
                     map.translation += DVec3::new(component(), component(), component());
                 });
             }
-            Self::Large => enlarge(scene, (LARGE_DISTANCE / distance).log2().round().exp2()),
             Self::Lossless => {
                 for material in scene.materials.iter_mut().filter(|material| material.transmits()) {
                     material.ks = 1.0 - material.kt.max_element();
@@ -96,18 +82,6 @@ impl Step {
             Self::NoCutoff => quality.cutoff = 0.0,
         }
     }
-}
-
-fn enlarge(scene: &mut Scene, factor: f64) {
-    scene.camera.eye *= factor;
-    scene.camera.look_at *= factor;
-    for light in &mut scene.lights {
-        if let Light::Point { position, .. } = light {
-            *position *= factor;
-        }
-    }
-    let larger = DAffine3::from_scale(DVec3::splat(factor));
-    move_primitives(&mut scene.solids, &mut |map| *map = larger * *map);
 }
 
 fn move_primitives(solids: &mut [Solid], change: &mut impl FnMut(&mut DAffine3)) {

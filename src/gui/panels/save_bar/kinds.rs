@@ -170,7 +170,8 @@ impl SaveKind {
         }
     }
 
-    /// Returns a file name that says what is saved. `large` is the size of a picture that is traced again, as text.
+    /// Returns a file name that says what is saved. `large` tells a picture that is traced again from others: its
+    /// size and so on.
     pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
         let scene = as_file_name(&header.scene);
         let of_run = format!("-{}-{}", header.scheduler().name(), header.speeds.len());

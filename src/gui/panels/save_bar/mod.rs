@@ -1,6 +1,7 @@
 //! The save bar: the kind of file, its path, and the error if it cannot be saved.
 
 mod kinds;
+mod retraced;
 
 use std::path::{Path, PathBuf};
 
@@ -12,12 +13,12 @@ use crate::gui::session::{Export, Phase, Purpose, Session};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, number_field};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, say, word};
 use crate::output::{check_writable, is_same_file};
-use crate::picture::{Quality, Size};
 use crate::view::Layer;
-use kinds::{MAX_SIDE_PX, SaveKind, four_k, has_same_shape, large};
+use kinds::SaveKind;
+use retraced::RetracedPicture;
 
 /// Subject of the save bar.
 pub enum SaveSubject {
@@ -28,6 +29,7 @@ pub enum SaveSubject {
 }
 
 /// The save bar, below the top bar.
+#[derive(Default)]
 pub struct SaveBar {
     open: bool,
     wants_focus: bool,
@@ -41,33 +43,12 @@ pub struct SaveBar {
     warned: Option<PathBuf>,
     /// The error of the last attempt.
     trouble: Option<String>,
-    /// Size of a picture that is traced again, once the user has chosen one.
-    size: Option<[u32; 2]>,
-    /// Its samples, n of n × n a pixel.
-    samples: u32,
+    /// A picture that is traced again.
+    retraced: RetracedPicture,
     /// Title of a saved run.
     title: String,
     /// Memo of a saved run.
     memo: String,
-}
-
-impl Default for SaveBar {
-    fn default() -> Self {
-        Self {
-            open: false,
-            wants_focus: false,
-            focused: false,
-            kind: SaveKind::default(),
-            path: String::new(),
-            suggested: String::new(),
-            warned: None,
-            trouble: None,
-            size: None,
-            samples: 2,
-            title: String::new(),
-            memo: String::new(),
-        }
-    }
 }
 
 impl SaveBar {
@@ -81,12 +62,12 @@ impl SaveBar {
         self.open_for(SaveKind::Run, session);
     }
 
-    /// Opens the bar for a kind, with a suggested path; size and samples stay as they were.
+    /// Opens the bar for a kind, with a suggested path; what is chosen for a picture that is traced again stays.
     fn open_for(&mut self, kind: SaveKind, session: &Session) {
-        let Self { size, samples, .. } = *self;
+        let retraced = self.retraced.clone();
         let caption = &session.header().caption;
         let (title, memo) = (caption.title.clone(), caption.memo.clone());
-        *self = Self { open: true, wants_focus: true, kind, size, samples, title, memo, ..Self::default() };
+        *self = Self { open: true, wants_focus: true, kind, retraced, title, memo, ..Self::default() };
         self.suggest(session);
     }
 
@@ -129,7 +110,7 @@ impl SaveBar {
             self.kinds(ui, kinds, language);
         }
         match self.kind {
-            SaveKind::Large => self.choose_size(ui, session, look),
+            SaveKind::Large => self.retraced.show(ui, session),
             SaveKind::Run => self.describe(ui, language),
             _ => {}
         }
@@ -223,65 +204,6 @@ impl SaveBar {
         self.kind = kind;
     }
 
-    /// Shows the fields for the size and the samples of a picture that is traced again.
-    fn choose_size(&mut self, ui: &mut Ui, session: &Session, look: Look) {
-        let language = session.language();
-        let quiet = |text: &str| RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet);
-        let own = own_size(session);
-        let mut size = self.large_size(session);
-        let twice = own.map(|side| 2 * side);
-        ui.horizontal(|ui| {
-            for (name, other) in
-                [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
-            {
-                let emphasis = if size == other { Emphasis::On } else { Emphasis::Quiet };
-                let [width, height] = other;
-                let hint = format!("{width} × {height}");
-                if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
-                    size = other;
-                }
-            }
-            let [width, height] = &mut size;
-            number_field(
-                ui,
-                width,
-                1..=MAX_SIDE_PX,
-                "",
-                9.0 * GRID,
-                word!(language, "Pixels across", "Pixels na horizontal"),
-            );
-            ui.label(quiet("×"));
-            number_field(
-                ui,
-                height,
-                1..=MAX_SIDE_PX,
-                "",
-                9.0 * GRID,
-                word!(language, "Pixels down", "Pixels na vertical"),
-            );
-            ui.label(quiet(word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
-            number_field(
-                ui,
-                &mut self.samples,
-                1..=16,
-                "",
-                6.0 * GRID,
-                word!(language, "Samples a pixel", "Amostras por pixel"),
-            );
-        });
-        if size != self.large_size(session) {
-            self.size = Some(size);
-        }
-        if !has_same_shape(own, size) {
-            let words = word!(
-                language,
-                "The shape differs from the picture's: the sides show more or less",
-                "O formato difere do da imagem: os lados mostram mais ou menos"
-            );
-            ui.label(quiet(words));
-        }
-    }
-
     /// Shows the fields for title and memo of a run.
     fn describe(&mut self, ui: &mut Ui, language: Language) {
         let half = (ui.available_width() - 5.0 * GRID) / 2.0;
@@ -312,8 +234,9 @@ impl SaveBar {
                 "{name} é a cena aberta. Escolha outro nome"
             ));
         }
-        let size = match large(self.large_size(session)) {
-            Ok(size) => size,
+        let retraced = (self.kind == SaveKind::Large).then(|| self.retraced.export(session)).transpose();
+        let retraced = match retraced {
+            Ok(retraced) => retraced,
             Err(why) => return self.trouble = Some(why),
         };
         let warned = self.warned.take();
@@ -339,12 +262,15 @@ impl SaveBar {
                     "Nenhuma execução comparada está pronta. Espere um momento"
                 ));
             }
-            (kind, &SaveSubject::Run(shown)) => self.save_run_as(kind, session, path, shown, size),
+            (kind, &SaveSubject::Run(shown)) => match retraced {
+                Some(picture) => session.export(path, Export::Picture(picture)),
+                None => self.save_run_as(kind, session, path, shown),
+            },
         }
     }
 
-    /// Starts saving a file of the run on the stage.
-    fn save_run_as(&self, kind: SaveKind, session: &mut Session, path: PathBuf, shown: (Layer, f32), size: Size) {
+    /// Starts saving a file of the run on the stage, other than a picture that is traced again.
+    fn save_run_as(&self, kind: SaveKind, session: &mut Session, path: PathBuf, shown: (Layer, f32)) {
         match kind {
             SaveKind::Render => session.save_picture(path, (Layer::Owners, 0.0)),
             SaveKind::Owners => session.save_picture(path, (Layer::Owners, 1.0)),
@@ -352,31 +278,20 @@ impl SaveBar {
             SaveKind::Arrival => session.save_picture(path, (Layer::Arrival, 1.0)),
             SaveKind::Blend => session.save_picture(path, shown),
             SaveKind::Run => session.save_run(path, &self.title, &self.memo),
-            SaveKind::Large => {
-                let quality = Quality { samples: self.samples, ..session.header().quality };
-                session.export(path, Export::Picture(size, quality));
-            }
             SaveKind::Ring => session.export(path, Export::Drawing(Drawing::Ring(session.now()))),
             SaveKind::Timeline => session.export(path, Export::Drawing(Drawing::Timeline)),
             SaveKind::Film => session.export(path, Export::Film(Film { look: shown, ..Film::default() })),
             SaveKind::Table => session.export(path, Export::Table),
             SaveKind::Chrome => session.export(path, Export::Chrome),
-            SaveKind::Bars | SaveKind::Rows => {}
+            SaveKind::Large | SaveKind::Bars | SaveKind::Rows => {}
         }
-    }
-
-    /// Returns the size of a picture that is traced again: the chosen one, else 4K in the picture's shape.
-    fn large_size(&self, session: &Session) -> [u32; 2] {
-        self.size.unwrap_or_else(|| four_k(own_size(session)))
     }
 
     /// Updates the suggested path, unless the user has changed it.
     fn suggest(&mut self, session: &Session) {
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
-        let size = self.large_size(session);
-        let size = format!("{}x{}", size[0], size[1]);
-        let name = self.kind.file_name(session.header(), done, &size);
+        let name = self.kind.file_name(session.header(), done, &self.retraced.name(session));
         let suggested = directory.join(name).display().to_string();
         if self.path == self.suggested && self.path != suggested {
             // Selects the new name.
@@ -385,10 +300,4 @@ impl SaveBar {
         }
         self.suggested = suggested;
     }
-}
-
-/// Returns the size of the shown picture.
-fn own_size(session: &Session) -> [u32; 2] {
-    let size = session.header().size;
-    [size.width(), size.height()]
 }

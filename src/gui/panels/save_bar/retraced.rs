@@ -1,0 +1,153 @@
+//! The picture that is traced again to be saved: its size, its samples, its region, its background.
+
+use egui::{RichText, Ui};
+
+use super::kinds::{MAX_SIDE_PX, four_k, has_same_shape, large};
+use crate::gui::session::{PictureExport, Session};
+use crate::gui::widgets::path_input::path_field;
+use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{Emphasis, button, number_field};
+use crate::language::word;
+use crate::picture::{Quality, Region};
+
+/// The user's choices.
+#[derive(Clone)]
+pub(super) struct RetracedPicture {
+    /// The size, once the user has chosen one.
+    size: Option<[u32; 2]>,
+    /// The samples, n of n × n a pixel.
+    samples: u32,
+    /// The region as it is typed; empty for the whole picture.
+    region: String,
+    /// Whether the background is left out.
+    transparent: bool,
+}
+
+impl Default for RetracedPicture {
+    fn default() -> Self {
+        Self { size: None, samples: 2, region: String::new(), transparent: false }
+    }
+}
+
+impl RetracedPicture {
+    /// Shows the fields.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session) {
+        self.show_size(ui, session);
+        let language = session.language();
+        ui.horizontal(|ui| {
+            let emphasis = if self.transparent { Emphasis::On } else { Emphasis::Quiet };
+            let hint = word!(
+                language,
+                "Leave out the background: the picture is transparent where no solid is",
+                "Sem o fundo: a imagem é transparente onde não há sólido"
+            );
+            let name = word!(language, "Transparent", "Transparente");
+            if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
+                self.transparent = !self.transparent;
+            }
+            ui.label(quiet(ui, word!(language, "only a region:", "só uma região:")));
+            let name = word!(
+                language,
+                "Region: column, row, width, height; empty for the whole picture",
+                "Região: coluna, linha, largura, altura; vazio para a imagem inteira"
+            );
+            path_field(ui, (&mut self.region, "X,Y,W,H"), 20.0 * GRID, name, &mut false);
+        });
+    }
+
+    /// Shows the fields for the size and the samples.
+    fn show_size(&mut self, ui: &mut Ui, session: &Session) {
+        let language = session.language();
+        let own = own_size(session);
+        let mut size = self.size(session);
+        let twice = own.map(|side| 2 * side);
+        ui.horizontal(|ui| {
+            for (name, other) in
+                [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
+            {
+                let emphasis = if size == other { Emphasis::On } else { Emphasis::Quiet };
+                let [width, height] = other;
+                let hint = format!("{width} × {height}");
+                if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
+                    size = other;
+                }
+            }
+            let [width, height] = &mut size;
+            number_field(
+                ui,
+                width,
+                1..=MAX_SIDE_PX,
+                "",
+                9.0 * GRID,
+                word!(language, "Pixels across", "Pixels na horizontal"),
+            );
+            ui.label(quiet(ui, "×"));
+            number_field(
+                ui,
+                height,
+                1..=MAX_SIDE_PX,
+                "",
+                9.0 * GRID,
+                word!(language, "Pixels down", "Pixels na vertical"),
+            );
+            ui.label(quiet(ui, word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
+            number_field(
+                ui,
+                &mut self.samples,
+                1..=16,
+                "",
+                6.0 * GRID,
+                word!(language, "Samples a pixel", "Amostras por pixel"),
+            );
+        });
+        if size != self.size(session) {
+            self.size = Some(size);
+        }
+        if !has_same_shape(own, size) {
+            let words = word!(
+                language,
+                "The shape differs from the picture's: the sides show more or less",
+                "O formato difere do da imagem: os lados mostram mais ou menos"
+            );
+            ui.label(quiet(ui, words));
+        }
+    }
+
+    /// Returns what is to be traced.
+    ///
+    /// # Errors
+    /// A sentence, if the size is impossible, or if the region is not inside the picture.
+    pub fn export(&self, session: &Session) -> Result<PictureExport, String> {
+        let size = large(self.size(session))?;
+        let region = match self.region.trim() {
+            "" => None,
+            typed => Some(typed.parse::<Region>()?),
+        };
+        region.map_or(Ok(()), |region| region.check_inside(size))?;
+        let quality = Quality { samples: self.samples, ..session.header().quality };
+        Ok(PictureExport { size, quality, region, transparent: self.transparent })
+    }
+
+    /// Returns the part of a file name that tells this picture from others.
+    pub fn name(&self, session: &Session) -> String {
+        let [width, height] = self.size(session);
+        let region = if self.region.trim().is_empty() { "" } else { "-region" };
+        let transparent = if self.transparent { "-transparent" } else { "" };
+        format!("{width}x{height}{region}{transparent}")
+    }
+
+    /// Returns the size: the chosen one, else 4K in the picture's shape.
+    fn size(&self, session: &Session) -> [u32; 2] {
+        self.size.unwrap_or_else(|| four_k(own_size(session)))
+    }
+}
+
+/// Returns the size of the shown picture.
+fn own_size(session: &Session) -> [u32; 2] {
+    let size = session.header().size;
+    [size.width(), size.height()]
+}
+
+fn quiet(ui: &Ui, text: &str) -> RichText {
+    RichText::new(text).font(theme::regular(theme::BODY)).color(Look::of(ui.ctx()).quiet)
+}
