@@ -21,8 +21,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::driver::{auto_pace, cores};
 use crate::gui::{self, Opening, Settings};
+use crate::interrupt;
 use crate::language::Language;
-use crate::output::{as_file_name, check_writable, is_same_file};
+use crate::output::{as_file_name, check_writable, is_same_file, remove_temporary_files};
 use crate::runlog::{Header, RunLog};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
@@ -38,8 +39,16 @@ enum Failure {
 }
 
 /// Runs the program with the arguments of the process. Exit codes: 0 success, 1 the run failed, 2 an argument, the
-/// scene or an output path is invalid.
+/// scene or an output path is invalid, 128 + n signal n has ended it.
 pub fn main() -> ExitCode {
+    interrupt::handle_signals();
+    let code = execute();
+    // Threads that still write end with the process.
+    remove_temporary_files();
+    code
+}
+
+fn execute() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(CliCommand::Render(render)) => render::render(&render),
         Some(CliCommand::Inspect(inspect)) => inspect::inspect(&inspect),
@@ -52,7 +61,7 @@ pub fn main() -> ExitCode {
         None => window(args.scene.as_deref(), args.log),
     });
     let (code, sentence) = match done {
-        Ok(()) => return ExitCode::SUCCESS,
+        Ok(()) => return interrupt::exit_code().map_or(ExitCode::SUCCESS, ExitCode::from),
         Err(Failure::Refused(sentence)) => (2, sentence),
         Err(Failure::Failed(sentence)) => (1, sentence),
     };
@@ -67,7 +76,16 @@ fn tell(sentence: &str) {
 
 /// Prints a result on standard output.
 fn print(result: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{result}") {
+    print_bytes(result.as_bytes())
+}
+
+/// Prints the path of a file on standard output. It need not be UTF-8.
+fn print_path(path: &Path) -> Result<(), Failure> {
+    print_bytes(path.as_os_str().as_encoded_bytes())
+}
+
+fn print_bytes(line: &[u8]) -> Result<(), Failure> {
+    match io::stdout().write_all(&[line, b"\n"].concat()) {
         // The reader has closed the pipe; this is not an error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::Failed(format!("standard output cannot be written: {error}"))),

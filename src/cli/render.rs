@@ -1,4 +1,4 @@
-//! `anel render`: a run without a window.
+//! `anel render`: a run without a window. A signal ends it early; the picture so far and its records are then written.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,9 +10,11 @@ use indicatif::ProgressBar;
 use super::args::RenderArgs;
 use super::report::Report;
 use super::run_header;
-use super::{Failure, check_outputs, open, print, progress};
-use crate::driver::{Run, RunError, TracedPicture, Update, probe};
-use crate::picture::{Frame, write_png};
+use super::{Failure, check_outputs, open, print, print_path, progress, tell};
+use crate::cancel::CancelToken;
+use crate::driver::{PartialPicture, Run, RunError, TracedPicture, Update, probe};
+use crate::interrupt::EndsEarly;
+use crate::picture::{Frame, atoms_in, write_png};
 use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
 use crate::tracer::{RayCounts, Tracer};
@@ -24,9 +26,11 @@ pub(super) struct Outputs<'a> {
     pub json: bool,
 }
 
-/// The results of a run.
+/// The results of a run, or of its part before a signal.
 struct RenderResult {
     frame: Frame,
+    /// The number of atoms in the frame.
+    placed: u32,
     log: RunLog,
     rays: RayCounts,
     wall: Duration,
@@ -51,44 +55,87 @@ pub(super) fn run_and_save(
     measured: Option<Sim>,
     to: &Outputs<'_>,
 ) -> Result<(), Failure> {
-    let outcome = if header.driver == Driver::Sim { simulate(tracer, header, measured)? } else { run(tracer, header)? };
+    let interrupted = CancelToken::default();
+    let ends_early = {
+        let interrupted = interrupted.clone();
+        EndsEarly::new(move || interrupted.cancel())
+    };
+    let outcome = match header.driver {
+        Driver::Sim => simulate(tracer, header, measured, &interrupted)?,
+        Driver::Threads | Driver::Pairs | Driver::WorkStealing => run(tracer, header, &interrupted)?,
+    };
     write_png(to.out, header.size, &outcome.frame.to_srgb8()).map_err(|error| Failure::Failed(error.to_string()))?;
     if let Some(log) = to.log {
         outcome.log.save(log).map_err(|error| Failure::Failed(error.to_string()))?;
     }
-    // In virtual time threads do not compete for cores and caches.
-    let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
+    drop(ends_early);
+    let is_interrupted = interrupted.is_cancelled();
+    if is_interrupted {
+        tell(&interruption(&outcome, header, to));
+    }
+    let overhead = match header.driver {
+        _ if is_interrupted => None,
+        // In virtual time threads do not compete for cores and caches.
+        Driver::Sim => Some(1.0),
+        Driver::Threads | Driver::Pairs | Driver::WorkStealing => overhead(tracer, &outcome.log),
+    };
     let mut report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
+    report.interrupted = is_interrupted;
     if to.json {
-        report.levels = tracer.levels();
+        if !is_interrupted {
+            report.levels = tracer.levels();
+        }
         return print(&report.json());
     }
-    // The picture is saved; if standard error is closed, the report is not needed.
-    let _ = write!(io::stderr(), "{report}");
-    print(&to.out.display().to_string())
+    if !is_interrupted {
+        // The picture is saved; if standard error is closed, the report is not needed.
+        let _ = write!(io::stderr(), "{report}");
+    }
+    print_path(to.out)
+}
+
+/// Says what an interrupted run has written.
+fn interruption(outcome: &RenderResult, header: &Header, to: &Outputs<'_>) -> String {
+    let (out, placed, atoms) = (to.out.display(), outcome.placed, header.division.atoms());
+    let picture = if placed == atoms {
+        format!("{out} is complete")
+    } else {
+        format!("{out} has {placed} of {atoms} atoms; the rest is black")
+    };
+    let records = to.log.map(|log| format!(", and {} the records so far", log.display())).unwrap_or_default();
+    format!("the run was interrupted: {picture}{records}")
 }
 
 #[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
-fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
+fn run(tracer: &Arc<Tracer>, header: &Header, interrupted: &CancelToken) -> Result<RenderResult, Failure> {
+    /// How long a signal may stay unnoticed.
+    const INTERRUPT_INTERVAL: Duration = Duration::from_millis(50);
     let begun = Instant::now();
     let run = Run::start(Arc::clone(tracer), header);
     let bar = atoms_bar(header);
     let mut frame = Frame::new(header.size);
     // The log gets all records at once; otherwise it would sort its end for the batch of each party.
     let mut all_records = Vec::new();
-    let mut rays = RayCounts::default();
+    let (mut rays, mut placed) = (RayCounts::default(), 0);
     let failure = loop {
-        match run.updates().recv() {
+        if interrupted.is_cancelled() {
+            // The last update follows once all threads have ended.
+            run.stop();
+        }
+        match run.updates().recv_timeout(INTERRUPT_INTERVAL) {
             Ok(Update::Records(records)) => all_records.extend(records),
             Ok(Update::Placed { atoms, pixels }) => {
                 for (place, colours) in header.division.placed(&atoms, &pixels) {
                     frame.place(place, colours);
                 }
-                bar.inc(atoms.iter().map(|range| range.len() as u64).sum());
+                placed += atoms_in(&atoms);
+                bar.set_position(placed.into());
             }
             Ok(Update::Rays(more)) => rays += more,
             Ok(Update::Finished) => break None,
+            Ok(Update::Failed(RunError::Stopped)) if interrupted.is_cancelled() => break None,
             Ok(Update::Failed(error)) => break Some(error),
+            Err(error) if error.is_timeout() => {}
             Err(_) => break Some(RunError::NoResult),
         }
     };
@@ -99,29 +146,41 @@ fn run(tracer: &Arc<Tracer>, header: &Header) -> Result<RenderResult, Failure> {
         None => {
             let mut log = RunLog::new(header.clone());
             log.add(all_records);
-            Ok(RenderResult { frame, log, rays, wall })
+            Ok(RenderResult { frame, placed, log, rays, wall })
         }
     }
 }
 
 /// Traces the picture, then executes the run in virtual time, as fast as this computer can.
 #[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
-fn simulate(tracer: &Arc<Tracer>, header: &Header, measured: Option<Sim>) -> Result<RenderResult, Failure> {
+fn simulate(
+    tracer: &Arc<Tracer>,
+    header: &Header,
+    measured: Option<Sim>,
+    interrupted: &CancelToken,
+) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
-    let whole = TracedPicture::of(tracer, header.division, &|atoms| bar.inc(atoms.into()))
+    let traced = TracedPicture::or_part(tracer, header.division, &|atoms| bar.inc(atoms.into()), interrupted)
         .map_err(|error| Failure::Failed(error.to_string()))?;
     bar.finish_and_clear();
+    let mut log = RunLog::new(header.clone());
+    let whole = match traced {
+        Ok(whole) => whole,
+        // The run in virtual time has not begun, so it has no records.
+        Err(PartialPicture { frame, atoms, counts }) => {
+            return Ok(RenderResult { frame, placed: atoms, log, rays: counts, wall: begun.elapsed() });
+        }
+    };
     let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {
         let costs = whole.costs();
         Sim::new(header, &[], move |atom| costs[atom as usize])
     });
     let mut records = Vec::new();
-    sim.run(&mut |record| records.push(record));
-    let mut log = RunLog::new(header.clone());
+    sim.run_unless_cancelled(interrupted, &mut |record| records.push(record));
     log.add(records);
-    Ok(RenderResult { frame, log, rays: whole.counts, wall: begun.elapsed() })
+    Ok(RenderResult { frame, placed: header.division.atoms(), log, rays: whole.counts, wall: begun.elapsed() })
 }
 
 /// Prepares a run in virtual time with the costs of a recorded run of the same picture.

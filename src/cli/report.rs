@@ -39,6 +39,8 @@ pub(super) struct Report {
     atoms_by_node: Vec<u32>,
     messages: MessageCounts,
     compiled: SceneStats,
+    /// Whether a signal has ended the run early.
+    pub interrupted: bool,
     /// Primary, reflected and refracted rays on each level of the tree of rays, for a sample of the pixels.
     pub levels: Vec<u64>,
 }
@@ -69,6 +71,7 @@ impl Report {
             atoms_by_node: metrics.atoms_by_node(),
             messages: metrics.messages(),
             compiled: tracer.scene_stats(),
+            interrupted: false,
             levels: Vec::new(),
         }
     }
