@@ -88,6 +88,9 @@ pub enum ReadError {
     /// The line of this number, from 1, is not UTF-8.
     #[error("line {0}: the file is not text (UTF-8)")]
     NotText(usize),
+    /// The text has another encoding.
+    #[error("the file is text in UTF-16; save it as UTF-8")]
+    Utf16,
 }
 
 impl From<ReadError> for FileError {
@@ -124,7 +127,12 @@ pub fn read<'a>(
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ReadError::TooLarge(what));
     }
-    String::from_utf8(bytes).map_err(|error| {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(ReadError::Utf16);
+    }
+    // Some editors put a byte order mark at the beginning of a file.
+    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    String::from_utf8(text.to_vec()).map_err(|error| {
         let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
         ReadError::NotText(line)
     })
@@ -136,7 +144,7 @@ pub fn read<'a>(
 /// # Errors
 /// The first mistake, with its line, column and field.
 pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &str) -> Result<T, FileError> {
-    // Some editors put a byte order mark at the beginning of a file.
+    // The text of a scene in a run file may begin with a byte order mark.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
         return Err(FileError::new(None, &format!("the file is empty; a {what} needs at least {least}")));

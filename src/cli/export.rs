@@ -8,7 +8,7 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, open, progress};
+use super::{Failure, check_outputs, load_run, open, progress};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
@@ -32,7 +32,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
         )));
     }
     let drawings = drawings(args)?;
-    let log = RunLog::load(source).map_err(|error| Failure::Refused(error.to_string()))?;
+    let log = load_run(source)?;
     if let Some(path) = &args.csv {
         write(path, |file| write_csv(file, &log))?;
     }

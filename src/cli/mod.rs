@@ -24,7 +24,7 @@ use crate::gui::{self, Opening, Settings};
 use crate::interrupt;
 use crate::language::Language;
 use crate::output::{as_file_name, check_writable, is_same_file, remove_temporary_files};
-use crate::runlog::{Header, RunLog};
+use crate::runlog::{Header, RunLog, is_run_file};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
 use args::{Args, CliCommand};
@@ -115,6 +115,15 @@ fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Reads a run file. If it is cut off, says so.
+fn load_run(path: &Path) -> Result<RunLog, Failure> {
+    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    if let Some(line) = log.cut_off_at() {
+        tell(&format!("{} is cut off in line {line}; the records before that line are used", path.display()));
+    }
+    Ok(log)
+}
+
 /// Turns an error of the arguments into one sentence. If help or the version is asked for, prints it and exits.
 fn usage(error: clap::Error) -> Failure {
     if !error.use_stderr() {
@@ -133,14 +142,17 @@ fn usage(error: clap::Error) -> Failure {
 /// Opens the window with a scene, a recorded run, a lesson, or the last one that was open. If no window can be opened,
 /// does the run without it.
 fn window(argument: Option<&str>, log: Option<PathBuf>) -> Result<(), Failure> {
-    let opening = argument.map(Opening::read).transpose().map_err(Failure::Refused)?;
+    let opening = match argument {
+        Some(path) if is_run_file(Path::new(path)) => Some(Opening::Run(Arc::new(load_run(Path::new(path))?))),
+        Some(path) => Some(Opening::read(path).map_err(Failure::Refused)?),
+        None => None,
+    };
     check_outputs(argument.unwrap_or_default(), log.as_deref().as_slice())?;
     show(opening, log)
 }
 
 fn replay(path: &Path) -> Result<(), Failure> {
-    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
-    show(Some(Opening::Run(Arc::new(log))), None)
+    show(Some(Opening::Run(Arc::new(load_run(path)?))), None)
 }
 
 fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {

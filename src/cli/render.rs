@@ -10,7 +10,7 @@ use indicatif::ProgressBar;
 use super::args::RenderArgs;
 use super::report::Report;
 use super::run_header;
-use super::{Failure, check_outputs, open, print, print_path, progress, tell};
+use super::{Failure, check_outputs, load_run, open, print, print_path, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{PartialPicture, Run, RunError, TracedPicture, Update, probe};
 use crate::interrupt::EndsEarly;
@@ -185,7 +185,7 @@ fn simulate(
 
 /// Prepares a run in virtual time with the costs of a recorded run of the same picture.
 fn measured(path: &Path, header: &Header) -> Result<Sim, Failure> {
-    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    let log = load_run(path)?;
     Sim::measured(header, &log)
         .map_err(|why| Failure::Refused(format!("the costs in {} cannot be used: {why}", path.display())))
 }

@@ -125,6 +125,20 @@ impl Session {
         }
     }
 
+    /// Shows a recorded run that was read from a file. If the file is cut off, says so.
+    pub(super) fn open_recorded(&mut self, recorded: Recorded) {
+        let language = self.language;
+        let cut_off_at = recorded.log.cut_off_at();
+        self.play(recorded);
+        if let Some(line) = cut_off_at {
+            self.trouble(say!(
+                language,
+                "The run file is cut off in line {line}. The run is shown up to there",
+                "O arquivo da execução está cortado na linha {line}. A execução é mostrada até ali"
+            ));
+        }
+    }
+
     /// Shows a recorded run from its beginning.
     pub(super) fn play(&mut self, recorded: Recorded) {
         let language = self.language;

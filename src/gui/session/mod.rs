@@ -168,7 +168,7 @@ impl Session {
                     self.loading = None;
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
-                        Ok(Ready::Run(recorded)) => self.play(recorded),
+                        Ok(Ready::Run(recorded)) => self.open_recorded(recorded),
                         Ok(Ready::Lesson(lesson)) => others.push(JobResult::LessonOpened(lesson)),
                         Err(why) => self.report_unopened(why),
                     }
