@@ -1,5 +1,7 @@
 //! RON files that people write, and errors that say where.
 
+mod decimal_comma;
+
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
@@ -160,6 +162,13 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
         if spanned.code == ron::Error::ExceededRecursionLimit {
             return FileError::new(position, deep);
         }
+        let is_syntax = !matches!(spanned.code, ron::Error::Message(_));
+        if let Some(number) =
+            position.filter(|_| is_syntax).and_then(|position| decimal_comma::find(text, byte_offset(text, position)))
+        {
+            let point = number.replace(',', ".");
+            return FileError::new(position, &format!("{field}a decimal mark is a point: write {point}, not {number}"));
+        }
         FileError::new(position, &format!("{field}{}", spanned.code))
     })?;
     reader.end().map_err(|error| {
@@ -209,6 +218,13 @@ pub fn find_path(text: &str, path: &[String]) -> Option<(usize, usize)> {
     let found = path.iter().try_fold(0, |from, step| find_item(text, from, step).ok_or(from));
     let (Ok(at) | Err(at)) = found;
     (at > 0).then(|| line_and_column(text, at))
+}
+
+/// The byte offset of a line and column, from 1.
+fn byte_offset(text: &str, (line, column): (usize, usize)) -> usize {
+    let line: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let columns = text[line..].char_indices().map(|(at, _)| at).chain([text.len() - line]);
+    line + columns.take(column).last().unwrap_or(0)
 }
 
 /// The line and column, from 1, of a byte offset.
